@@ -4,29 +4,16 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.errors import SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import regress_multipliers, return_map_samples
-from biped_adrc.scenario.push import Push
-from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 
 
 @pytest.fixture(scope="module")
 def return_map(biped, gait):
     return ba.ReturnMap(ba.Walker(biped, ba.NPDController(gait.constraint)), ba.RK4(1e-3))
-
-
-def test_largest_multiplier_is_delta_squared(return_map, biped, gait):
-    """Two routes that share no code: differences of the simulated map, and one quadrature."""
-    orbit = return_map.fixed_point(np.concatenate((gait.q_minus, gait.v_minus)))
-    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    sizes = np.abs(orbit.multipliers)
-    assert abs(sizes[0] - delta2) < 1e-5
-    assert np.all(sizes[1:] < 1e-3)
-    assert orbit.stable
-    assert orbit.x_minus[:5] == pytest.approx(gait.q_minus, abs=1e-7)
 
 
 def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
@@ -68,22 +55,6 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     assert "torque" in weak.violations()[0]
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
     assert len(made.signals.of_step(2).t) < len(made.signals.t)
-
-
-def test_runs_are_records_and_come_back():
-    run = Scenario(
-        "NPD",
-        pushes=(Push(torque={"torso_pitch": 5.0}, step=2, onset=0.1),),
-        hardware={"period": 1e-3},
-        run={"impacts": 2},
-    )
-    assert Scenario(**run.record()) == run
-    with pytest.raises(InputError, match="colour: unknown name"):
-        Scenario(colour="red")
-    outcome = walk_scenario(run).outcome
-    assert outcome.walked
-    assert outcome.x_minus.shape[0] == 2
-    assert outcome.run is run
 
 
 def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):

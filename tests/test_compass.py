@@ -14,7 +14,6 @@ from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.core.files import data_folder
-from biped_adrc.core.types import relabelled
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import OK, ExportedController
 from biped_adrc.extras.export.source import source_of
@@ -51,11 +50,6 @@ def walker(compass, controller, **more):
     """On a plant that is heavier than the model knows, under a push."""
     heavy = compass.with_errors(mass={"hip": 1.1})
     return ba.Walker(heavy, controller, PUSH, model=compass, **more)
-
-
-def test_the_exchange_of_the_legs_keeps_the_power_of_the_motor(compass):
-    u, v = np.array([3.0]), np.array([0.7, -1.1])
-    assert relabelled(u, compass.swap) @ (compass.R @ v)[:1] == u @ v[:1]
 
 
 def test_one_multiplier_of_the_walk_is_that_of_the_zero_dynamics(compass, designed):

@@ -129,16 +129,6 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
 
 
 @pytest.mark.parametrize(
-    ("share", "counts"), [(0.02, False), (0.04, True), (0.5, True), (0.96, True), (0.98, False)]
-)
-def test_scuffing_counts_all_along_the_step_but_for_three_per_cent(walker, share, counts):
-    t = grid()
-    dips = np.where(np.abs(t - 0.4 * share) < 1.5e-3, -2e-3, 0.02)
-    s = judged(walker, t, np.full(len(t), WEIGHT), height=dips)
-    assert s.scuffing == pytest.approx(2e-3 if counts else 0.0)
-
-
-@pytest.mark.parametrize(
     ("number", "reason"),
     [
         ("mean_friction", "friction"),

@@ -39,13 +39,6 @@ def test_the_force_acts_in_its_steps_only(bare):
 
 
 # -- step down -------------------------------------------------------------------------------------
-def test_the_foot_comes_down_on_the_ground_and_ahead(bare, down):
-    assert down.trajectory.status.ok
-    feet = [bare.swing_foot(e.x_minus[:5]) for e in down.trajectory.events("foot_strike")]
-    expected = np.zeros(10)
-    expected[1] = -HEIGHT
-    np.testing.assert_allclose([z for _, z in feet], expected, atol=1e-12)
-    assert min(x for x, _ in feet) > 0.25
 
 
 def test_the_height_lost_appears_as_work_the_joints_need_not_do(bare, down):

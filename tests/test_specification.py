@@ -182,24 +182,6 @@ def test_a_small_deviation_goes_as_the_matrices_say(values):
     assert fine < 0.15 * coarse < 1e-3
 
 
-@pytest.mark.parametrize("controller", ["NPD", "LESO"])
-def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(controller):
-    """But for the change of q'' in that time, which goes with it."""
-
-    def modes(**more):
-        loop = loop_of(**{"controller.name": controller, "hardware.period": 1e-3, **more})[2]
-        return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
-
-    late = {"hardware.delay": 1e-3}
-    free, hidden, predicted = (
-        modes(),
-        modes(**late),
-        modes(**late, **{"controller.prediction": 1e-3}),
-    )
-    gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
-    assert gaps[1] < 0.05 * gaps[0]
-
-
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
     walker, gait, _ = loop_of(**{"controller": "LESO", "hardware.delay": 1e-3, **DIFFERENCES})
@@ -286,16 +268,6 @@ def test_errors_of_sensors_are_those_of_what_they_show():
     assert not both.smooth().noisy
 
 
-def test_an_error_of_the_pitch_alone_reaches_the_torque():
-    """No joint turns by it: it enters through Theta and Theta' only."""
-    walker, gait = candidate(
-        {"controller.name": "NPD", "hardware.profile": "rabbit", "run.impacts": 2}
-    )
-    spec = specified(walker, gait)
-    pitch = spec.errors * (np.arange(10) == 4)
-    assert 0.2 * spec.ripple < replace(spec, errors=pitch).ripple < spec.ripple
-
-
 # -- the disk margin -------------------------------------------------------------------------------
 def sensitivity(L, w):
     S = control.feedback(control.ss([], [], [], np.eye(L.ninputs), dt=L.dt), L)
@@ -318,12 +290,6 @@ def test_two_loops_of_a_spinning_body():
     K = control.ss([], [], [], [[1, -2], [0, 1]])
     S = sensitivity(P * K, np.geomspace(0.1, 1e3, 1001))
     assert disk_margin(S) == pytest.approx(0.37698726369443553, rel=1e-6)
-
-
-def test_loops_that_do_not_touch_have_the_smallest_margin_of_them():
-    S = np.zeros((1, 3, 3), dtype=complex)
-    S[0] = np.diag([1.2 + 0.3j, 2.0 - 1.0j, 0.5])
-    assert disk_margin(S) == pytest.approx(1.0 / abs(1.5 - 1.0j), rel=1e-9)
 
 
 @pytest.mark.parametrize("p", [1, 2, 3])

@@ -16,12 +16,9 @@ from biped_adrc.analysis.stability import (
     stability_table,
 )
 from biped_adrc.analysis.variational import (
-    VariationalSystem,
     differentiate_step,
     flow_derivative,
-    height_derivative,
     periodic_orbit,
-    split_matrix,
     torque_derivative,
 )
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -144,25 +141,6 @@ def test_derivative_of_the_flow(biped):
 
 
 # -- a single support --------------------------------------------------------------------------------
-def test_height_derivative(biped):
-    walker, x = npd(biped), pre_impact(biped)
-    expected = difference(lambda y: np.array([walker.clearance(y[:5])]), x)[0]
-    close(height_derivative(walker, x), expected, 1e-10)
-
-
-def test_fundamental_matrix_of_a_single_support(biped):
-    """From 20 ms on after foot strike, for 0.1 s: differences of plain simulations."""
-    walker, method = npd(biped), ba.RK4(5e-4)
-    start, mode = walker.strike(0.0, pre_impact(biped), FIRST)
-    x0 = ba.simulate(walker, start, mode, method, t_end=0.02).final_state
-
-    def run(system, y):
-        return ba.simulate(system, y, mode, method, t0=0.02, t_end=0.12).final_state
-
-    y0 = np.concatenate((x0, np.eye(10).ravel()))
-    x1, Phi = split_matrix(run(VariationalSystem(walker), y0))
-    np.testing.assert_allclose(x1, run(walker, x0), rtol=0.0, atol=1e-11)
-    close(Phi, difference(lambda y: run(walker, y), x0, 1e-4), 1e-6)
 
 
 # -- multipliers -------------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import each, together
-from biped_adrc.model.planar import PlanarTree, inertia_and_bias
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 from biped_adrc.observers.gpi import GPIObserver
 
 RTOL, ATOL = 1e-6, 1e-9  # relative, absolute
@@ -29,9 +29,9 @@ def solve_symmetric(D: Any, right: Any) -> Any:
     return ca.ldl_solve(right, *ca.ldl(D))
 
 
-def terms(tree: PlanarTree, q: Any, v: Any) -> tuple[Any, Any]:
+def terms(robot: PlanarRobot, q: Any, v: Any) -> tuple[Any, Any]:
     """D (n, n) and Omega (n,) as CasADi's matrices."""
-    D, Omega = inertia_and_bias(tree, tree.K, each(q), each(v))
+    D, Omega = robot.inertia_and_bias(each(q), each(v))
     return together(D), together(Omega)
 
 
@@ -40,9 +40,9 @@ class CasADiChain(Chain):
 
     def __init__(self, biped: Biped) -> None:
         super().__init__(biped)
-        n, tree = biped.n, PlanarTree.of(biped)
+        n, robot = biped.n, robot_of(biped)
         self.q, self.v, f = (ca.SX.sym(name, n) for name in ("q", "v", "f"))
-        D, Omega = terms(tree, self.q, self.v)
+        D, Omega = terms(robot, self.q, self.v)
         a = solve_symmetric(D, f - Omega)
         self.free = ca.substitute(a, f, np.zeros(n))
         self.function = ca.Function("acceleration", [self.q, self.v, f], [a])
@@ -83,7 +83,7 @@ def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     x = ca.SX.sym("x", 2 * n + chain.order * p)
     q, v = x[:n], x[n : 2 * n]
     Z = ca.reshape(x[2 * n :], p, chain.order).T
-    D, Omega = terms(PlanarTree.of(biped), q, v)
+    D, Omega = terms(robot_of(biped), q, v)
     A_N, a_N = -D[p, :p] / D[p, p], -Omega[p] / D[p, p]
     kappa_u = acceleration(controller, q, v, Z, A_N, a_N) - Z[2, :].T * chain.scale**2
     u = (D[:p, :p] + D[:p, p] @ A_N) @ kappa_u

@@ -1,7 +1,7 @@
 """What a walk or a gait means: signals, certificates of steps, stability of the cycle, statistics.
 
 Of a finished walk:
-- `signals`, `quadrature`          all time series of a walk, and integrals and means of them
+- `signals`                        all time series of a walk, and integrals and means of them
 - `certificate`, `feasibility`     whether a real robot could have made these steps
 - `touchdowns`                     when they were noticed
 - `soft_steps`                     what the feet did on soft ground, and what that does to the error

@@ -22,8 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
-from biped_adrc.analysis.quadrature import integrate
-from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.signals import Signals, integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices

@@ -30,9 +30,8 @@ CDC 2016; Nguyen, Sreenath, Exponential control barrier functions, ACC 2016.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,11 +39,12 @@ from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement, nested
 from biped_adrc.control.outer_loop import OuterLoop, own_reference, tracked_constraint
 from biped_adrc.core.checks import PositiveFloat
-from biped_adrc.core.part import derived, with_fields
+from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import length_of
-from biped_adrc.model.planar import PlanarTree, Turned, jacobian, point, turned
+from biped_adrc.model.planar import LinkPoint, Turned, jacobian, point, turned
+from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.observers.base import Estimate
 
 ROUND_OFF = 1e-6
@@ -65,22 +65,19 @@ class FootError(NamedTuple):
 class FootBarrier(Around):
     """The module's filter around `inner`; its state is that of `inner` and the number of infeasible instants.
 
-    A, re, im: matrix of the absolute angles (n, n), vectors d = re + i im (n,) [m] of the swing foot. stones: L
-    of the steps [m], the first one first; behind the last one nothing is filtered. step: L_r [m], None for a
-    reference that steps on the stones, as in `Footstep`. tolerance: tol [m], less than that of the stones,
-    since the foot may come down early or late. rate: lambda [1/s]. observed: whether xi^ is the observer's.
-    Raises InputError when `inner` tracks no virtual constraint.
+    biped: the robot of the nominal model. stones: L of the steps [m], the first one first; behind the last one
+    nothing is filtered. step: L_r [m], None for a reference that steps on the stones, as in `Footstep`.
+    tolerance: tol [m], less than that of the stones, since the foot may come down early or late. rate: lambda
+    [1/s]. observed: whether xi^ is the observer's. Raises InputError when `inner` tracks no virtual constraint.
 
-    >>> inner = FootBarrier.of(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
+    >>> inner = FootBarrier(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
     >>> controller = ba.Footstep.on_gait(inner, gait, biped, stones=(0.42, 0.43))
     >>> walker = ba.Walker(biped, controller, timing=ba.SampledTime(1e-3), torque_limit=150.0)
     >>> ba.walk(walker, gait, impacts=2).impacts
     2
     """
 
-    A: Array
-    re: Array
-    im: Array
+    biped: Biped
     stones: tuple[float, ...] = ()
     step: PositiveFloat | None = None
     tolerance: PositiveFloat = 0.003
@@ -89,22 +86,14 @@ class FootBarrier(Around):
 
     def __post_init__(self) -> None:
         tracked_constraint(self.inner, "the corridor of a foot is about a virtual constraint")
+        object.__setattr__(self, "stones", tuple(map(float, self.stones)))
 
-    @classmethod
-    def of(
-        cls,
-        inner: Controller,
-        biped: Biped,
-        stones: Sequence[float] = (),
-        step: float | None = None,
-        tolerance: float = 0.003,
-        rate: float = 100.0,
-        observed: bool = True,
-    ) -> FootBarrier:
-        """Around `inner`, for the swing foot of a robot."""
-        tree, lengths = PlanarTree.of(biped), tuple(map(float, stones))
-        A, foot = tree.A.astype(float), (tree.K.foot_re, tree.K.foot_im)
-        return cls(inner, A, *foot, lengths, step, tolerance, rate, observed)
+    @derived
+    def swing(self) -> LinkPoint:
+        """The swing foot as a point in closed form."""
+        robot = robot_of(self.biped)
+        A, K = robot.A.astype(float), robot.K
+        return LinkPoint(A, K.foot_re, K.foot_im, np.zeros(len(A)))
 
     @derived
     def phase(self) -> Array:
@@ -113,10 +102,11 @@ class FootBarrier(Around):
 
     def foot(self, q: Array, v: Array) -> tuple[float, float, Array, float]:
         """x [m], x' [m/s], dx/dq (n,) [m], and x'' [m/s^2] without q'' of the swing foot."""
-        t, rate2 = turned(self, q), (self.A @ v) ** 2
-        J: Any = jacobian(self, t, self.re, self.im)[0]
-        x: Any = point(t, self.re, self.im)[0]
-        turning: Any = point(Turned(t.c * rate2, t.s * rate2), self.re, self.im)[0]
+        k, t = self.swing, turned(self.swing, q)
+        rate2 = (k.A @ v) ** 2
+        J: Any = jacobian(k, t, k.re, k.im)[0]
+        x: Any = point(t, k.re, k.im)[0]
+        turning: Any = point(Turned(t.c * rate2, t.s * rate2), k.re, k.im)[0]
         return x, J @ v, J, -turning
 
     def corridor(self, x: float, L: float) -> tuple[float, float, float]:
@@ -189,12 +179,6 @@ class FootBarrier(Around):
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         return self.inner.estimate(s[:-1], m)
-
-    def sampled(self, period: float) -> Self:
-        return with_fields(self, inner=self.inner.sampled(period))
-
-    def continuous(self) -> Self:
-        return with_fields(self, inner=self.inner.continuous())
 
 
 def infeasible_instants(controller: Controller, s: Array) -> int | None:

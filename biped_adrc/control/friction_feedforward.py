@@ -18,14 +18,13 @@ gives xi. share = 1 is the friction of the robot's record, 0 the controller insi
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.core.checks import NonNegativeFloat
+from biped_adrc.core.checks import NonNegativeFloat, NonNegativeFloats
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
@@ -45,17 +44,9 @@ class FrictionFeedforward(Around):
     """
 
     path: Reference
-    viscous: tuple[float, ...]
-    static: tuple[float, ...]
+    viscous: NonNegativeFloats
+    static: NonNegativeFloats
     share: NonNegativeFloat = 1.0
-
-    def __post_init__(self) -> None:
-        for x in (*self.viscous, *self.static):
-            if not (math.isfinite(x) and x >= 0.0):
-                raise InputError(
-                    f"friction feedforward has viscous = {self.viscous}, static = {self.static}, "
-                    "expected finite numbers, none of them below 0"
-                )
 
     @derived
     def coefficients(self) -> tuple[Array, Array]:

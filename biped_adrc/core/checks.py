@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import sysconfig
 import traceback
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
@@ -26,15 +26,35 @@ from biped_adrc.core.types import Array
 
 
 class Range(NamedTuple):
-    """A range of numbers or words: `holds` accepts a value in it, `words` name it in a message."""
+    """A range of values: `holds` accepts a value in it, `words` name it in a message."""
 
     words: str
     holds: Callable[[Any], bool]
+
+    def has(self, value: object) -> bool:
+        """Whether a value is in the range; one of another type is not."""
+        try:
+            return bool(self.holds(value))
+        except (TypeError, ValueError, AttributeError, IndexError):
+            return False
 
 
 def one_of(words: Collection[str]) -> Range:
     """Range of a text that has to be one of these words."""
     return Range(f"one of {list(words)}", lambda x: x in words)
+
+
+def each(words: str, holds: Callable[[Any], bool], count: int | None = None) -> Range:
+    """Range of a row, or of a mapping of names to values, of which each value `holds`.
+
+    count: how many there have to be, None for any.
+    """
+
+    def has(x: Any) -> bool:
+        row = x.values() if isinstance(x, Mapping) else x
+        return count in (None, len(row)) and all(map(holds, row))
+
+    return Range(words, has)
 
 
 def _whole(x: Any, least: int) -> bool:
@@ -49,6 +69,13 @@ NonNegativeFloat = Annotated[
 ]
 PositiveInt = Annotated[int, Range("a whole number, at least 1", lambda x: _whole(x, 1))]
 NonNegativeInt = Annotated[int, Range("a whole number >= 0", lambda x: _whole(x, 0))]
+PositiveFloats = Annotated[
+    tuple[float, ...], each("positive numbers", lambda x: 0.0 < x < math.inf)
+]
+NonNegativeFloats = Annotated[
+    tuple[float, ...], each("finite numbers, none below 0", lambda x: 0.0 <= x < math.inf)
+]
+TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 
 SUCH_AS = {
@@ -90,17 +117,15 @@ def check_part(value: object, what: str, *kinds: type) -> None:
 def check_fields(part: Any) -> None:
     """Check every field of a dataclass that is annotated with a part, a number or a text, perhaps None.
 
-    As `check_part`; a number or text has to be in the `Range` of its annotation, too. Raises InputError.
+    As `check_part`; a value of any type has to be in the `Range` of its annotation, if that has one. Raises
+    InputError.
     """
     cls: Any = type(part)
     for name, kinds, range in _expected(cls):
         value, what = getattr(part, name), f"{name} of {type(part).__name__}"
-        check_part(value, what, *kinds)
-        if (
-            range is not None
-            and not (value is None and NoneType in kinds)
-            and not range.holds(value)
-        ):
+        if all(map(_looked_at, kinds)):
+            check_part(value, what, *kinds)
+        if range is not None and not ((value is None and NoneType in kinds) or range.has(value)):
             or_none = " or None" if NoneType in kinds else ""
             raise InputError(f"{what} is {value!r}, expected {range.words}{or_none}")
 
@@ -313,7 +338,7 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...
     result = (
         (f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ())
     )
-    return tuple(each for each in result if each[1] and all(map(_looked_at, each[1])))
+    return tuple(x for x in result if x[2] is not None or all(map(_looked_at, x[1])))
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:

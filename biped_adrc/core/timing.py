@@ -8,10 +8,10 @@ computation delay and is then held until the next one arrives. Timing is a field
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+from typing import Annotated
 
-from biped_adrc.core.checks import check_fields
+from biped_adrc.core.checks import Checked, Range
 from biped_adrc.core.errors import InputError
 
 LONGEST_PERIOD = 0.1
@@ -22,6 +22,10 @@ WHOLE = 1e-9
 """Tolerance, as a fraction of a period, with which a delay counts as a whole number of periods."""
 SAME_INSTANT = 1e-9
 """Times that differ by less are the same instant up to round-off [s], in both engines."""
+PeriodFloat = Annotated[
+    float,
+    Range(f"a positive number, at most {LONGEST_PERIOD} s", lambda T: 0.0 < T <= LONGEST_PERIOD),
+]
 
 
 @dataclass(frozen=True)
@@ -34,7 +38,7 @@ class ContinuousTime:
 
 
 @dataclass(frozen=True)
-class SampledTime:
+class SampledTime(Checked):
     """The controller acts at sample instants every `period` [s], and its torque is held in between.
 
     period [s]: time between two sample instants.
@@ -56,18 +60,12 @@ class SampledTime:
     True
     """
 
-    period: float
+    period: PeriodFloat
     restart: bool = True
     delay: float = 0.0
     delay_known: bool = False
 
     def __post_init__(self) -> None:
-        check_fields(self)
-        if not (math.isfinite(self.period) and 0.0 < self.period <= LONGEST_PERIOD):
-            raise InputError(
-                f"the sampling period is {self.period} s, expected a positive number, at most "
-                f"{LONGEST_PERIOD} s"
-            )
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
             raise InputError(
                 f"the computation delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods of "

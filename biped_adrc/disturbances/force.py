@@ -18,9 +18,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
+from biped_adrc.core.checks import Range, TwoFloats
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import SETUP, derived, setup
 from biped_adrc.core.types import Array, freeze
@@ -35,6 +37,7 @@ from biped_adrc.model.planar import (
     wrench_torque,
 )
 
+COUNT_UP = Range("(first, last) with 1 <= first <= last", lambda x: 1 <= x[0] <= x[1])
 AT_REST = np.zeros(3), np.zeros(3)
 """q and q', each (3,), for calls of a wave, which is a function of time alone."""
 
@@ -57,17 +60,13 @@ class OnLink(Disturbance):
     biped: Biped
     link: str = field(metadata=SETUP)
     wave: Windowed
-    at: tuple[float, float] | None = setup(None)
+    at: TwoFloats | None = setup(None)
 
     def __post_init__(self) -> None:
         if len(self.wave.amplitude) != 3:
             raise InputError(
                 f"the wave on link '{self.link}' has the amplitude {self.wave.amplitude}, expected three "
                 "numbers (F_x, F_z, M) [N, N, N m]"
-            )
-        if self.at is not None and not (len(self.at) == 2 and all(map(math.isfinite, self.at))):
-            raise InputError(
-                f"the point on link '{self.link}' is {self.at}, expected two finite numbers (x, z) [m]"
             )
         _ = self.point
 
@@ -105,19 +104,8 @@ class HipForce(Disturbance):
     """
 
     biped: Biped
-    force: tuple[float, float]
-    steps: tuple[int, int] | None = setup(None)
-
-    def __post_init__(self) -> None:
-        if len(self.force) != 2 or not all(math.isfinite(f) for f in self.force):
-            raise InputError(
-                f"the force on the hip is {self.force}, expected two finite numbers (F_x, F_z) [N]"
-            )
-        if self.steps is not None and not 1 <= self.steps[0] <= self.steps[1]:
-            raise InputError(
-                f"the force on the hip acts in steps {self.steps}, expected (first, last) with "
-                "1 <= first <= last"
-            )
+    force: TwoFloats
+    steps: Annotated[tuple[int, int], COUNT_UP] | None = setup(None)
 
     @derived
     def hip(self) -> LinkPoint:

@@ -105,12 +105,6 @@ class VirtualConstraint(Reference):
         h, dh, ddh = self.h(theta)
         return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * self.phase)
 
-    def over(self, theta: Array) -> Array:
-        """h [rad] at many theta (K,) [rad] at once, (K, p)."""
-        if self.fade is not None:
-            return np.array([self.h(float(x))[0] for x in theta])
-        return self.curve.over(self.rate * (theta - self.theta_plus))
-
 
 def past_end(y: float, fade: float, h: Array, dh: Array, ddh: Array) -> tuple[Array, Array, Array]:
     """The continuation at a distance y in s past an end, with l = fade, from h, h', h'' (p,) at that end."""

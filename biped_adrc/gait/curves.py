@@ -126,15 +126,6 @@ class Curve(Shown, ABC):
         values = self.piece(s).dot(s**self.powers)
         return values[:p], values[p : 2 * p], values[2 * p :]
 
-    def over(self, s: Array) -> Array:
-        """h [rad] at many s (K,) at once, (K, p)."""
-        breaks, a = self.pieces
-        at, powers = np.searchsorted(breaks, s, side="right"), np.arange(a.shape[2])
-        h = np.empty((len(s), a.shape[1]))
-        for j in range(len(a)):
-            h[at == j] = s[at == j, np.newaxis] ** powers @ a[j].T
-        return h
-
 
 @dataclass(frozen=True)
 class Polynomial(Curve):

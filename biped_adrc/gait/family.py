@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
 from typing import Any, Self
@@ -24,7 +24,7 @@ from typing import Any, Self
 import numpy as np
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import data_folder, output_path, reading, write_text
+from biped_adrc.core.files import data_folder, output_path, plain, reading, write_text
 from biped_adrc.core.part import SETUP, Part, setup
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
@@ -166,16 +166,9 @@ class GaitFamily(Part):
 
     def save(self, path: Path | str) -> None:
         """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
-        record = {"format": FORMAT, **_plain(self)}
+        record = {"format": FORMAT, **plain(self)}
         lines = [f'  "{key}": {json.dumps(value)}' for key, value in record.items()]
         write_text(output_path(Path(path), (".json",)), "{\n" + ",\n".join(lines) + "\n}\n")
-
-
-def _plain(x: Any) -> Any:
-    """A family and its parts as what JSON can hold."""
-    if isinstance(x, Part):
-        return {f.name: _plain(getattr(x, f.name)) for f in fields(x)}  # type: ignore[arg-type]
-    return x.tolist() if isinstance(x, np.ndarray) else dict(x) if isinstance(x, Mapping) else x
 
 
 def load_family(family: str | Path, biped: Biped) -> GaitFamily:

@@ -42,6 +42,13 @@ class Line(NamedTuple):
     u: Array
     """Torque commanded to the motors now."""
 
+    @property
+    def sent(self) -> Array:
+        """The torque sent last: the end of the queue, else the one that waits, else the one that acts."""
+        if len(self.queue) > 0:
+            return self.queue[len(self.queue) - len(self.u) :]
+        return self.waiting if len(self.waiting) > 0 else self.u
+
     def relabelled(self, swap: Indices) -> Line:
         """The torques after an impact; swap (p,): the relabelling of the joints."""
         p = len(self.u)

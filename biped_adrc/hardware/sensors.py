@@ -41,7 +41,7 @@ from typing import Annotated
 import numpy as np
 
 from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range, one_of
-from biped_adrc.core.part import setup
+from biped_adrc.core.part import derived, setup
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
@@ -227,7 +227,8 @@ class PitchSensor(Sensor):
     """An inertial sensor of the pitch: bias b [rad], drift d [rad/s], noise: standard
     deviation of the angle [rad].
 
-    The noise is drawn at each tick, by `seed`, a whole number from 0. Raises InputError for numbers that are
+    The noise is drawn at each tick, by `seed`, a whole number from 0. period [s]: of the ticks, in which the
+    angle drifts by d T; set by `sampled`. Raises InputError for numbers that are
     not finite or a noise that is negative.
     """
 
@@ -235,6 +236,7 @@ class PitchSensor(Sensor):
     drift: FiniteFloat = 0.0
     noise: NonNegativeFloat = 0.0
     seed: NonNegativeInt = setup(0)
+    period: float = setup(0.0)
 
     @property
     def noisy(self) -> bool:
@@ -253,38 +255,34 @@ class PitchSensor(Sensor):
         own[n - 1], own[-1] = self.noise, 0.0
         return own
 
-    def sampled(self, n: int, p: int, period: float) -> SampledPitchSensor:
-        r = seeded(self.seed) if self.noisy else np.zeros(0)
-        return SampledPitchSensor(self, float(self.drift * period), r)
+    def sampled(self, n: int, p: int, period: float) -> PitchSensor:
+        return replace(self, period=float(period))
 
+    @derived
+    def turn(self) -> float:
+        """Drift d T of the angle in a period [rad]."""
+        return float(self.drift * self.period)
 
-@dataclass(frozen=True)
-class SampledPitchSensor(Sensor):
-    """`PitchSensor` for ticks every `period` [s]: the angle drifts by d T from tick to
-    tick, the rate is off by d.
-    """
-
-    of: PitchSensor
-    turn: float
-    """Drift d T of the angle in a period [rad]."""
-    random: Array
-    """State r of the noise at the start of a run: (6,), or (0,) without noise."""
+    @derived
+    def random(self) -> Array:
+        """State r of the noise at the start of a run: (6,), or (0,) without noise."""
+        return seeded(self.seed) if self.noisy else np.zeros(0)
 
     @property
     def size(self) -> int:
         return 3 + len(self.random)
 
     def start(self, q: Array, v: Array) -> Array:
-        at = np.array([q[-1] + self.of.bias, v[-1] + self.of.drift, self.of.bias])
+        at = np.array([q[-1] + self.bias, v[-1] + self.drift, self.bias])
         return np.concatenate((at, self.random))
 
     def sense(self, w: Array, q: Array, v: Array) -> Array:
         r, g = normals(w[3:], 1) if len(self.random) > 0 else (w[3:], np.zeros(1))
         off = np.array([w[2] + self.turn])
-        return np.concatenate((q[-1:] + w[2] + self.of.noise * g, v[-1:] + self.of.drift, off, r))
+        return np.concatenate((q[-1:] + w[2] + self.noise * g, v[-1:] + self.drift, off, r))
 
     def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        return np.concatenate((w[:1], v[-1:] + self.of.drift, w[2:]))
+        return np.concatenate((w[:1], v[-1:] + self.drift, w[2:]))
 
     def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
         return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))

@@ -30,7 +30,6 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from numbers import Real
 from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
@@ -125,6 +124,10 @@ def numbers_of(belief: Belief) -> Array:
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
 
 
+STEP_AND_TIME = Range(
+    "a step and a time in it [s], such as (2, 0.3)",
+    lambda x: len(x) == 2 and isinstance(x[0], int) and x[0] >= 1 and 0.0 <= x[1] < math.inf,
+)
 ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 
 
@@ -142,17 +145,8 @@ class FaultyTouchdown(Shown, Touchdown):
 
     late: NonNegativeFloat = 0.0
     missed: ProbabilityFloat = 0.0
-    false_at: tuple[int, float] | None = setup(None)
+    false_at: Annotated[tuple[int, float], STEP_AND_TIME] | None = setup(None)
     seed: NonNegativeInt = setup(0)
-
-    def __post_init__(self) -> None:
-        if (at := self.false_at) is None:
-            return
-        fits = isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], int)
-        if not (fits and isinstance(at[1], Real) and at[0] >= 1 and 0.0 <= at[1] < math.inf):
-            raise InputError(
-                f"false_at is {at}, expected a step and a time in it [s], such as (2, 0.3)"
-            )
 
     @derived
     def random(self) -> Array:

@@ -6,7 +6,7 @@
 - `pinned`      single support: the tree pinned at the stance foot, D_s and Omega of (1)
 - `contact`     double support: the floating tree and the plastic impact (2)-(9)
 - `reduction`   kappa and xi of the actuated joints (11)-(15)
-- `planar`      the same dynamics in closed form, for numbers and for symbols
+- `planar`      points of the robot in closed form; `planar_robot` all of the dynamics, for numbers and symbols
 - `derivatives` of accelerations and of the impact with respect to the state
 - `physical`    checks of the numbers of a robot read from a file
 - `model_errors` relative errors of masses, COMs, inertias and friction

@@ -23,7 +23,6 @@ Positive counter-clockwise with x to the right and z up. `Biped` makes the Float
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -161,28 +160,18 @@ class FloatingDynamics:
         return Impact(R @ q + offset, R @ v_e[:n], solution[n + 2 :], v_e)
 
 
-@dataclass(frozen=True)
 class LinkMotion:
     """Placements and velocities of all links of the floating model at (q, q_e'), stance foot at the origin.
 
     It has its own work data, so it stays valid when the model is used again.
     """
 
-    floating: FloatingDynamics
-    q: Array
-    """Configuration (n,) [rad]."""
-    v_e: Array
-    """Rates (q_s', p_e') (n + 2,) [rad/s, m/s]."""
-    data: pin.Data = field(init=False, repr=False)
-    """Pinocchio's work data at this state."""
-
-    def __post_init__(self) -> None:
-        f = self.floating
-        rates, x = f.velocity_map(self.q) @ self.v_e, f.configuration(self.q)
-        data = f.model.createData()
-        pin.forwardKinematics(f.model, data, x, rates)
-        pin.updateFramePlacements(f.model, data)
-        object.__setattr__(self, "data", data)
+    def __init__(self, floating: FloatingDynamics, q: Array, v_e: Array):
+        """q (n,) [rad]: configuration. v_e (n + 2,): rates (q_s', p_e') [rad/s, m/s]."""
+        self.floating, self.data = floating, floating.model.createData()
+        rates, x = floating.velocity_map(q) @ v_e, floating.configuration(q)
+        pin.forwardKinematics(floating.model, self.data, x, rates)
+        pin.updateFramePlacements(floating.model, self.data)
 
     def momentum(self, joints: Iterable[int] | None = None) -> pin.Force:
         """Spatial momentum [N s], [N m s] of the links that move with `joints`, in the axes of

@@ -9,7 +9,7 @@ constant T (Carpentier, Mansard, RSS 2018). With tau(q, v, a) = D_s a + Omega at
     dq''/dq = -D_s^-1 dtau/dq,   dq''/dv = D_s^-1 (dfriction/dv - dtau/dv),   dq''/dforce = D_s^-1
 
 Impact: (7) is r(q, v-, z) = 0 with z = (q_e+', F_2). CasADi differentiates r, written with the
-formulas of `planar`, and the implicit function theorem gives
+formulas of `planar_robot`, and the implicit function theorem gives
 
     dz = -(dr/dz)^-1 (dr/dq dq + dr/dv- dv-)
 """
@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree, inertia_and_bias, jacobian, point, turned
+from biped_adrc.model.planar import jacobian, point, turned
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 Symbols = NDArray[np.object_]
 """A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
@@ -74,10 +75,10 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
 
     Raises SingularError where the matrix of (7) is singular.
     """
-    n, impact, tree = biped.n, biped.impact(q, v), PlanarTree.of(biped)
+    n, impact, robot = biped.n, biped.impact(q, v), robot_of(biped)
     x, before, z = (ca.MX.sym(*name) for name in (("q", n), ("v", n), ("z", n + 4)))
-    D, J_m, J_2, _ = pose_function(tree)(x)
-    r = ca.vertcat(*impact_rows(D, J_m, J_2, tree.K.mass, before, z[: n + 2], z[n + 2 :]))
+    D, J_m, J_2, _ = pose_function(robot)(x)
+    r = ca.vertcat(*impact_rows(D, J_m, J_2, robot.K.mass, before, z[: n + 2], z[n + 2 :]))
     rows = ca.Function("impact", [x, before, z], [ca.jacobian(r, y) for y in (x, before, z)])
     by_q, by_v, by_z = map(np.array, rows(q, v, np.concatenate((impact.v_e, impact.impulse))))
     dz = solve(by_z, -np.hstack((by_q, by_v)), "the matrix of the impact (7)")
@@ -101,20 +102,20 @@ def together(values: Symbols) -> ca.SX:
     return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
 
 
-def pose_function(tree: PlanarTree) -> ca.Function:
+def pose_function(robot: PlanarRobot) -> ca.Function:
     """Make a CasADi function of q (n,) for the impact equations (7): q -> D_s, J_m, J_2,
     position of the swing foot.
 
     D_s (n, n) [kg m^2] is the inertia matrix, J_m = d(m p_com)/dq (2, n) [kg m], J_2 (2, n) [m] the Jacobian
     of the swing foot, its position (2,) [m].
     """
-    n, K = len(tree.A), tree.K
+    n, K = robot.n, robot.K
     q = ca.SX.sym("q", n)
     x = each(q)
     rest: Symbols = np.zeros(n, dtype=object)
-    t = turned(tree, x)
-    D, _ = inertia_and_bias(tree, K, x, rest)
-    J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
+    t = turned(robot, x)
+    D, _ = robot.inertia_and_bias(x, rest)
+    J_m, J_2 = jacobian(robot, t, K.w_re, K.w_im), jacobian(robot, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt, numbers
+from biped_adrc.core.checks import Checked, PositiveFloat, PositiveFloats, PositiveInt, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
@@ -141,14 +141,8 @@ class Stones(Checked):
     0.015
     """
 
-    lengths: tuple[float, ...]
+    lengths: PositiveFloats
     tolerance: PositiveFloat = 0.025
-
-    def __post_init__(self) -> None:
-        if not all(math.isfinite(L) and L > 0.0 for L in self.lengths):
-            raise InputError(
-                f"the stones are at steps of {self.lengths} m, expected positive numbers"
-            )
 
     def missed(self, step: int, length: float) -> float:
         """By how much [m] single support `step` of this length [m] misses its stone; 0 where it does not."""

@@ -13,20 +13,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, ModelError
+from biped_adrc.core.checks import Checked, each
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 
-KINDS = ("mass", "com", "inertia", "friction")
-"""Names of the fields of `ModelErrors`, in the order in which they are drawn."""
+FACTORS = ("mass", "com", "inertia")
+"""Names of the errors of bodies, in the order in which they are drawn."""
+FINITE = each("finite numbers by name", math.isfinite)
+ABOVE = each("finite numbers above -1 by name", lambda e: -1.0 < e < math.inf)
+NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < math.inf)
 
 
 @dataclass(frozen=True)
-class ModelErrors(Shown):
+class ModelErrors(Checked, Shown):
     """Relative errors of a model, dimensionless: 0.1 is ten per cent more.
 
     Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.
@@ -36,27 +41,14 @@ class ModelErrors(Shown):
     1.075
     """
 
-    mass: Mapping[str, float] = field(default_factory=dict)
+    mass: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
     """Errors of the mass by body or link; the inertia about the COM is not scaled with it."""
-    com: Mapping[str, float] = field(default_factory=dict)
+    com: Annotated[Mapping[str, float], FINITE] = field(default_factory=dict)
     """Errors of the distance of the COM from the link's origin, by body or link."""
-    inertia: Mapping[str, float] = field(default_factory=dict)
+    inertia: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
     """Errors of the inertia about the COM, by body or link."""
-    friction: Mapping[str, float] = field(default_factory=dict)
+    friction: Annotated[Mapping[str, float], NOT_BELOW] = field(default_factory=dict)
     """Errors of viscous and static friction alike, by joint."""
-
-    def __post_init__(self) -> None:
-        for kind in KINDS:
-            errors = {name: float(e) for name, e in getattr(self, kind).items()}
-            for name, e in errors.items():
-                low = -math.inf if kind == "com" else -1.0
-                allowed = e >= low if kind == "friction" else e > low
-                if not (math.isfinite(e) and allowed):
-                    raise InputError(
-                        f"the relative error of {kind} of '{name}' is {e}, expected a finite number"
-                        + ("" if kind == "com" else " above -1, which leaves something of it")
-                    )
-            object.__setattr__(self, kind, errors)
 
     @classmethod
     def drawn(
@@ -97,7 +89,7 @@ class ModelErrors(Shown):
         """`biped` with these errors. Raises ModelError for an unknown body or joint, or
         legs that become unequal.
         """
-        factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
+        factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in FACTORS}
         wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:
             wrong = self._rubbed(wrong)

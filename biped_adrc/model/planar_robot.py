@@ -1,4 +1,21 @@
-"""The planar robot as a plant in closed form: what a closed loop asks of `Biped`, by the formulas of `planar`.
+"""The planar robot as a plant in closed form: what a closed loop asks of `Biped`, as formulas.
+
+Pinocchio computes numbers only. Gait design (CasADi) and the compiled engine (code generated from expressions)
+need the dynamics as formulas, which `PlanarRobot` has for any planar robot, with numbers read off its Pinocchio
+model.
+
+    D_s(q) q'' + Omega(q, q') = B_s u + zeta,   Omega = C q' + G_s
+
+Let d_k (n,) be the vectors of `planar` to the COM of link k, m_k its mass, J_k its inertia about the COM, and o
+the product entry by entry. Then in absolute angles, with c = cos a and s = sin a,
+
+    W_ij = sum_k m_k conj(d_ki) d_kj,   w_i = sum_k m_k d_ki
+    C_ij = cos(a_j - a_i) = c_i c_j + s_i s_j,   S_ij = sin(a_j - a_i) = c_i s_j - s_i c_j
+
+    D_a = Re W o C - Im W o S + diag J,   Omega_a = -(Re W o S + Im W o C) (da/dt)^2 + g Re(w o exp(i a))
+
+and in the coordinates D_s = A^T D_a A + diag rotor, Omega = A^T Omega_a. (C_ij here are cosines, not the
+Coriolis matrix C above.) D_s and Omega are compared to Pinocchio's before anything uses them.
 
 In double support q_e = (q_s, p_e), and with J_m the row of m p_com
 
@@ -19,27 +36,55 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.contact import Impact
-from biped_adrc.model.planar import (
-    PlanarTree,
-    PlantArrays,
-    gravity_and_turning,
-    ground_reaction,
-    inertia_and_bias,
-    jacobian,
-    point,
-    turned,
-)
+from biped_adrc.model.planar import Numbers, Turned, fitted, jacobian, parts, point, turned
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
+
+EXACT = 1e-11
+"""Largest difference to Pinocchio's D_s, Omega and swing foot, relative to their largest entry."""
+
+
+class PlantArrays(NamedTuple):
+    """Masses, lengths and inertias of n links, as the formulas for D_s and Omega take them, float64.
+
+    The engine passes them at run time, so that one compilation serves all robots of the same structure.
+    Complex vectors are stored as real and imaginary part.
+    """
+
+    W_re: Array
+    """Re W (n, n) [kg m^2]."""
+    W_im: Array
+    """Im W (n, n) [kg m^2]."""
+    inertia: Array
+    """Re W_ii + J_i (n,) [kg m^2], the diagonal of D_a."""
+    rotor: Array
+    """Inertia of the motors' rotors, reflected to the coordinates (n,) [kg m^2]; 0 without a motor."""
+    w_re: Array
+    """Re w (n,) [kg m]."""
+    w_im: Array
+    """Im w (n,) [kg m]."""
+    foot_re: Array
+    """Re d of the swing foot (n,) [m]."""
+    foot_im: Array
+    """Im d of the swing foot (n,) [m]."""
+    hip_re: Array
+    """Re d of the hip (n,) [m]."""
+    hip_im: Array
+    """Im d of the hip (n,) [m]."""
+    mass: float
+    """Total mass of the robot [kg]."""
+    gravity: float
+    """Gravity g [m/s^2]."""
 
 
 @dataclass(frozen=True)
@@ -63,17 +108,48 @@ class PlanarRobot:
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarRobot:
-        """The formulas of a robot. Raises ModelError when it is no planar tree of rigid links."""
-        tree = PlanarTree.of(biped)
+        """The formulas of a robot, from its Pinocchio model and checked against it.
+
+        Raises ModelError when it is no planar tree of rigid links.
+        """
+        n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
+        d = fitted(A, biped.pinned.points, EXACT)
+        com, rotor = d[:n], np.zeros(n)
+        rotor[: biped.p] = biped.armature
+        W = com.conj().T @ (mass[:, np.newaxis] * com)
+        w, foot, hip = (parts(z) for z in (mass @ com, d[n], d[n + 1]))
+        total, gravity = float(np.sum(mass)), biped.description.gravity
+        inertia = np.diag(W.real) + inertia
         return cls(
-            tree.A,
-            tree.K,
+            A.astype(int),
+            PlantArrays(*parts(W), inertia, rotor, *w, *foot, *hip, total, gravity),
             biped.p,
             biped.R.astype(int),
-            biped.relabel(np.zeros(biped.n)),
+            biped.relabel(np.zeros(n)),
             biped.swap,
             biped.friction_coefficients if biped.friction else (),
-        )
+        ).check(biped)
+
+    def check(self, biped: Biped, samples: int = 20) -> PlanarRobot:
+        """Compare D_s, Omega and the swing foot with Pinocchio's at random states, and return this robot.
+
+        Raises ModelError where one differs by more than EXACT, relatively.
+        """
+        random = np.random.default_rng(2)
+        names = ("D_s", "Omega", "the swing foot")
+        for _ in range(samples):
+            q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(size=biped.n)
+            ours = (*self.inertia_and_bias(q, v), self.swing_foot(q))
+            theirs = (biped.inertia(q), biped.bias(q, v), biped.swing_foot(q))
+            for name, one, other in zip(names, ours, theirs, strict=True):
+                gap = np.max(np.abs(one - other)) / max(1e-3, float(np.max(np.abs(other))))
+                if not gap <= EXACT:
+                    raise ModelError(
+                        f"robot '{biped.description.name}' is no planar tree of rigid links: {name} in "
+                        f"absolute angles differs from Pinocchio's by {gap:.1e} relative, expected {EXACT:g}; "
+                        "look for an axis that is not y"
+                    )
+        return self
 
     @derived
     def present(self) -> tuple[NDArray[np.bool_], ...]:
@@ -93,13 +169,40 @@ class PlanarRobot:
         """Coordinates."""
         return len(self.A)
 
+    @property
+    def leg(self) -> float:
+        """Length of the stretched stance leg [m]: the sum of the lengths |d_i| of the hip's vectors."""
+        return float(np.sum(np.abs(self.K.hip_re + 1j * self.K.hip_im)))
+
     def relabel(self, q: Array) -> Array:
         """R q + r: q (n,) [rad] in the coordinates of the next single support."""
         return self.R @ q + self.offset
 
+    def inertia_and_bias(self, q: Numbers, v: Numbers) -> tuple[Numbers, Numbers]:
+        """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v = q' (n,) [rad/s], by the module."""
+        t, A, K = turned(self, q), self.A, self.K
+        C, S = _differences(t)
+        D = K.W_re * C - K.W_im * S
+        np.fill_diagonal(D, K.inertia)
+        D_s = A.T @ D @ A
+        for i in range(len(A)):
+            D_s[i, i] = D_s[i, i] + K.rotor[i]
+            D_s[i, :i] = D_s[:i, i]
+        return D_s, A.T @ (_weight(K, t) - (K.W_re * S + K.W_im * C) @ (A @ v) ** 2)
+
+    def gravity_and_turning(self, t: Turned[Numbers], v: Numbers) -> tuple[Numbers, Numbers]:
+        """Gravity G_s = dV/dq (n,) [N m], and dT/dq = C^T q' (n,) [N m], of potential and kinetic energy V, T.
+
+        t: cosines and sines of the absolute angles. v = q' (n,) [rad/s]. C is the Coriolis matrix.
+        """
+        A, K, rate = self.A, self.K, self.A @ v
+        C, S = _differences(t)
+        turning = rate * ((K.W_re * S + K.W_im * C) @ rate)
+        return A.T @ _weight(K, t), A.T @ turning
+
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
-        return reduce(*inertia_and_bias(self, self.K, q, v), self.p)
+        return reduce(*self.inertia_and_bias(q, v), self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
@@ -107,22 +210,28 @@ class PlanarRobot:
         t = turned(self, q)
         F_a = jacobian(self, t, self.K.w_re, self.K.w_im)
         J_2 = jacobian(self, t, self.K.foot_re, self.K.foot_im)
-        return BodyTerms(*gravity_and_turning(self, self.K, t, v), F_a, F_0, J_2, self.K.mass)
+        return BodyTerms(*self.gravity_and_turning(t, v), F_a, F_0, J_2, self.K.mass)
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction taken off.
 
         Static friction is smoothed by tanh(q' / STICTION_SPEED), as in `Biped`.
         """
-        D, Omega = inertia_and_bias(self, self.K, q, v)
+        D, Omega = self.inertia_and_bias(q, v)
         if self.friction:
             viscous, static = self.friction
             force = force - viscous * v - static * np.tanh(v / STICTION_SPEED)
         return solve_positive(D, force - Omega, "D_s")
 
-    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """On the stance foot (2,) [N], for q'' = a (n,) [rad/s^2]."""
-        return ground_reaction(self, self.K, q, v, a)
+    def ground_reaction(self, q: Numbers, v: Numbers, a: Numbers) -> Numbers:
+        """Force (F_T, F_N) (2,) [N] of the ground on the stance foot, along x and z: m (p_com'' - gravity).
+
+        q (n,) [rad], v = q' (n,) [rad/s]; a = q'' (n,) [rad/s^2], not the absolute angles.
+        """
+        K, t, rate2 = self.K, turned(self, q), (self.A @ v) ** 2
+        F_x, F_z = jacobian(self, t, K.w_re, K.w_im) @ a
+        x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
+        return np.array([F_x - x, F_z - z + K.mass * K.gravity])
 
     def momentum(self, q: Array, v: Array) -> Array:
         """m v_com (2,) [N s]."""
@@ -139,7 +248,7 @@ class PlanarRobot:
 
     def kinetic_energy(self, q: Array, v: Array) -> Array:
         """(1/2) v' D_s v [J], at q (n,) [rad], v (n,) [rad/s]."""
-        D, _ = inertia_and_bias(self, self.K, q, v)
+        D, _ = self.inertia_and_bias(q, v)
         return 0.5 * (v @ (D @ v))
 
     def potential_energy(self, q: Array) -> Array:
@@ -152,7 +261,7 @@ class PlanarRobot:
         The impulse is that of the rows of p_e of (7): F_2 = J_m (q+' - q-') - m J_2 q+'.
         """
         K, t = self.K, turned(self, q)
-        D, _ = inertia_and_bias(self, K, q, v)
+        D, _ = self.inertia_and_bias(q, v)
         J_m, J_2 = jacobian(self, t, K.w_re, K.w_im), jacobian(self, t, K.foot_re, K.foot_im)
         before = D - J_2.T @ J_m
         after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
@@ -160,6 +269,22 @@ class PlanarRobot:
         F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
         v_e = np.concatenate((v_plus, -(J_2 @ v_plus)))
         return Impact(self.relabel(q), self.R @ v_plus, F_2, v_e)
+
+
+def _differences(t: Turned[Numbers]) -> tuple[Numbers, Numbers]:
+    """cos and sin of a_j - a_i (n, n), with 0 on both diagonals.
+
+    On the diagonal the cosine is 1: this adds a constant to D_a, which `PlantArrays.inertia` has, and nothing
+    to Omega_a, since Im W_ii = 0.
+    """
+    off = 1.0 - np.eye(len(t.c))
+    C = (np.outer(t.c, t.c) + np.outer(t.s, t.s)) * off
+    return C, (np.outer(t.c, t.s) - np.outer(t.s, t.c)) * off
+
+
+def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
+    """dV/da = g Re(w o exp(i a)) (n,) [N m], gravity in absolute angles."""
+    return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
 T = TypeVar("T")

@@ -16,7 +16,7 @@ All observers of the package share a chain of integrators per coordinate in scal
     x_k = z_k scale^(k-1), k = 1..m+2,
 
 with x1 position, x2 velocity, x3 disturbance and its derivatives. In x itself the observer matrix of Table I
-has condition number 3e29; scaled it has 5e6. LEAD integrators lie between disturbance and measurement: two
+has condition number 3e29; scaled it has 5e6. `lead` integrators lie between disturbance and measurement: two
 from an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and
 reset, which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and `momentum` add their
 flow.
@@ -26,9 +26,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -207,7 +207,7 @@ def check_chain(order: int, scale: float, what: str) -> None:
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """Base of observers with m extended states; z is Z (LEAD + m, p) row by row. Subclasses add the dynamics.
+    """Base of observers with m extended states; z is Z (lead + m, p) row by row. Subclasses add the dynamics.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
 
@@ -216,36 +216,36 @@ class ChainObserver(Observer):
     (True, 4)
     """
 
-    LEAD: ClassVar[int] = 2
-    """Number of integrators between disturbance and measurement."""
     m: int
     scale: float
+    lead: int = field(default=2, kw_only=True)
+    """Number of integrators between disturbance and measurement."""
 
     def __post_init__(self) -> None:
         check_chain(self.order, self.scale, type(self).__name__)
 
     @property
     def order(self) -> int:
-        """Number of states per coordinate, LEAD + m."""
-        return self.LEAD + self.m
+        """Number of states per coordinate, lead + m."""
+        return self.lead + self.m
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
         """State z whose estimates are y, dy and xi, each (p,); higher derivatives are zero."""
         Z = np.zeros((self.order, len(y)))
         Z[0] = y
-        if self.LEAD > 1:
+        if self.lead > 1:
             Z[1] = dy / self.scale
         if self.m > 0:
-            Z[self.LEAD] = xi / self.scale**self.LEAD
+            Z[self.lead] = xi / self.scale**self.lead
         return Z.ravel()
 
     def estimate(self, z: Array) -> Estimate:
         """Estimates x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
         Z = z.reshape(self.order, -1)
         none = np.zeros(Z.shape[1])
-        velocity = Z[1] * self.scale if self.LEAD > 1 else none
+        velocity = Z[1] * self.scale if self.lead > 1 else none
         return Estimate(
-            Z[0], velocity, Z[self.LEAD] * self.scale**self.LEAD if self.m > 0 else none
+            Z[0], velocity, Z[self.lead] * self.scale**self.lead if self.m > 0 else none
         )
 
     def reset(
@@ -258,13 +258,13 @@ class ChainObserver(Observer):
         """
         if policy is ResetPolicy.NONE:
             return z
-        if policy is ResetPolicy.MODEL and self.LEAD > 1:
+        if policy is ResetPolicy.MODEL and self.lead > 1:
             return self.initial_state(y, dy, xi)
         Z, p = z.reshape(self.order, -1), len(swap)
         Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
         if policy is not ResetPolicy.RELABEL:
             Z[0] = y
-            if self.LEAD > 1:
+            if self.lead > 1:
                 Z[1] = dy / self.scale
         if policy is ResetPolicy.MODEL:
             Z[2:] = 0.0

@@ -87,13 +87,13 @@ class InjectedChain(ChainObserver):
         Z, w = z.reshape(self.order, -1), self.scale
         dZ = w * np.outer(self.scaled_gains, y - Z[0])
         dZ[:-1] += w * Z[1:]
-        dZ[self.LEAD - 1] += input / w ** (self.LEAD - 1)
+        dZ[self.lead - 1] += input / w ** (self.lead - 1)
         return dZ.ravel()
 
     def sampled(self, period: float) -> SampledChain:
         """The current (filtered) discrete observer for ticks every `period` [s]."""
         check_positive(period, f"the sampling period is {period} s")
-        return SampledChain(self.m, 1.0 / period, self, period)
+        return SampledChain(self.m, 1.0 / period, self, period, lead=self.lead)
 
     def sampled_gains(self, Phi: Array, period: float) -> Array:
         """L (k,), dimensionless, by Ackermann's formula: eigenvalues at exp(s T). Phi (k,
@@ -157,7 +157,11 @@ class GPIObserver(InjectedChain):
 
 @dataclass(frozen=True)
 class SampledChain(ChainObserver):
-    """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T."""
+    """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T.
+
+    The input is held between ticks. Where it changes within a period, as beta of the momentum observer, this
+    looks like a part of the disturbance: the estimate has an error of about (T / 2) dbeta/dt.
+    """
 
     continuous: InjectedChain = field(metadata=SETUP)
     period: float
@@ -171,7 +175,7 @@ class SampledChain(ChainObserver):
     @derived
     def Gamma(self) -> Array:
         """Input vector (k,) [s^2], or [s] for one integrator."""
-        Gamma, lead = np.zeros(self.order), self.LEAD
+        Gamma, lead = np.zeros(self.order), self.lead
         Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
         return Gamma
 

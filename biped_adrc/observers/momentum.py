@@ -29,15 +29,14 @@ part that no motor can cancel.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, field
 
 from biped_adrc.observers.base import (
     equal_poles,
     mean_bandwidth,
     stable_poles,
 )
-from biped_adrc.observers.gpi import InjectedChain, SampledChain
+from biped_adrc.observers.gpi import InjectedChain
 
 
 @dataclass(frozen=True)
@@ -48,8 +47,8 @@ class MomentumObserver(InjectedChain):
     coordinates, as `control.momentum_dob` has them.
     """
 
-    LEAD: ClassVar[int] = 1
     poles: tuple[complex, ...] = ()
+    lead: int = field(default=1, kw_only=True)
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex]) -> MomentumObserver:
@@ -64,22 +63,3 @@ class MomentumObserver(InjectedChain):
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
         """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
         return cls.from_poles(equal_poles(bandwidth, order))
-
-    def sampled(self, period: float) -> SampledMomentumObserver:
-        """The discrete observer with period T [s] and poles exp(s T), in its current form.
-
-        "Current" means that an estimate at a tick uses the measurement of that same tick.
-        """
-        chain = super().sampled(period)
-        return SampledMomentumObserver(chain.m, chain.scale, self, period)
-
-
-@dataclass(frozen=True)
-class SampledMomentumObserver(SampledChain):
-    """The discrete momentum observer for one sampling period [s].
-
-    beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r
-    has an error of about (T / 2) dbeta/dt; for a constant beta it has none.
-    """
-
-    LEAD: ClassVar[int] = 1

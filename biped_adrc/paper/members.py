@@ -18,7 +18,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import Feasibility
-from biped_adrc.analysis.quadrature import largest
+from biped_adrc.analysis.signals import largest
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.exponential import Exponential

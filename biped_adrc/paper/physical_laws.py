@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
-from biped_adrc.analysis.quadrature import integrate
+from biped_adrc.analysis.signals import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.closed_loop.walker import Mode as StepMode
 from biped_adrc.control.adrc import ADRCController

@@ -32,8 +32,7 @@ import numpy as np
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.analysis.quadrature import integrate
-from biped_adrc.analysis.signals import PLACE, Signals, recorded, signals
+from biped_adrc.analysis.signals import PLACE, Signals, integrate, recorded, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker

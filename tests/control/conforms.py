@@ -434,7 +434,7 @@ def estimator(observer, steps):
     calls += [("reset", (other, policy, SWAP, y, dy, xi)) for policy in ba.ResetPolicy]
     for name, rest in [*calls, ("initial_state", (y, dy, xi)), ("estimate", (other,))]:
         agree(lambda o, *rest: getattr(o, name)(*rest), observer, *rest)  # noqa: B023
-    around = MomentumDOBController if observer.LEAD == 1 else ba.ADRCController
+    around = MomentumDOBController if observer.lead == 1 else ba.ADRCController
     for policy in ba.ResetPolicy:
         law = around(gait().constraint, observer, reset=policy)
         for m, random in measurements(3):

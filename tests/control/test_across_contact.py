@@ -215,15 +215,3 @@ def test_what_does_not_fit_is_refused(biped, gait, h):
         for engine in ("pinocchio", "compiled"):
             with pytest.raises(InputError, match="sampled time only"):
                 ba.walk(ba.Walker(biped, law), gait, 1, engine=engine)
-
-
-def test_a_scenario_names_the_policy():
-    for name, policy in (("Hold", Hold), ("impact invariant", ImpactInvariant)):
-        s = ba.Scenario(
-            {"name": "LESO", "contact": {"name": name, "window": 0.02}}, hardware={"period": PERIOD}
-        )
-        made = build(s).controller
-        assert (type(made), type(made.inner)) == (policy, ba.ADRCController)
-        assert made.window == 0.02
-        assert build(s.replace(controller={"contact": {"window": None}})).controller.window == 0.015
-        assert ba.Scenario(**s.record()) == s

@@ -57,16 +57,6 @@ def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread)
         assert np.median(growth) == pytest.approx(-c, rel=0.05)
 
 
-def test_the_dead_zone_at_rest():
-    """p |psi_1|^2 = 1 at |y| = eps / (2 sqrt p), where mu is half of what it is for p without bound."""
-    eps, p = CLFQPController.epsilon, CLFQPController.relaxation
-    y = np.array([0.6, 0.0, 0.8, 0.0]) * eps / (2.0 * np.sqrt(p))
-    d = decrease(y, np.zeros(4), eps)
-    assert np.linalg.norm(y) == pytest.approx(5e-5)
-    assert d.psi_0 > 0.0
-    assert least_norm(d, p) == pytest.approx(0.5 * least_norm(d, 1e30), rel=1e-9)
-
-
 def test_a_state_that_is_not_finite_is_refused(biped, gait):
     law = CLFQPController(gait.constraint)
     m = next(clf_states(biped, gait, 1, 0.01))

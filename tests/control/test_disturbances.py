@@ -1,6 +1,5 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
-import itertools
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -66,14 +65,6 @@ def test_windows_close_where_they_say():
 
 
 # -- a pulse with sloping edges ---------------------------------------------------------------------
-@pytest.mark.parametrize("rise", [0.0, 0.04])
-def test_the_area_of_a_pulse_is_amplitude_times_width_whatever_its_rise(rise):
-    pulse = ba.TorquePulse(F, step=2, start=0.1, stop=0.2, rise=rise)
-    corners = sorted({1.0, *pulse.switching_times(2, 1.0), 1.6})
-    still, area = np.zeros(3), np.zeros(3)
-    for a, b in itertools.pairwise(corners):  # straight between corners: the midpoint rule is exact
-        area += (b - a) * pulse.zeta(0.5 * (a + b), 2, 1.0, still, still)
-    assert area == pytest.approx(0.1 * np.array(F), rel=1e-12)
 
 
 def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_told():
@@ -109,15 +100,6 @@ def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
             angular = np.array([0.0, -F[2], 0.0]) + np.cross(arm, [F[0], 0.0, F[1]])
             expected = (J @ Z).T @ np.array([F[0], 0.0, F[1], *angular])
             assert push.zeta(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
-
-
-def test_a_force_at_the_hip_is_a_hip_force(biped):
-    q, v = np.random.default_rng(5).uniform(-1.0, 1.0, (2, 5))
-    hip = HipForce(biped, F[:2])
-    link = OnLink(biped, "torso", ba.TorquePulse((*F[:2], 0.0)))
-    expected = hip.zeta(0.0, 1, 0.0, q, v)
-    assert link.zeta(0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
-    assert np.array_equal(link.net_force(0.0, 1, 0.0), hip.net_force(0.0, 1, 0.0))
 
 
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
@@ -292,14 +274,6 @@ def test_a_push_that_goes_on_over_impacts_begins_with_its_single_support(gait, k
     when = window(s, 0, gait.period)
     begin = 2.0 * gait.period if find("disturbance", kind).over_steps else 0.0
     assert (when["start"], when["stop"]) == pytest.approx((begin + 0.1, begin + 0.3))
-
-
-def test_uneven_ground_goes_down_where_the_next_foothold_is_lower():
-    heights = np.concatenate(([0.0], np.random.default_rng(7).normal(0.0, 0.01, 6)))
-    drops = {g.step: g.drop for g in uneven_ground(7, 0.01, 6)}
-    assert drops == pytest.approx({k: heights[k - 1] - heights[k] for k in range(1, 7)})
-    down = {g.step for g in uneven_ground(7, 0.01, 6) if isinstance(g, StepDown)}
-    assert down == {k for k in range(1, 7) if heights[k] < heights[k - 1]}
 
 
 def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):

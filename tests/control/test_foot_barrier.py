@@ -44,7 +44,7 @@ def misses(walk):
 
 @pytest.mark.parametrize("step", [None, 0.4])
 def test_the_error_of_the_foot_moves_as_differences_of_pinocchio_s_foot_say(biped, gait, step):
-    law = FootBarrier.of(ba.NPDController(gait.constraint), biped, (0.5,), step)
+    law = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step)
     h, random = gait.constraint, np.random.default_rng(1)
 
     def error(q):
@@ -70,7 +70,7 @@ def test_the_error_of_the_foot_moves_as_differences_of_pinocchio_s_foot_say(bipe
 def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
     qpsolvers = pytest.importorskip("qpsolvers")
     inner, random = ba.NPDController(gait.constraint), np.random.default_rng(2)
-    law, s, sides = FootBarrier.of(inner, biped, (0.4,)), np.zeros(1), set()
+    law, s, sides = FootBarrier(inner, biped, (0.4,)), np.zeros(1), set()
     for _ in range(20):
         m = near_orbit(biped, gait, random, law)
         f, k, u = law.error(m), m.terms.kappa, inner.output(s[:-1], m)
@@ -86,7 +86,7 @@ def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
 def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, tolerance):
     """In continuous time, of the model that is known; 60 N m on the swing hip throw the foot out of it."""
     inner = AddedTorque(ba.NPDController(gait.constraint, WEAK), np.array([0.0, 60.0, 0.0, 0.0]))
-    law, largest = FootBarrier.of(inner, biped, (0.4,), tolerance=tolerance), []
+    law, largest = FootBarrier(inner, biped, (0.4,), tolerance=tolerance), []
     for acting in (inner, law):
         walker = ba.Walker(biped, acting)
         x = walker.initial_state(*gait.start(biped))
@@ -103,7 +103,7 @@ def test_a_walk_in_which_it_never_acts_is_that_of_the_controller_inside_bit_for_
     for inner in (ba.NPDController(gait.constraint), ba.ADRCController(gait.constraint)):
         alone, filtered = (
             on_stones(biped, gait, x)
-            for x in (inner, FootBarrier.of(inner, biped, STONES, tolerance=1.0))
+            for x in (inner, FootBarrier(inner, biped, STONES, tolerance=1.0))
         )
         assert np.array_equal(alone.signals.u, filtered.signals.u)
         assert np.array_equal(alone.signals.q, filtered.signals.q)
@@ -117,7 +117,7 @@ def test_a_torque_that_no_model_knows_throws_the_foot_off_its_stone_and_not_with
         ba.NPDController(gait.constraint, WEAK),
     )
     alone = on_stones(biped, gait, inner, push)
-    kept = on_stones(biped, gait, FootBarrier.of(inner, biped, STONES), push)
+    kept = on_stones(biped, gait, FootBarrier(inner, biped, STONES), push)
     assert np.max(np.abs(misses(alone))) > 0.025
     assert kept.feasibility.status is ba.Status.COMPLETED
     assert np.max(np.abs(misses(kept))) < 0.0125
@@ -127,7 +127,7 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
     """Under a load of 40 N m on the swing hip that the model does not know."""
     push = ba.TorqueStep([0.0, 40.0, 0.0, 0.0, 0.0], step=1)
     inner = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(500.0))
-    law = FootBarrier.of(inner, biped, (0.4,))
+    law = FootBarrier(inner, biped, (0.4,))
     walker = ba.Walker(biped, law, push)
     x = walker.initial_state(*gait.start(biped))
     arc = ba.simulate(walker, x, ba.Mode(), ba.RK4(1e-4), t_end=0.2).arcs[0]
@@ -144,7 +144,7 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
 
 
 def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds(biped, gait):
-    inner = FootBarrier.of(ba.NPDController(gait.constraint), biped, (0.5,), step=0.4)
+    inner = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step=0.4)
     counts = []
     for limit in (20.0, 1e4):
         walker = ba.Walker(biped, inner, timing=CLOCK, torque_limit=limit)
@@ -173,9 +173,9 @@ def test_a_row_of_a_study_has_them(gait):
 
 def test_it_refuses_what_tracks_no_constraint(biped):
     with pytest.raises(InputError, match="virtual constraint"):
-        FootBarrier.of(ba.Passive(), biped)
+        FootBarrier(ba.Passive(), biped)
     with pytest.raises(InputError, match="tolerance"):
         replace(
-            FootBarrier.of(ba.NPDController(ba.load_gait("v0.6", biped).constraint), biped),
+            FootBarrier(ba.NPDController(ba.load_gait("v0.6", biped).constraint), biped),
             tolerance=0.0,
         )

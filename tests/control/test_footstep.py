@@ -6,7 +6,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.family_design import library
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.gait.family import DECISION, PolynomialMap, load_family
+from biped_adrc.gait.family import DECISION, load_family
 from biped_adrc.model.ground import Stones
 
 CLOCK = ba.SampledTime(1e-3)
@@ -35,11 +35,6 @@ def decisions(biped, walk):
 
 
 # -- the family ------------------------------------------------------------------------------------
-def test_fit_of_a_polynomial_is_exact():
-    x = np.random.default_rng(0).uniform((-1.0, 2.0), (3.0, 2.5), (40, 2))
-    y = np.column_stack((x[:, 0] ** 2 * x[:, 1], 1.0 + x[:, 1]))
-    fit = PolynomialMap.fit(x, y, degree=3)
-    assert fit(np.array((0.3, 2.2))) == pytest.approx((0.3**2 * 2.2, 3.2), abs=1e-12)
 
 
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])

@@ -10,7 +10,6 @@ from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.core.part import derived
-from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
 
@@ -74,24 +73,3 @@ def test_observers_and_references_of_ones_own_compile(biped, gait, name):
     assert fast.status is slow.status
     x = slow.final_state
     assert np.max(np.abs(fast.final_state - x)) <= 1e-8 * np.max(np.abs(x))
-
-
-def test_an_observer_in_plain_python_compiles(biped, gait):
-    ends = []
-    for observer in (Luenberger(300.0), ba.GPIObserver.from_bandwidth(300.0)):
-        controller = ba.ADRCController(gait.constraint, observer)
-        fast, slow = (walked(biped, gait, controller, e) for e in ("compiled", "pinocchio"))
-        assert fast.settings["engine"] == "compiled"
-        x = slow.final_state
-        assert np.max(np.abs(fast.final_state - x)) <= 1e-9 * np.max(np.abs(x))
-        ends.append(x[:10])
-    assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-9)
-
-
-def test_new_numbers_of_an_observer_compile_nothing():
-    one, other, third = (
-        structure(ba.GPIObserver.from_poles(poles))
-        for poles in ((-3.0, -5.0), (-4.0, -6.0), (-3.0, -4.0, -5.0))
-    )
-    assert one == other
-    assert one != third

@@ -73,26 +73,6 @@ def test_discrete_form_has_the_poles_exp_sT(kind, poles, period):
     assert np.allclose(np.sort_complex(found), np.sort_complex(expected.astype(complex)), atol=1e-7)
 
 
-def test_table_one_sampled_at_1_khz_is_stable_and_has_its_polynomial():
-    k = GPIObserver.from_poles().sampled(1e-3)
-    closed = (np.eye(9) - np.outer(k.L, np.eye(9)[0])) @ k.Phi
-    assert np.max(np.abs(np.linalg.eigvals(closed))) == pytest.approx(np.exp(-0.18), abs=1e-6)
-    assert np.allclose(np.poly(closed), np.poly(np.exp(np.array(TABLE_I) * 1e-3)), atol=1e-8)
-
-
-def test_discrete_observer_follows_a_constant_disturbance():
-    observer = GPIObserver.from_bandwidth(50.0, 2).sampled(1e-2)
-    z = observer.initial_state(np.zeros(1), np.zeros(1), np.zeros(1))
-    q, v, a = 0.0, 0.0, 3.0
-    for _ in range(400):
-        z = observer.correct(z, np.array([q]))
-        z = observer.predict(z, np.array([1.0]))
-        q, v = q + 1e-2 * v + 0.5e-4 * (a + 1.0), v + 1e-2 * (a + 1.0)
-    found = observer.estimate(observer.correct(z, np.array([q])))
-    assert found.disturbance[0] == pytest.approx(3.0, abs=1e-8)
-    assert found.velocity[0] == pytest.approx(v, abs=1e-9)
-
-
 def test_reset_policies():
     observer = GPIObserver.from_bandwidth(10.0, 2)
     Z = np.arange(16.0).reshape(4, 4)

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.stride_gain import BUMP, StrideResponse, stride_response
+from biped_adrc.analysis.stride_gain import StrideResponse, stride_response
 from biped_adrc.control.outer_loop import reference_in_force
-from biped_adrc.control.reference_reset import ReferenceReset, ResetPolynomial, reset_coefficients
-from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.disturbances.force import HipForce
 from biped_adrc.gait.curves import BSpline
@@ -43,20 +43,6 @@ def stride(law, gait, biped, **options):
 
 
 # -- reference reset -------------------------------------------------------------------------------
-def test_the_correction_starts_at_the_error_and_ends_with_two_derivatives():
-    end, start, e, slope = 3.1, 3.31, np.array([0.02, -0.01]), np.array([-0.3, 2.0])
-    rate = 5.0
-    c = ResetPolynomial(reset_coefficients(rate * (start - end), rate, e, slope), end, rate)
-    at_start, d = c(start), 1e-6
-    np.testing.assert_allclose(at_start[0], e, rtol=1e-12)
-    np.testing.assert_allclose(at_start[1], slope, rtol=1e-12)
-    up, down = c(3.25 + d), c(3.25 - d)
-    for i in (0, 1):
-        slope = (up[i] - down[i]) / (2 * d)
-        np.testing.assert_allclose(c(3.25)[i + 1], slope, rtol=1e-6)
-    for theta in (3.1, 3.0):
-        assert not np.any(c(theta))
-    assert np.max(np.abs(c(3.1 + 1e-9))) < 1e-5
 
 
 def test_a_constraint_that_the_impact_leaves_is_tracked_all_the_same(bare, recipe):
@@ -98,14 +84,6 @@ def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
 
 
 # -- stride ----------------------------------------------------------------------------------------
-def test_the_bump_vanishes_with_two_derivatives_at_both_ends():
-    assert bump(0.5) == pytest.approx((1.0, 0.0, -24.0))
-    for s in (-0.1, 0.0, 1.0, 1.2):
-        assert not np.any(bump(s))
-    for s in (0.2, 0.7):
-        for k in (0, 1, 2):
-            derivative = np.polynomial.Polynomial(BUMP).deriv(k)(s)
-            assert bump(s)[k] == pytest.approx(derivative, rel=1e-12)
 
 
 def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(bare, published):

@@ -13,7 +13,6 @@ from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.program import Program
-from biped_adrc.model.planar import PlanarTree
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
@@ -113,9 +112,9 @@ def test_one_compilation_serves_every_number(biped, gait):
 @pytest.mark.parametrize("pose", [0.0, np.pi])
 def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
     """What one link of the swing leg is too long another is too short, as seen in that pose."""
-    tree = PlanarTree.of(biped)
+    robot = robot_of(biped)
     wrong = np.zeros(biped.n)
-    wrong[:2] = 0.1 * np.cos(pose * tree.A.sum(axis=1))[1::-1] * (1.0, -1.0)
-    off = PlanarTree(tree.A, tree.K._replace(foot_re=tree.K.foot_re + wrong))
+    wrong[:2] = 0.1 * np.cos(pose * robot.A.sum(axis=1))[1::-1] * (1.0, -1.0)
+    off = replace(robot, K=robot.K._replace(foot_re=robot.K.foot_re + wrong))
     with pytest.raises(ModelError, match="the swing foot in absolute angles differs"):
         off.check(biped)

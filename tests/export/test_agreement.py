@@ -85,7 +85,7 @@ def walker_of(kind, thing, hardware):
     if kind in ("controller", "contact", "around"):
         law = thing
     elif kind == "observer":
-        around = MomentumDOBController if thing.LEAD == 1 else ba.ADRCController
+        around = MomentumDOBController if thing.lead == 1 else ba.ADRCController
         law = around(gait().constraint, thing)
     elif kind == "reference":
         law = ba.NPDController(thing)

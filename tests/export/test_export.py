@@ -6,14 +6,12 @@ import shutil
 import subprocess
 from dataclasses import replace
 
-import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.extras.export import loaded as loading
-from biped_adrc.extras.export.c_text import in_double
 from biped_adrc.extras.export.computer import Computer, Noticed
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, compiled
@@ -237,12 +235,3 @@ def test_the_program_ends_at_a_line_that_is_no_sample(program, bad):
     good = line_of(0, recorded("on a robot")[1][0])
     code, made = printed(program, [good, bad.format(good), good])
     assert (code, len(made)) == (9, 1)
-
-
-def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
-    q, v, k = ca.SX.sym("q", 2), ca.SX.sym("v"), ca.SX.sym("K", 2)
-    phase = k[0] * q[0]
-    f = ca.Function("f", [k, ca.vertcat(q, v)], [ca.vertcat(q[1] - ca.sin(phase), v - phase)])
-    wide = in_double(f, [True, True, False])
-    codes = sorted(f.instruction_id(i) for i in wide)
-    assert codes == sorted([ca.OP_MUL, ca.OP_SIN, ca.OP_SUB])

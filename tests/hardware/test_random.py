@@ -43,9 +43,3 @@ def test_numbers_are_even_normal_and_different_for_every_seed():
     first = [uniforms(seeded(seed), 1)[1][0] for seed in range(200)]
     assert len(set(first)) == 200
     assert stats.kstest(first, "uniform").pvalue > 1e-3
-
-
-def test_the_state_handed_out_goes_on_where_it_was():
-    r, one = uniforms(seeded(3), 10)
-    _, rest = uniforms(r, 5)
-    assert np.array_equal(np.concatenate((one, rest)), uniforms(seeded(3), 15)[1])

@@ -113,12 +113,6 @@ def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
         assert b.ground_reaction(q, v, a) == pytest.approx(rate + weight, rel=1e-5, abs=1e-2)
 
 
-def test_rotor_inertia_adds_to_the_joints():
-    bare, rotors = (ba.Biped.load("rabbit", p) for p in ("identified-bare", "identified"))
-    q = np.array([3.2, 3.5, -0.5, -0.7, 0.1])
-    assert np.allclose(rotors.inertia(q) - bare.inertia(q), np.diag([0.83] * 4 + [0.0]), atol=1e-12)
-
-
 def test_friction_is_off_by_default_and_takes_energy_when_on(biped):
     v = np.array([1.0, -2.0, 0.5, 3.0, 0.7])
     assert not np.any(biped.friction_torque(v))
@@ -126,9 +120,3 @@ def test_friction_is_off_by_default_and_takes_energy_when_on(biped):
     assert rough.friction_torque(v) @ v < 0
     assert rough.friction_torque(v)[0] == pytest.approx(-16.5 - 15.0, abs=1e-6)
     assert rough.friction_torque(v)[-1] == 0.0
-
-
-def test_relabelling_swaps_the_legs_and_undoes_itself(biped):
-    q = np.arange(5.0)
-    assert np.array_equal(biped.relabel(q), q[[1, 0, 3, 2, 4]])
-    assert np.array_equal(biped.relabel(biped.relabel(q)), q)

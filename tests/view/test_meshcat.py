@@ -17,7 +17,6 @@ from biped_adrc.disturbances.waves import TorquePulse
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.reproduction import headline_animation
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.meshcat.view import animation_html
@@ -130,8 +129,3 @@ def test_animation_refuses_bad_input(walks: dict[str, Walk]) -> None:
     for values in ({"fps": 0.0}, {"view": "top"}, {"fps": 1e7}):
         with pytest.raises(InputError):
             animation_html(walks, Clip(**values))
-
-
-def test_the_reproduction_shows_adrc_solid(walks: dict[str, Walk]) -> None:
-    text = headline_animation({name: walks[name] for name in ("ADRC", "NPD")})
-    assert "ADRC: solid. NPD: translucent" in text

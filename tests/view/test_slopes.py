@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
@@ -17,7 +16,6 @@ from biped_adrc.model.ground import StepDown
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import WalkScene, link_placements
-from biped_adrc.view.plots.over_time import friction_cone
 
 from .pinocchio_view import floating
 
@@ -130,25 +128,6 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
     lost = [c.energy_lost for c in walk.certificates[:-1]]
     np.testing.assert_allclose(total[starts - 1] - total[starts], lost, atol=1e-9)
     assert min(lost) > 0.5
-
-
-def test_a_wheel_needs_the_friction_of_its_spoke_angle(walks: dict[str, Walk]) -> None:
-    """With all mass at the hub the ground pushes along the spoke: |F_T| / F_N ends at tan(alpha)."""
-    walk = walks["wheel"]
-    axes = friction_cone(Figure().subplots(), walk.signals, slope=walk.walker.slope)
-    line = next(a for a in axes.get_lines() if a.get_label() == "ground reaction")
-    F_T, F_N = np.array(line.get_data())
-    assert np.nanmax(np.abs(F_T) / F_N) == pytest.approx(math.tan(ALPHA), abs=1e-6)
-    assert np.nanmin(F_T / F_N) == pytest.approx(-math.tan(ALPHA), abs=1e-6)
-
-
-def test_a_passive_walk_is_its_cycle_on_other_slopes_too() -> None:
-    walk = passive_walk("rimless_wheel", 4, slope=0.1)
-    x = walk.trajectory.before("foot_strike")
-    np.testing.assert_allclose(x, x[:1].repeat(4, axis=0), atol=1e-8)
-    # just before impact the speed is that after it over cos(2 alpha)
-    after = math.sqrt(4.0 * 9.81 * math.sin(ALPHA) * math.sin(0.1)) / math.tan(2.0 * ALPHA)
-    assert -x[0, 1] == pytest.approx(after / math.cos(2.0 * ALPHA), rel=1e-7)
 
 
 def test_passive_walks_that_are_none_are_refused() -> None:

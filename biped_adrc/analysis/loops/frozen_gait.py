@@ -36,7 +36,7 @@ from biped_adrc.core.types import Array, read_only
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hardware.sample_hold import HeldSizes
+from biped_adrc.hardware.sample_hold import HeldSizes, read
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
 
@@ -187,7 +187,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
-        u, z = J[_newest(sizes, len(x))], _released(sizes, J)[2 * n :]
+        u, z = read(sizes, J[len(x) - sizes.total :]).line.sent, _released(sizes, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
 
@@ -210,18 +210,6 @@ def _acting(tick: TickMatrices) -> TickMatrices:
         return tick
     share = (first == some[:, np.newaxis]) * largest / largest[some, np.newaxis]
     return _acting(TickMatrices(share @ Z[:, :, some], share @ Y, C[:, :, some], E))
-
-
-def _newest(sizes: HeldSizes, end: int) -> slice:
-    """Slice of x, of `end` numbers, that holds the torque sent at this tick.
-
-    It is at the end of the queue, else where it waits, else where it acts on the motors.
-    """
-    if sizes.queue:
-        end -= sizes.p * (1 + sizes.waiting)
-    elif sizes.waiting:
-        end -= sizes.p
-    return slice(end - sizes.p, end)
 
 
 def _released(sizes: HeldSizes, J: Array) -> Array:

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.core.types import Array, relabelled
+from biped_adrc.core.types import Array
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -90,21 +90,16 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     return ImpactStates(before, after, biped.swap, biped.reduction(*start).kappa_inverse)
 
 
-def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
-    """The error e(0+) (order, p) just after impact under a reset policy: true states minus estimates.
-
-    In physical units: rows [rad], [rad/s], [rad/s^2], ....
-    """
-    estimate = (
-        impact.before if policy is ResetPolicy.NONE else relabelled(impact.before, impact.swap)
+def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy) -> Array:
+    """The error e(0+) (order, p) in scaled states under a reset policy: true states minus estimates."""
+    before, after = (
+        x / observer.scale ** np.arange(observer.order)[:, np.newaxis]
+        for x in (impact.before, impact.after)
     )
-    estimate = estimate.copy()
-    if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
-        estimate[:2] = impact.after[:2]
-    if policy is ResetPolicy.MODEL:
-        estimate[2:] = 0.0
-        estimate[2:3] = impact.after[2:3]
-    return impact.after - estimate
+    y, dy, *xi = impact.after
+    xi_0 = xi[0] if xi else np.zeros_like(y)
+    estimate = observer.reset(before.ravel(), policy, impact.swap, y, dy, xi_0)
+    return after - estimate.reshape(after.shape)
 
 
 def impact_peak(
@@ -116,7 +111,7 @@ def impact_peak(
     For m = 0 the observer has no estimate of xi, and e_3 counts as 0.
     """
     w, k = observer.scale, observer.order
-    E = reset_error(impact, policy) / w ** np.arange(k)[:, np.newaxis]
+    E = reset_error(observer, impact, policy)
     A = observer.error_system().A
     rates = np.abs(np.real(observer.poles))
     later = np.geomspace(0.01 / rates.max(), LONG / rates.min(), INSTANTS)

@@ -31,7 +31,6 @@ from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.extras.export.c_text import CFunction, Entry
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
 
 HEAD = 4
@@ -91,7 +90,7 @@ def step(computer: Computer, size: int) -> SymbolicFunction:
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)
     line = read(k.sizes, semantics.parts(at.loop, x)[3]).line
-    return inputs.function(x[2 * n :], sent_last(line), at.lost)
+    return inputs.function(x[2 * n :], line.sent, at.lost)
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
@@ -113,15 +112,6 @@ def _released(inputs: Inputs) -> Array:
     over = at.t - Scalar(at.inp.symbol[1]) >= after
     u = [where(over, new, old) for new, old in zip(at.x[-2 * p : -p], at.x[-p:], strict=True)]
     return np.concatenate((at.x[:-p], np.array(u, dtype=object)))
-
-
-def sent_last(line: Line) -> Array:
-    """The torque (p,) [N m] sent at this sample instant: the end of the queue, else the
-    waiting one, else the acting one.
-    """
-    if len(line.queue) > 0:
-        return line.queue[len(line.queue) - len(line.u) :]
-    return line.waiting if len(line.waiting) > 0 else line.u
 
 
 @dataclass(frozen=True)

@@ -78,10 +78,7 @@ def play(
     check_part(others, "the walks to choose from", Mapping, type(None))
     path, others = output_path(Path(path), (".html",)), OTHERS if others is None else others
     for name, values in others.items():
-        if not isinstance(values, Mapping):
-            raise InputError(
-                f"the walk '{name}' is {values!r:.60}, expected values of a scenario by name"
-            )
+        check_part(values, f"the walk '{name}'", Mapping)
     write_text(path, page(scenario, others))
     return path
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Annotated
 
-from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, Range
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, Range, each
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown
 from biped_adrc.gait.curves import ControlledCurve, curve_kind
@@ -28,6 +28,7 @@ DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4
 NodesInt = Annotated[
     int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
 ]
+LOW_FIRST = each("low < high [rad] by joint", lambda ends: ends[0] < ends[1])
 
 
 class Objective(Enum):
@@ -69,7 +70,7 @@ class StepLimits(Checked, Shown):
     """Height of the swing foot in mid-step, share of the leg; None: without knees it may scuff at first."""
     lift_off: NonNegativeFloat = 0.02
     """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
-    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    ranges: Annotated[Mapping[str, tuple[float, float]], LOW_FIRST] = field(default_factory=dict)
     """Joint ranges (low, high) [rad] by name of the coordinate, besides those of the record."""
     multiplier: NonNegativeFloat = 0.95
     """Largest delta^2 of the zero dynamics."""
@@ -92,11 +93,6 @@ class StepLimits(Checked, Shown):
         own = {"friction": mu, "impulse_friction": mu, "torque": d.peak_torque}
         given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
         return RobotLimits(**{**own, **given, "ranges": {**d.ranges, **self.ranges}})
-
-    def __post_init__(self) -> None:
-        for joint, (low, high) in self.ranges.items():
-            if not low < high:
-                raise GaitError(f"the range of '{joint}' is {low} to {high}, expected low < high")
 
 
 @dataclass(frozen=True)
@@ -127,7 +123,7 @@ class GaitRequest(Checked, Shown):
     nodes: NodesInt = 24
     """Number of Gauss nodes at which the limits are kept; twice as many where that is not enough."""
     limits: StepLimits = StepLimits()
-    through: tuple[float, ...] | None = None
+    through: Annotated[tuple[float, ...], each("finite numbers", math.isfinite)] | None = None
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
     curve: str = "bezier"
     """Kind of the curves by name, one that lies between its ends."""
@@ -141,7 +137,6 @@ class GaitRequest(Checked, Shown):
         targets = self.speed is not None or self.step is not None
         for fits, expected in (
             (targets != bool(self.through), "a speed, a step length or both, or a state"),
-            (all(map(math.isfinite, self.through or ())), "finite numbers"),
             (issubclass(self.kind, ControlledCurve), "a curve with ends, such as bezier"),
         ):
             if not fits:

@@ -27,7 +27,8 @@ from biped_adrc.gait.gait import onto_section
 from biped_adrc.gait.zero_dynamics import invariant_constraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.planar import PlanarTree, point, turned
+from biped_adrc.model.planar import point, turned
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 LONGEST = 1.2
 """Longest step that is searched, as a share of the leg length."""
@@ -41,18 +42,20 @@ BEND = 0.2
 """Distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
 
 
-def standing(tree: PlanarTree) -> Array:
+def standing(robot: PlanarRobot) -> Array:
     """Configuration (n,) with both legs stretched downwards and all other links upwards [rad].
 
-    Link directions are complex numbers, of which `tree` knows the vectors to feet and hip; absolute angles are
+    Link directions are complex numbers, of which `robot` knows the vectors to feet and hip; absolute angles are
     kept in (-pi, pi].
     """
-    leg, w = tree.foot - tree.hip, tree.K.w_re + 1j * tree.K.w_im
-    vector = np.where(np.abs(tree.hip) > 0, tree.hip, np.where(np.abs(leg) > 0, -leg, w))
+    K = robot.K
+    foot, hip, w = K.foot_re + 1j * K.foot_im, K.hip_re + 1j * K.hip_im, K.w_re + 1j * K.w_im
+    leg = foot - hip
+    vector = np.where(np.abs(hip) > 0, hip, np.where(np.abs(leg) > 0, -leg, w))
     a = np.pi / 2 - np.angle(vector)
     a = np.pi - np.mod(np.pi - a, 2.0 * np.pi)
     a = np.where(np.abs(a + np.pi) < 1e-9, np.pi, a)
-    return np.asarray(np.linalg.solve(tree.A, a), dtype=np.float64)
+    return np.asarray(np.linalg.solve(robot.A, a), dtype=np.float64)
 
 
 def inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
@@ -76,8 +79,8 @@ def apart(
 
     Least squares: the foot weighs most, then the hip half way between the feet, then nearness to `standing`.
     """
-    tree = PlanarTree.of(biped)
-    near, K = inside(standing(tree), biped, ranges), tree.K
+    robot = robot_of(biped)
+    near, K = inside(standing(robot), biped, ranges), robot.K
     target = step * ground_axes(slope)[0]
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
     for joint, ends in ranges.items():
@@ -85,7 +88,7 @@ def apart(
 
     def miss(q: Array) -> Array:
         """Residuals (n + 3,): foot from its target, hip from half way [m], q from standing [rad], weighted."""
-        t = turned(tree, q)
+        t = turned(robot, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(
             (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
@@ -123,7 +126,7 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     """
     c = biped.phase
     if request.through is None:
-        leg = PlanarTree.of(biped).leg
+        leg = robot_of(biped).leg
         step = request.step or STEP * leg
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
         if step > LONGEST * leg or (request.speed or 0.0) > most:

@@ -8,9 +8,9 @@ and the unactuated row of D q'' + Omega = (u, 0) gives Theta''. So torque and gr
 explicit functions of the Bezier coefficients, the phases Theta+ and Theta-, and the rate |Theta'| there:
 nothing is integrated in time, and CasADi's derivatives are exact.
 
-The planar model (`model.planar`) is written for NumPy arrays; with arrays of CasADi scalars the same code gives
-expressions. `nlp` builds cost and constraints from a `SymbolicStep`; `optimise` reads the solution by the names
-of `Unknowns`.
+The planar model (`model.planar_robot`) is written for NumPy arrays; with arrays of CasADi scalars the same code
+gives expressions. `nlp` builds cost and constraints from a `SymbolicStep`; `optimise` reads the solution by the
+names of `Unknowns`.
 """
 
 from __future__ import annotations
@@ -28,14 +28,8 @@ from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import each, impact_rows, pose_function, together
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.planar import (
-    PlanarTree,
-    gravity_and_turning,
-    ground_reaction,
-    inertia_and_bias,
-    point,
-    turned,
-)
+from biped_adrc.model.planar import point, turned
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 T = TypeVar("T", bound=Any)
 
@@ -124,13 +118,13 @@ def basis_functions(
     return values, first, second
 
 
-def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> ca.Function:
+def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: float) -> ca.Function:
     """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
 
     phase: c (n,), Theta = c q. direction: sign of Theta'. s: normalised phase of the node; b, b', b'' (M + 1,):
     Bernstein polynomials and derivatives there, which enter as inputs so that one function serves all nodes.
     """
-    n, K = len(tree.A), tree.K
+    n, K = robot.n, robot.K
     p, M = n - 1, degree
     alpha, theta, s, r = (ca.SX.sym(*a) for a in (("a", p * (M + 1)), ("t", 2), ("s"), ("r")))
     basis = [ca.SX.sym(f"b{k}", M + 1) for k in range(3)]
@@ -142,13 +136,13 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
     ddq = ca.vertcat(ddh, -ca.dot(c_b, ddh) / c_N)
     rate = direction * r
     x, v = each(q), each(dq * rate)
-    D, Omega = map(together, inertia_and_bias(tree, K, x, v))
+    D, Omega = map(together, robot.inertia_and_bias(x, v))
     inertia = D[p, :] @ dq
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
-    t, force = turned(tree, x), ground_reaction(tree, K, x, v, each(a))
-    foot, (G, _) = point(t, K.foot_re, K.foot_im), gravity_and_turning(tree, K, t, v)
+    t, force = turned(robot, x), robot.ground_reaction(x, v, each(a))
+    foot, (G, _) = point(t, K.foot_re, K.foot_im), robot.gravity_and_turning(t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
 
@@ -177,14 +171,14 @@ class SymbolicStep:
         self, biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
     ) -> None:
         self.biped, self.request, self.limits = biped, request, limits
-        self.tree, self.direction = PlanarTree.of(biped), direction
+        robot, self.direction = robot_of(biped), direction
         self.n, self.p = biped.n, biped.p
-        self.leg = self.tree.leg
-        self.mass, self.gravity = self.tree.K.mass, self.tree.K.gravity
+        self.leg = robot.leg
+        self.mass, self.gravity = robot.K.mass, robot.K.gravity
         self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.gravity)
         x = self.x = unknowns(self.n, request.degree, request.nodes)
         s, w, C = gauss_nodes(request.nodes)
-        self.function = node_function(self.tree, biped.phase, request.degree, direction)
+        self.function = node_function(robot, biped.phase, request.degree, direction)
         R, self.phase = ca.DM(biped.R), ca.DM(biped.phase[np.newaxis])
         self.q_plus = R @ x.q + biped.relabel(np.zeros(self.n))
         self.v_plus = R @ x.after[: self.n]
@@ -201,7 +195,7 @@ class SymbolicStep:
         c_b, c_N = biped.phase[: self.p], biped.phase[self.p]
         self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
         self.along, self.out = (ca.DM(axis[np.newaxis]) for axis in ground_axes(request.slope))
-        self.pose = pose_function(self.tree)
+        self.pose = pose_function(robot)
         self.D, self.J_m, self.J_2, self.foot = self.pose(x.q)
         self.length = self.along @ self.foot
 

@@ -181,10 +181,10 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
             f"v_minus have {n} numbers each, the last two are both given or both left out"
         )
     curve = curve_kind(record.curve)(record.coefficients)
-    s, (plus, minus) = np.linspace(0.0, 1.0, 21), (record.theta_plus, record.theta_minus)
+    plus, minus = record.theta_plus, record.theta_minus
     if rows != n or record.outputs is not None:
         return all_coordinates(curve, outputs, c, (plus, minus))
-    gap = float(np.max(np.abs(curve.over(s) @ c - (plus + s * (minus - plus)))))
+    gap = max(abs(curve(s)[0] @ c - plus - s * (minus - plus)) for s in np.linspace(0.0, 1.0, 21))
     if gap > CLOSES:
         raise record.error(
             f"the phase c q(s) of the curves is {gap:.3g} rad from a straight line from theta_plus to "

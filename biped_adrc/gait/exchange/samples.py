@@ -68,7 +68,7 @@ def gait_of_samples(
     """
     s = _in_robot(_checked(samples, layout.n, degree), layout)
     fitted = _fitted(s, biped, degree)
-    gaps = np.abs(fitted.over(s.q @ fitted.phase) - s.q[:, : biped.p])
+    gaps = np.abs([fitted.h(x)[0] for x in s.q @ fitted.phase] - s.q[:, : biped.p])
     k, joint = np.unravel_index(int(np.argmax(gaps)), gaps.shape)
     said = f"{gaps[k, joint]:.2g} rad, {biped.description.joints[joint]} at {s.t[k]:.4g} s"
     if gaps[k, joint] > FITS:

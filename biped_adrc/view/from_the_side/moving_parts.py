@@ -1,7 +1,7 @@
 """Parts of an animation in the x-z plane: ground and walks, and the pixels of frames at given times.
 
 `DrawnWalk` makes the artists of one walk on an Axes once; its method `show` sets their positions and colours
-for the time t [s]. The modules `moving_picture` and `side_by_side` put the parts together. Matplotlib draws
+for the time t [s]. The module `moving_picture` puts the parts together. Matplotlib draws
 walk k with zorder 10 k to 10 k + 9, so that one walk is in front of another as a whole, and ground and trails
 behind all walks.
 """

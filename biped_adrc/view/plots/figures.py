@@ -17,8 +17,7 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
-from biped_adrc.analysis.quadrature import integrate
-from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.signals import Signals, integrate
 from biped_adrc.core.types import Array
 from biped_adrc.view.plots import over_time, stability
 from biped_adrc.view.plots.over_time import Window, broken, finished, legend
