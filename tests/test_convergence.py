@@ -20,8 +20,14 @@ from biped_adrc.paper.two_steps import (
     largest_gap,
     observed_order,
 )
-from biped_adrc.scenario.run import execute_twice, walk_scenario
-from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
+from biped_adrc.scenario.walk import (
+    FINE_STEP,
+    Part,
+    execute_twice,
+    refined,
+    walk_in_parts,
+    walk_scenario,
+)
 
 from .made_up_results import outcome
 

@@ -1,6 +1,6 @@
 """`biped-adrc simulate` and `poincare`: one walk, and the stability of one gait under a controller.
 
-Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
+Both make a `Scenario` of the options. `simulate` walks it with `scenario.walk`, once more at half
 the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
 stores the run. `poincare` finds the fixed point of the return map and its multipliers
 (`analysis.stability`).
@@ -79,7 +79,7 @@ def _walk(
 
     A walk with motors is carried out again at half the step; only the first one is stored.
     """
-    from biped_adrc.scenario.run import halved, walk_scenario
+    from biped_adrc.scenario.walk import halved, walk_scenario
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with bar(name) as shown:

@@ -28,9 +28,8 @@ from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import Part, runs_in_parts
+from biped_adrc.scenario.walk import Part, method_of, runs_in_parts
 
 
 class Track(NamedTuple):

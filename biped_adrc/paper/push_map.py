@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from biped_adrc.paper.scenarios import CONTROLLERS, MapPush
 from biped_adrc.scenario.recording import Outcome
-from biped_adrc.scenario.run import execute_twice
+from biped_adrc.scenario.walk import execute_twice
 
 WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and the columns of its table."""

@@ -31,8 +31,8 @@ from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.run import execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""

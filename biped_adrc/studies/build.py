@@ -27,8 +27,8 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
+from biped_adrc.scenario.walk import method_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""

@@ -11,9 +11,9 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
 from biped_adrc.scenario.units import unit_of
+from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.run import run_trials
 
 
