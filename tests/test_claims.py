@@ -8,7 +8,7 @@ import pytest
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.paper import members as member_runs
+from biped_adrc.paper import pushes as member_runs
 from biped_adrc.paper import runs
 from biped_adrc.paper.metrics import longest_step
 from biped_adrc.paper.scenarios import (

@@ -19,9 +19,8 @@ from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
-from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
-from biped_adrc.paper.push_map import LOST, PushCell
+from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell, limits_broken
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.two_steps import AtTwoSteps, observed_order
@@ -52,7 +51,7 @@ def adrc_made(pair: Pair) -> AtTwoSteps:
 
 
 def broken(o: Outcome) -> AtTwoSteps:
-    """How many limits of ground and motors a walk breaks, as `members.limits_broken`."""
+    """How many limits of ground and motors a walk breaks, as `pushes.limits_broken`."""
     return at_two(lambda x: limits_broken(x.feasibility), o)
 
 

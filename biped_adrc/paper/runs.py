@@ -23,10 +23,9 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.members import MemberOutcome, member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
-from biped_adrc.paper.push_map import PushCell, push_map
+from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait

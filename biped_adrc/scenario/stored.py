@@ -234,7 +234,7 @@ class Writer:
         """The record of one object; of one that is the user's its class alone."""
         if hasattr(x, "__qualname__"):  # a class or a function itself
             return {"class": home_of(x)}
-        home, names = home_of(type(x)), takes(type(x))
+        home, names = home_of(type(x)), takes(x.__class__)
         if not is_ours(home) or not all(hasattr(x, name) for name in names):
             return {"class": home}
         return {"class": home, "values": {name: self.plain(getattr(x, name)) for name in names}}

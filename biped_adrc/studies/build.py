@@ -84,10 +84,9 @@ def _digits(data: bytes) -> str:
 
 def _source(thing: Callable[..., object]) -> str:
     """Hash of the text of a class or function; "none" where there is no text."""
-    try:
+    with suppress(OSError, TypeError):
         return _digits(inspect.getsource(thing).encode())
-    except (OSError, TypeError):
-        return "none"
+    return "none"
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
@@ -95,10 +94,8 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot.name" or not path.is_file():
-        return (path,)
     with suppress(ModelError):  # who loads it says what is wrong
-        return path, load_description(path).urdf
+        return (path, load_description(path).urdf) if name == "robot.name" else (path,)
     return (path,)
 
 
