@@ -132,6 +132,7 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"bandwidth": 3.0}, "did you mean 'controller.observer.bandwidth'"),
         ({"hardware": {"perod": 1e-3}}, "hardware.perod: .* 'hardware.period'"),
         ({"hardware.period": "1 m"}, "'m' is another dimension, expected a unit such as 's'"),
+        ({"hardware.period": "1e999"}, "too large"),
         ({"controller.K_p": -1.0}, "controller.K_p: found -1.0, should be greater than 0"),
         ({"run.impacts": True}, "run.impacts: found True, expected a number"),
         ({"pushes.0.shape": "puls"}, "pushes.0.shape: .*did you mean 'pulse'"),
