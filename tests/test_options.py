@@ -111,21 +111,10 @@ POINCARE = {
     "slope": Row("--set ground.slope=0.03", scenario_field("ground.slope"), 0.03),
     "observer_states": Row("--no-observer-states", same("observer_states"), False),
 }  # fmt: skip
-STATE = ",".join(str(0.1 * k) for k in range(10))
 DESIGN = {
-    "speed": Row("--speed 0.75", same("speed"), 0.75),
-    "through": Row(
-        f"--set through={STATE}",
-        lambda a: a.through and ",".join(f"{x:.1f}" for part in a.through for x in part),
-        ",".join(f"{0.1 * k:.1f}" for k in range(10)),
-    ),
-    "curve": Row("--set curve=bspline", same("curve"), "bspline"),
-    "torque": Row("--set limits.torque=77", same("limits.torque"), 77.0),
-    "friction": Row("--set limits.friction=0.44", same("limits.friction"), 0.44),
-    "impulse_friction": Row(
-        "--set limits.impulse_friction=0.55", same("limits.impulse_friction"), 0.55
-    ),
-    "clearance": Row("--set limits.clearance=0.03", same("limits.clearance"), 0.03),
+    "speed": Row("--speed 0.75", same("request.speed"), 0.75),
+    "curve": Row("--speed 0.5 --set curve=bspline", same("request.curve"), "bspline"),
+    "torque": Row("--speed 0.5 --set limits.torque=77", same("request.limits.torque"), 77.0),
 }
 
 
@@ -164,7 +153,7 @@ STUDY = {
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command("poincare", "scenario.cycle:cycle_of", POINCARE),
-    "gait design": Command("gait design", "analysis.gait_design:design_gait", DESIGN),
+    "gait design": Command("gait design --step 0.4", "gait.design.optimise:optimise", DESIGN),
     "gait import": Command("gait import own.mat", "gait.exchange.importing:import_gait", IMPORT),
     "gait show": Command("gait show published", "analysis.zero_report:zero_report", ZERO),
     "observer": Command("observer", "analysis.observer.report:observer_report", OBSERVER),

@@ -23,7 +23,7 @@ from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell, limits_broken
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.two_steps import AtTwoSteps, observed_order
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]
@@ -189,11 +189,6 @@ def period_gap(pair: tuple[Outcome, Outcome]) -> float:
 def peak_ratio(pair: tuple[Outcome, Outcome]) -> float:
     """Peak error of ADRC over that of NPD."""
     return pair[1].peak_error / pair[0].peak_error
-
-
-def order_of_error(o: Outcome) -> float:
-    """Order in the step of the largest error."""
-    return observed_order(o, lambda x: x.peak_error)
 
 
 def change(i: str, j: str, figures: Sequence[float]) -> float:
