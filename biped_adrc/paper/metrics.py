@@ -35,14 +35,9 @@ def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
     return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
-def share_made(o: Outcome) -> float:
-    """Share of the impacts asked for that are made."""
-    return o.impacts / o.run.run.impacts
-
-
 def made(o: Outcome) -> AtTwoSteps:
-    """The same at both steps."""
-    return at_two(share_made, o)
+    """Share of the impacts asked for that are made."""
+    return at_two(lambda x: x.impacts / x.run.run.impacts, o)
 
 
 def adrc_made(pair: Pair) -> AtTwoSteps:

@@ -41,9 +41,9 @@ from __future__ import annotations
 import itertools
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field
 
 from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import field_of
@@ -107,10 +107,14 @@ def _variable(name: str, value: Any) -> Variable:
     return Variable(range=read_range(name, keys), when=when)
 
 
+Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(value, _variable))]
+"""Variables by name, read with their units."""
+
+
 class Search(Part):
     """What is searched, and how candidates are judged."""
 
-    variables: dict[str, Variable] = Field(min_length=1)
+    variables: Variables = Field(min_length=1)
     objective: Objective
     limits: tuple[Limit, ...] = ()
     """What a candidate has to keep."""
@@ -123,14 +127,6 @@ class Search(Part):
     """Candidates that are walked on the second set."""
     seed: int = Field(default=0, ge=0)
     """Of the sampler."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _read(cls, value: Any) -> Any:
-        """Variables are read with their units."""
-        if isinstance(value, Mapping) and "variables" in value:
-            return {**value, "variables": each(value["variables"], _variable)}
-        return value
 
     @property
     def measures(self) -> tuple[Measure, ...]:

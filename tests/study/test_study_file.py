@@ -123,7 +123,7 @@ SPAN = {"from": 1, "to": 2}
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"variables": {"run.impact": SPAN}}, "search: run.impact: .*'run.impacts'"),
+        ({"variables": {"run.impact": SPAN}}, "search.variables: run.impact: .*'run.impacts'"),
         ({"variables": {"run.seed": SPAN}}, "run.seed is in 'seeds' and in 'search.variables'"),
         ({"objective": {"column": "rms_eror"}}, "search.objective.column: .*'rms_error'"),
         ({"limits": [{"column": "feasible"}]}, "search.limits.0: expected one of least and most"),
