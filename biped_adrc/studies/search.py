@@ -40,7 +40,7 @@ from __future__ import annotations
 
 import itertools
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator, Field
@@ -88,10 +88,11 @@ class Variable(Part):
         """The first choice, or the middle of the range."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
-    def acts(self, values: Values) -> bool:
-        """Whether it has an effect beside these values of a scenario."""
+    def acts(self, values: Values, free: Collection[str] = ()) -> bool:
+        """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
         return all(
-            values.get(name, field_of(name).default) in those for name, those in self.when.items()
+            name in free or values.get(name, field_of(name).default) in those
+            for name, those in self.when.items()
         )
 
 
@@ -141,14 +142,7 @@ class Search(Part):
 
     def acting(self, values: Values) -> dict[str, Variable]:
         """The variables that may have an effect beside these values, which no variable changes."""
-        fixed = {name: x for name, x in values.items() if name not in self.variables}
-        return {
-            name: v
-            for name, v in self.variables.items()
-            if all(
-                n in self.variables or Variable(when={n: x}).acts(fixed) for n, x in v.when.items()
-            )
-        }
+        return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
         """The values of a candidate's scenario: the base, and what was chosen that has an effect."""
