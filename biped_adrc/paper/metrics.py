@@ -230,12 +230,12 @@ def torque_of(name: str, pair: Pair) -> str:
 # -- scenarios -------------------------------------------------------------------------------------
 def headline(r: Results) -> dict[str, Outcome]:
     """The pushed walks, by controller."""
-    return {c: r.headline[c].outcome for c in CONTROLLERS}
+    return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
 
 def adrc_push(r: Results) -> dict[str, Outcome]:
     """The pushed walk under ADRC."""
-    return {"ADRC": r.headline["ADRC"].outcome}
+    return {"ADRC": r.pair("push")[1]}
 
 
 PAIRS = {

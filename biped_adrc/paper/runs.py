@@ -308,10 +308,8 @@ class Results:
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
         """A walk under NPD and under ADRC, of the headline where the name is "push"."""
-        if name == "push":
-            npd, adrc = (self.headline[c].outcome for c in CONTROLLERS)
-        else:
-            npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
+        every = {**self.run_twice, **self.claim_runs}
+        npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:

@@ -137,9 +137,8 @@ def trial_of(s: Scenario) -> Trial:
         "run.fine is a step besides, expected none": s.run.fine is not None,
         f"run.engine is '{s.run.engine}', expected '{COMPILED}'": s.run.engine != COMPILED,
     }
-    if any(wrong.values()):
-        result = "; ".join(text for text, is_so in wrong.items() if is_so)
-        raise InputError(f"a study walks in sampled time, with one step, compiled: {result}")
+    if found := "; ".join(text for text, is_so in wrong.items() if is_so):
+        raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
     scene = scene_of(s)
     q, v = start(s, scene)
     walker, mode = build(s, scene), Mode(s.run.first_step)
