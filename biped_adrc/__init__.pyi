@@ -74,11 +74,11 @@ from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
-from biped_adrc.scenario.run import walk_scenario as walk_scenario
 from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
+from biped_adrc.scenario.walk import walk_scenario as walk_scenario
 from biped_adrc.studies.carry import study as study
 
 __version__: str

@@ -12,8 +12,8 @@ from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.core.files import write_bytes
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.placement import Clip
 from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure

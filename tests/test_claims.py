@@ -8,7 +8,7 @@ import pytest
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.paper import members as member_runs
+from biped_adrc.paper import pushes as member_runs
 from biped_adrc.paper import runs
 from biped_adrc.paper.metrics import longest_step
 from biped_adrc.paper.scenarios import (
@@ -16,9 +16,7 @@ from biped_adrc.paper.scenarios import (
     GAITS,
     Member,
     declared,
-    loose,
     members,
-    on_torso,
     plain,
 )
 from biped_adrc.paper.table import (
@@ -283,21 +281,6 @@ def test_what_gait_b_needs_of_ground_and_motors():
     assert b.peak_torque == pytest.approx(315.0, rel=0.01)
     found = runs.jumps("identified")
     assert found["published"] < 1e-9 < 1.0 < found["recipe"]
-
-
-def test_a_torque_on_the_torso_slows_both_controllers_alike():
-    npd, adrc = (
-        runs.walk_scenario(
-            loose(
-                c, "tac2003", 1e-3, pushes=(on_torso(20.0),), run={"first_step": 19, "impacts": 4}
-            )
-        ).outcome
-        for c in CONTROLLERS
-    )
-    assert npd.walked
-    assert adrc.walked
-    assert adrc.durations == pytest.approx(npd.durations, rel=2e-3)
-    assert adrc.peak_error < 0.5 * npd.peak_error
 
 
 def test_a_tracking_error_decays_by_the_gains_of_table_two():

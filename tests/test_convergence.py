@@ -18,10 +18,16 @@ from biped_adrc.paper.two_steps import (
     AGREE,
     error_text,
     largest_gap,
-    observed_order,
+    order_of_error,
 )
-from biped_adrc.scenario.run import execute_twice, walk_scenario
-from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
+from biped_adrc.scenario.walk import (
+    FINE_STEP,
+    Part,
+    execute_twice,
+    refined,
+    walk_in_parts,
+    walk_scenario,
+)
 
 from .made_up_results import outcome
 
@@ -93,7 +99,7 @@ def test_the_observed_order(limit, order):
     """Of a quantity whose error is (h / h_0)^order."""
     one, half, quarter = (walked(peak_error=limit + 2.0 ** (-order * k)) for k in (1, 2, 3))
     o = replace(one, half=replace(half, half=quarter))
-    assert observed_order(o, lambda o: o.peak_error) == pytest.approx(order)
+    assert order_of_error(o) == pytest.approx(order)
 
 
 def test_fine_steps_go_where_a_push_switches(biped, gait):

@@ -61,10 +61,6 @@ PYTHON = {
     "a method in words": (lambda r: r.walk(method="RK4"), "RK4(1e-3)"),
     "one number for errors of masses": (lambda r: r.biped.with_errors(mass=1.2), "{'torso': 1.2}"),
     "a scenario as a walker": (lambda r: ba.walk(ba.Scenario("NPD")), "expected a Walker"),
-    "a misspelt gain": (
-        lambda r: ba.walk_scenario(ba.Scenario({"name": "NPD", "Kp": 0.1})),
-        "did you mean 'K_p'",
-    ),
     "a gait for a passive cycle": (
         lambda r: cycle_of(ba.Scenario("passive", robot="compass", gait="v0.8")),
         "no motors",

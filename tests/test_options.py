@@ -7,12 +7,14 @@ they have to be, and the value. The same place has to hold another value without
 from __future__ import annotations
 
 import importlib
+import shlex
 from collections.abc import Callable
 from functools import reduce
 from inspect import signature
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
+from unittest.mock import patch
 
 import pytest
 import typer.main
@@ -26,38 +28,24 @@ class Reached(BaseException):
     """Ends a command where the function that is looked at has been called; no command catches it."""
 
 
-def owner_of(place: str) -> tuple[Any, str]:
-    """The module or class, and the name in it, of "module:name" below biped_adrc."""
-    module, _, path = place.partition(":")
-    *inner, name = path.split(".")
-    return reduce(getattr, inner, importlib.import_module(f"biped_adrc.{module}")), name
-
-
 def received(words: list[str], place: str) -> SimpleNamespace:
-    """The arguments, by name, with which a command line calls the function at `place`."""
-    found: dict[str, Any] = {}
-    with pytest.MonkeyPatch.context() as patch:
-        owner, name = owner_of(place)
-        of = signature(getattr(owner, name))
-
-        def spy(*arguments: object, **named: object) -> None:
-            bound = of.bind(*arguments, **named)
-            bound.apply_defaults()
-            found.update(bound.arguments)
-            raise Reached
-
-        patch.setattr(owner, name, spy)
-        with pytest.raises(Reached):
-            TOP.main(words, standalone_mode=False)
-    return SimpleNamespace(**found)
+    """The arguments, by name, with which a command line calls the function "module:name" below biped_adrc."""
+    module, _, name = place.partition(":")
+    owner = importlib.import_module(f"biped_adrc.{module}")
+    of = signature(getattr(owner, name))
+    with patch.object(owner, name, side_effect=Reached) as spy, pytest.raises(Reached):
+        TOP.main(words, standalone_mode=False)
+    bound = of.bind(*spy.call_args.args, **spy.call_args.kwargs)
+    bound.apply_defaults()
+    return SimpleNamespace(**bound.arguments)
 
 
-class Row:
+class Row(NamedTuple):
     """words: of the option. of: where its value has to be. value: what it has to be there."""
 
-    def __init__(self, words: str | list[str], of: Callable[[Any], object], value: object) -> None:
-        self.words = words.split() if isinstance(words, str) else words
-        self.of, self.value = of, value
+    words: str
+    of: Callable[[Any], object]
+    value: object
 
 
 class Command(NamedTuple):
@@ -66,10 +54,6 @@ class Command(NamedTuple):
     words: str
     at: str
     rows: dict[str, Row]
-
-
-def scenario_field(name: str) -> Callable[[Any], object]:
-    return lambda a: reduce(getattr, name.split("."), a.s)
 
 
 def same(name: str) -> Callable[[Any], object]:
@@ -81,51 +65,40 @@ ROBOT_ROWS = {
     "preset": Row("--preset tac2003", same("biped.preset"), "tac2003"),
 }
 SIMULATE = {
-    "scenario": Row("--scenario best.toml", scenario_field("controller.K_d"), 33.0),
-    "controller": Row("--controller npd", scenario_field("controller.name"), "NPD"),
-    "gait": Row("--gait recipe", scenario_field("gait.name"), "recipe"),
-    "impacts": Row("--impacts 5", scenario_field("run.impacts"), 5),
-    "period": Row(["--period", "2 ms"], scenario_field("hardware.period"), 0.002),
-    "torque_limit": Row("--torque-limit 80Nm", scenario_field("hardware.torque_limit"), 80.0),
-    "plant": Row("--plant mujoco", scenario_field("ground.plant"), "mujoco"),
-    "engine": Row("--engine pinocchio", scenario_field("run.engine"), "pinocchio"),
+    "scenario": Row("--scenario best.toml", same("s.controller.K_d"), 33.0),
+    "controller": Row("--controller npd", same("s.controller.name"), "NPD"),
+    "gait": Row("--gait recipe", same("s.gait.name"), "recipe"),
+    "impacts": Row("--impacts 5", same("s.run.impacts"), 5),
+    "period": Row("--period '2 ms'", same("s.hardware.period"), 0.002),
+    "torque_limit": Row("--torque-limit 80Nm", same("s.hardware.torque_limit"), 80.0),
+    "plant": Row("--plant mujoco", same("s.ground.plant"), "mujoco"),
+    "engine": Row("--engine pinocchio", same("s.run.engine"), "pinocchio"),
     "push": Row(
         "--push q1=5@3:0.1-0.2",
         lambda a: [p.in_words() for p in a.s.pushes],
         ["5 N m on q1 from 0.1 to 0.2 s in single support 3"],
     ),
-    "sets": Row(["--set", "run.max_step_time=900 ms"], scenario_field("run.max_step_time"), 0.9),
-    "a record's name": Row("--set hardware=rabbit", scenario_field("hardware.profile"), "rabbit"),
+    "sets": Row("--set 'run.max_step_time=900 ms'", same("s.run.max_step_time"), 0.9),
+    "a record's name": Row("--set hardware=rabbit", same("s.hardware.profile"), "rabbit"),
     "poles": Row(
         "--set controller.observer.poles=-1,-2,-3",
-        scenario_field("controller.observer.poles"),
+        same("s.controller.observer.poles"),
         (-1.0, -2.0, -3.0),
     ),
     "limits": Row("--set limits.friction=0.4", same("limits.friction"), 0.4),
-    "own": Row("--set controller.own=[1,2]", scenario_field("controller.own"), {"own": (1, 2)}),
+    "own": Row("--set controller.own=[1,2]", same("s.controller.own"), {"own": (1, 2)}),
     "end_infeasible": Row("--end-infeasible", same("end_infeasible"), True),
     "out": Row("-o own.csv", same("out"), Path("own.csv")),
     "log": Row("--period 0.002 --log own", same("log"), Path("own.csv")),
 }
 POINCARE = {
-    "slope": Row("--set ground.slope=0.03", scenario_field("ground.slope"), 0.03),
+    "slope": Row("--set ground.slope=0.03", same("s.ground.slope"), 0.03),
     "observer_states": Row("--no-observer-states", same("observer_states"), False),
 }  # fmt: skip
-STATE = ",".join(str(0.1 * k) for k in range(10))
 DESIGN = {
-    "speed": Row("--speed 0.75", same("speed"), 0.75),
-    "through": Row(
-        f"--set through={STATE}",
-        lambda a: a.through and ",".join(f"{x:.1f}" for part in a.through for x in part),
-        ",".join(f"{0.1 * k:.1f}" for k in range(10)),
-    ),
-    "curve": Row("--set curve=bspline", same("curve"), "bspline"),
-    "torque": Row("--set limits.torque=77", same("limits.torque"), 77.0),
-    "friction": Row("--set limits.friction=0.44", same("limits.friction"), 0.44),
-    "impulse_friction": Row(
-        "--set limits.impulse_friction=0.55", same("limits.impulse_friction"), 0.55
-    ),
-    "clearance": Row("--set limits.clearance=0.03", same("limits.clearance"), 0.03),
+    "speed": Row("--speed 0.75", same("request.speed"), 0.75),
+    "curve": Row("--speed 0.5 --set curve=bspline", same("request.curve"), "bspline"),
+    "torque": Row("--speed 0.5 --set limits.torque=77", same("request.limits.torque"), 77.0),
 }
 
 
@@ -164,7 +137,7 @@ STUDY = {
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command("poincare", "scenario.cycle:cycle_of", POINCARE),
-    "gait design": Command("gait design", "analysis.gait_design:design_gait", DESIGN),
+    "gait design": Command("gait design --step 0.4", "gait.design.optimise:optimise", DESIGN),
     "gait import": Command("gait import own.mat", "gait.exchange.importing:import_gait", IMPORT),
     "gait show": Command("gait show published", "analysis.zero_report:zero_report", ZERO),
     "observer": Command("observer", "analysis.observer.report:observer_report", OBSERVER),
@@ -186,6 +159,6 @@ def folder(tmp_path, monkeypatch):
 def test_an_option_is_the_argument_it_says(name, option, folder):
     command = COMMANDS[name]
     row, words = command.rows[option], command.words.split()
-    assert row.of(received([*words, *row.words], command.at)) == row.value
+    assert row.of(received([*words, *shlex.split(row.words)], command.at)) == row.value
     if row.words:
         assert row.of(received(words, command.at)) != row.value, "the row cannot fail"

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from biped_adrc.gait.constraint import continued
-from biped_adrc.paper.push_map import Fate, PushCell, push_map
+from biped_adrc.paper.pushes import Fate, PushCell, push_map
 from biped_adrc.paper.reproduction import _map
 from biped_adrc.paper.scenarios import MapPush
-from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.walk import walk_scenario
 
 FEASIBLE = Fate("feasible", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("infeasible", "COMPLETED", 50.0, 0.8, 0.5)

@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.cli.study import lines
-from biped_adrc.core import errors
 from biped_adrc.core.processes import Timed
 from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.published import X_STAR
@@ -24,6 +23,11 @@ from biped_adrc.paper.table import checks
 from biped_adrc.paper.two_steps import AtTwoSteps
 
 from .made_up_results import CERTIFICATE, cycle, head, outcome, results
+
+
+def away(off):
+    """States before the impacts of a walk that misses x* by so much."""
+    return np.tile(X_STAR + np.eye(10)[3] * off, (9, 1))
 
 
 def broken(**odd):
@@ -48,25 +52,12 @@ def test_a_ratio_just_over_the_limit(ratio, count):
     assert len([name for name in ratios if name.startswith("sine: peak")]) == count
 
 
-@pytest.mark.parametrize("kind", ["masses", "masses and inertias"])
-@pytest.mark.parametrize(("ratio", "count"), [(0.99, 0), (1.0, 1), (1.01, 1), (math.nan, 1)])
-def test_a_heavier_plant_has_to_be_tracked_better(kind, ratio, count):
-    found = broken(runs={f"heavier, {kind} ADRC": outcome("ADRC", 1e-2 * ratio)})
-    assert len([name for name in found if name.startswith(f"heavier, {kind}: peak")]) == count
-
-
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
 def test_a_fall(controller):
     fallen = outcome(controller, impacts=8, x_minus=np.tile(X_STAR, (8, 1)))
     assert broken(runs={f"1 kHz {controller}": fallen})
     found = broken(runs={f"nominal identified {controller}": fallen})
     assert [name for name in found if "distance to x*" in name]
-
-
-@pytest.mark.parametrize(("off", "count"), [(6e-4, 1), (4e-4, 0)])
-def test_a_walk_away_from_x_star(off, count):
-    away = np.tile(X_STAR + np.eye(10)[3] * off, (9, 1))
-    assert len(broken(runs={"nominal identified NPD": outcome("NPD", x_minus=away)})) == count
 
 
 @pytest.mark.parametrize(
@@ -89,6 +80,11 @@ def test_a_step_that_is_no_step_of_the_gait(odd):
 @pytest.mark.parametrize(
     ("odd", "count"),
     [
+        ({"runs": {"heavier, masses ADRC": outcome("ADRC", 1.01e-2)}}, 1),
+        ({"runs": {"heavier, masses and inertias ADRC": outcome("ADRC", 1e-2)}}, 1),
+        ({"runs": {"heavier, masses ADRC": outcome("ADRC", 0.99e-2)}}, 0),
+        ({"runs": {"nominal identified NPD": outcome("NPD", x_minus=away(6e-4))}}, 1),
+        ({"runs": {"nominal identified NPD": outcome("NPD", x_minus=away(4e-4))}}, 0),
         ({"engines": {"NPD": 2e-6}}, 1),
         ({"engines": {"NPD": math.inf}}, 1),
         ({"model": {"identified": dict.fromkeys(results().model["identified"], 2e-12)}}, 2),
@@ -170,11 +166,6 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
 def test_a_check_holds_up_to_its_limit(check, inside, outside):
     assert [check(x).holds for x in inside] == [True] * len(inside)
     assert [check(x).holds for x in outside] == [False] * len(outside)
-
-
-def test_errors_have_the_exit_codes_of_the_help():
-    codes = {"BipedError": 3, "InputError": 3, "GaitError": 3, "ModelError": 3, "OutputError": 5}
-    assert {name: getattr(errors, name).exit_code for name in codes} == codes
 
 
 # -- what is planned --------------------------------------------------------------------------------

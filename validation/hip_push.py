@@ -26,8 +26,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import find
-from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import walk_scenario
 from validation.forced_steps import stopping_force
 
 STANCE_KNEE = (0.0, 0.0, 1.0, 0.0)

@@ -21,7 +21,7 @@ from biped_adrc.core.errors import BipedError, OutputError
 
 __all__ = ["app", "main"]
 
-COMMANDS = ("controller", "gait", "look", "robot", "study", "walk")
+COMMANDS = ("controller", "gait", "robot", "study", "walk")
 """Modules, each of which adds its commands to the app, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")

@@ -1,14 +1,16 @@
 """`biped-adrc gait`: design, show, export, import.
 
 Each command checks the name of its output first, then loads robot and gait and calls one function:
-`analysis.gait_design.design_gait`, which solves the programme with IPOPT and certifies the gait by
+`analysis.gait_design`, which solves the programme with IPOPT and certifies the gait by
 walking it; `gait.exchange` for files of other programs; `analysis.zero_report` for the zero dynamics.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,27 +34,13 @@ from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
-    from biped_adrc.gait.design.request import StepLimits
+    from biped_adrc.gait.design.request import GaitRequest, StepLimits
     from biped_adrc.model.biped import Biped
 
 gait_app = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
 )
 app.add_typer(gait_app, name="gait")
-
-
-@dataclass(frozen=True)
-class Curves:
-    """What --set says of a design besides `limits.NAME` (`gait.design.request.StepLimits`)."""
-
-    curve: str = "bezier"
-    """Kind of the curves, of the registry: bezier or bspline."""
-    degree: int = 6
-    """One less than they have coefficients."""
-    nodes: int = 24
-    """Gauss nodes at which the limits are kept."""
-    through: tuple[float, ...] | None = None
-    """Pre-impact state q-, q'- (2 n numbers) that the orbit passes, in place of speed and step."""
 
 
 @gait_app.command("design")
@@ -70,13 +58,17 @@ def gait_design(
     out: Path | None = None,
 ) -> None:
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
-    from biped_adrc.gait.design.request import StepLimits
+    from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
     from biped_adrc.model.biped import Biped
 
     of_limits = [text for text in sets or () if text.startswith("limits.")]
-    c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
+    others = [text for text in sets or () if text not in of_limits]
     limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if steps is not None:
+        if others:
+            raise InputError(
+                f"--set {others[0]}: a family takes limits alone, as limits.torque=100"
+            )
         _family(Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
         return
     if speeds is None:
@@ -84,36 +76,36 @@ def gait_design(
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = Biped.load(robot, preset)
-    how: dict[str, Any] = {"slope": slope, "objective": minimise, "limits": limits, **vars(c)}
-    if c.through is not None:
-        how["through"] = c.through[: biped.n], c.through[biped.n :]
+    fixed: dict[str, Any] = {"slope": slope, "objective": Objective(minimise), "limits": limits}
+    request = partial(with_sets, GaitRequest, others, **fixed)
     if speeds is not None:
-        _library(biped, speeds, how, Path("gait-library") if out is None else out)
+        _library(biped, speeds, request, Path("gait-library") if out is None else out)
         return
-    result = _design(biped, speed, step, **how)
+    result = _design(biped, request(speed=speed, step=step))
     console.print(result.text(), highlight=False)
     path = out or Path(result.gait.file_name)
     result.gait.save(path)
     say_written(path)
 
 
-def _design(biped: Biped, speed: float | None, step: float | None, **how: Any) -> DesignedGait:
-    """The gait that `design_gait` finds, with this command line in its provenance."""
-    from biped_adrc.analysis.gait_design import design_gait
+def _design(biped: Biped, request: GaitRequest) -> DesignedGait:
+    """The gait that is asked for, certified, with this command line in its provenance."""
+    from biped_adrc.analysis.gait_design import certify
+    from biped_adrc.gait.design.optimise import optimise
 
-    with console.status("IPOPT designs a gait" + (f" for {speed:g} m/s" if speed else "")):
-        result = design_gait(biped, speed, step, **how)
+    with console.status(f"IPOPT designs a gait for {request.in_words()}"):
+        result = certify(biped, request, optimise(biped, request))
     provenance = {**result.gait.provenance, "command": command()}
     return replace(result, gait=replace(result.gait, provenance=provenance))
 
 
-def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
+def _library(biped: Biped, speeds: str, request: Callable[..., GaitRequest], out: Path) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
     check_folder(out)
     rows, missed = [], []
     for speed in _numbers(speeds):
         try:
-            result = _design(biped, speed, None, **how)
+            result = _design(biped, request(speed=speed, step=None))
         except GaitError as error:
             missed.append(f"{speed:g} m/s: {error}")
             continue

@@ -1,13 +1,18 @@
-"""`biped-adrc simulate` and `poincare`: one walk, and the stability of one gait under a controller.
+"""`biped-adrc simulate`, `poincare`, `animate`, `plot` and `play`: one walk, its stability, and its pictures.
 
-Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
-the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
-stores the run. `poincare` finds the fixed point of the return map and its multipliers
-(`analysis.stability`).
+`simulate` and `poincare` make a `Scenario` of the options. `simulate` walks it with `scenario.walk`, once more
+at half the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
+stores the run. `poincare` finds the fixed point of the return map and its multipliers (`analysis.stability`).
+
+`animate` draws the robot (`view.export`), `plot` its signals (`paper.figures`). Runs are read as they
+are, without walking again, also runs of a user's own controller that is not at hand. The page of
+`play` is that of `extras.play.page`.
 """
 
 from __future__ import annotations
 
+import tempfile
+import webbrowser
 from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
@@ -20,6 +25,7 @@ from rich.table import Column, Table
 
 from biped_adrc.cli.app import (
     EXIT_FELL,
+    FIGURES,
     app,
     bar,
     console,
@@ -29,7 +35,7 @@ from biped_adrc.cli.app import (
     say_written,
     target,
 )
-from biped_adrc.cli.options import WALKS, options, scenario_from
+from biped_adrc.cli.options import WALKS, options, scenario_from, with_sets
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.core.types import Array, PlainRecord
 from biped_adrc.hybrid.status import Status
@@ -79,7 +85,7 @@ def _walk(
 
     A walk with motors is carried out again at half the step; only the first one is stored.
     """
-    from biped_adrc.scenario.run import halved, walk_scenario
+    from biped_adrc.scenario.walk import halved, walk_scenario
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with bar(name) as shown:
@@ -213,3 +219,71 @@ def poincare(
     step = nominal_step(cycle, o, limits(s))
     _print_steps([step], [step])
     say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
+
+
+# -- pictures of walks, and a page to push one ------------------------------------------------------
+@app.command()
+@options("animate")
+def animate(
+    run: Path,
+    ghost: list[Path] | None = None,
+    out: Path = Path("walk.html"),
+    start: float | None = None,
+    stop: float | None = None,
+    sets: list[str] | None = None,
+) -> None:
+    """Write the walk as a page, a picture or a strip."""
+    from biped_adrc.scenario.stored import load_walks
+    from biped_adrc.view.export import SUFFIXES, export
+    from biped_adrc.view.placement import Clip
+
+    runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
+    out = target(out, SUFFIXES, runs)
+    walks = load_walks(runs)
+    first, *others = walks
+    export(out, {name: walks[name] for name in (*others, first)}, clip)  # the last is drawn solid
+    say_written(out)
+
+
+@app.command()
+@options("plot")
+def plot(
+    run: Path,
+    beside: list[Path] | None = None,
+    figure: str = "tracking",
+    out: Path = Path("figure.png"),
+) -> None:
+    """Draw the signals of a run."""
+    from biped_adrc.paper.figures import draw
+    from biped_adrc.scenario.stored import load_walks
+    from biped_adrc.view.style import write_figure
+
+    runs = [run, *(beside or [])]
+    out = target(out, FIGURES, runs)
+    write_figure(out, draw(figure, load_walks(runs)))
+    say_written(out)
+
+
+@app.command("play")
+@options("play", *WALKS)
+def play_command(
+    values: PlainRecord,
+    scenario: Path | None = None,
+    sets: list[str] | None = None,
+    ghost: str | None = None,
+    out: Path | None = None,
+) -> None:
+    """Push a walk yourself, on a page with a guided tour; sampled at 1 kHz if not said otherwise."""
+    from biped_adrc.extras.play.page import OTHERS, play
+
+    out = target(out, (".html",), () if scenario is None else (scenario,))
+    s = scenario_from(values, sets, scenario)
+    if s.hardware.period is None:
+        s = s.replace({"hardware.period": 1e-3})
+    ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")
+    others = {ghost: {"controller.name": ghost}, **OTHERS}
+    path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out
+    play(path, s, others)
+    say_written(path)
+    if out is None and not webbrowser.open(path.as_uri()):
+        say("no browser could be opened here: open the page in one")

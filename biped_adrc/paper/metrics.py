@@ -19,12 +19,11 @@ from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
-from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
-from biped_adrc.paper.push_map import LOST, PushCell
+from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell, limits_broken
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.two_steps import AtTwoSteps, observed_order
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]
@@ -36,14 +35,9 @@ def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
     return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
-def share_made(o: Outcome) -> float:
-    """Share of the impacts asked for that are made."""
-    return o.impacts / o.run.run.impacts
-
-
 def made(o: Outcome) -> AtTwoSteps:
-    """The same at both steps."""
-    return at_two(share_made, o)
+    """Share of the impacts asked for that are made."""
+    return at_two(lambda x: x.impacts / x.run.run.impacts, o)
 
 
 def adrc_made(pair: Pair) -> AtTwoSteps:
@@ -52,7 +46,7 @@ def adrc_made(pair: Pair) -> AtTwoSteps:
 
 
 def broken(o: Outcome) -> AtTwoSteps:
-    """How many limits of ground and motors a walk breaks, as `members.limits_broken`."""
+    """How many limits of ground and motors a walk breaks, as `pushes.limits_broken`."""
     return at_two(lambda x: limits_broken(x.feasibility), o)
 
 
@@ -192,11 +186,6 @@ def peak_ratio(pair: tuple[Outcome, Outcome]) -> float:
     return pair[1].peak_error / pair[0].peak_error
 
 
-def order_of_error(o: Outcome) -> float:
-    """Order in the step of the largest error."""
-    return observed_order(o, lambda x: x.peak_error)
-
-
 def change(i: str, j: str, figures: Sequence[float]) -> float:
     """|figure i / figure j - 1|."""
     return abs(figures[int(i)] / figures[int(j)] - 1.0)
@@ -241,12 +230,12 @@ def torque_of(name: str, pair: Pair) -> str:
 # -- scenarios -------------------------------------------------------------------------------------
 def headline(r: Results) -> dict[str, Outcome]:
     """The pushed walks, by controller."""
-    return {c: r.headline[c].outcome for c in CONTROLLERS}
+    return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
 
 def adrc_push(r: Results) -> dict[str, Outcome]:
     """The pushed walk under ADRC."""
-    return {"ADRC": r.headline["ADRC"].outcome}
+    return {"ADRC": r.pair("push")[1]}
 
 
 PAIRS = {

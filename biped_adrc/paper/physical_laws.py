@@ -38,7 +38,7 @@ from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.paper.scenarios import pushed_steps, scenario
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.walk import walk_scenario
 
 
 def model_laws(preset: str, samples: int = 200, seed: int = 1) -> dict[str, float]:

@@ -30,7 +30,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.poincare import regression_of
-from biped_adrc.paper.push_map import WORDS, PushCell
+from biped_adrc.paper.pushes import WORDS, PushCell
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan

@@ -23,16 +23,15 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.members import MemberOutcome, member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
-from biped_adrc.paper.push_map import PushCell, push_map
+from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.run import execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
@@ -309,10 +308,8 @@ class Results:
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
         """A walk under NPD and under ADRC, of the headline where the name is "push"."""
-        if name == "push":
-            npd, adrc = (self.headline[c].outcome for c in CONTROLLERS)
-        else:
-            npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
+        every = {**self.run_twice, **self.claim_runs}
+        npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:

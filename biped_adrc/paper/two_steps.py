@@ -8,12 +8,11 @@ walks are themselves round-off. Outcomes (`scenario.recording.Outcome`) hold the
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.scenario.recording import Outcome
 
 AGREE, ROUND_OFF = 0.01, 1e-9
@@ -79,35 +78,26 @@ RMS_RESOLUTION = 2e-10
 """The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
 
 
-def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
-    """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
+def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
+    """The figures of merit that are compared, each with the resolution within which two values agree.
 
-    def value(o: Outcome) -> float:
-        x = of(o.feasibility) if o.feasibility.supports else 0.0
-        return 0.0 if x == math.inf else x
-
-    return value
-
-
-def _last(name: str) -> Callable[[Outcome], float]:
-    """A value of the last step's certificate; 0 where no step was finished."""
-    return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
-
-
-QUANTITIES: tuple[tuple[Callable[[Outcome], float], float], ...] = (
-    (lambda o: o.peak_error, PEAK_RESOLUTION),
-    (lambda o: o.rms_error, RMS_RESOLUTION),
-    (lambda o: o.peak_torque, 0.0),
-    (lambda o: float(np.max(o.durations, initial=0.0)), 0.0),
-    (lambda o: float(np.min(o.durations, initial=math.inf)), 0.0),
-    (_last("joint_work"), 1e-6),  # [J]
-    (_last("energy_lost"), 1e-6),  # [J]
-    (_of_supports(lambda f: f.mean_normal_force), 0.0),
-    # friction has its pole at F_N = 0
-    (_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0), 0.0),
-    (_of_supports(lambda f: f.impulse_ratio), 0.0),
-)
-"""The figures of merit that are compared: of an outcome, and the resolution within which two values agree."""
+    Of forces 0 where no window is long enough to say, and for a ratio at its pole, F_N = 0.
+    """
+    f, last = o.feasibility, o.certificates[-1] if o.certificates else None
+    forces = (f.mean_normal_force, f.mean_friction, f.impulse_ratio) if f.supports else (0.0,) * 3
+    normal, friction, impulse = (0.0 if x == math.inf else x for x in forces)
+    return (
+        (o.peak_error, PEAK_RESOLUTION),
+        (o.rms_error, RMS_RESOLUTION),
+        (o.peak_torque, 0.0),
+        (float(np.max(o.durations, initial=0.0)), 0.0),
+        (float(np.min(o.durations, initial=math.inf)), 0.0),
+        (last.joint_work if last else 0.0, 1e-6),  # [J]
+        (last.energy_lost if last else 0.0, 1e-6),  # [J]
+        (normal, 0.0),
+        (friction if normal > 0.0 else 0.0, 0.0),
+        (impulse, 0.0),
+    )
 
 
 def largest_gap(o: Outcome) -> float:
@@ -120,8 +110,8 @@ def largest_gap(o: Outcome) -> float:
     one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
     if one != half:
         return math.inf
-    gaps = (AtTwoSteps(of(o), of(o.half)).gap(resolution) for of, resolution in QUANTITIES)
-    return max(gaps) if o.walked else 0.0
+    pairs = zip(compared(o), compared(o.half), strict=True)
+    return max(AtTwoSteps(x, y).gap(near) for (x, near), (y, _) in pairs) if o.walked else 0.0
 
 
 WalkEnd = tuple[float, str, int]
@@ -130,25 +120,24 @@ WalkEnd = tuple[float, str, int]
 
 def error_text(end: WalkEnd, half: WalkEnd) -> str:
     """The largest tracking error at both steps, with a hint where the step is too long for it."""
-    errors = end[0], half[0]
-    text = f"{errors[0]:.3e} rad ({errors[1]:.3e} at half the step)"
+    errors = AtTwoSteps(end[0], half[0])
+    text = f"{errors.value:.3e} rad ({errors.at_half:.3e} at half the step)"
     if end[1:] != half[1:]:
         ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
         return f"{text}; {ends}: shorten the step"
-    errors = AtTwoSteps(end[0], half[0])
     if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"
 
 
-def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
-    """Order k of a quantity from the run, its half and its quarter; NaN where a difference is zero.
+def order_of_error(o: Outcome) -> float:
+    """Order k of the largest error in the step, of a run, its half and its quarter; NaN where two are the same.
 
-    k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
+    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|)
     """
     assert o.half is not None
     assert o.half.half is not None
-    first, second, third = of(o), of(o.half), of(o.half.half)
+    first, second, third = (x.peak_error for x in (o, o.half, o.half.half))
     if first == second or second == third:
         return math.nan
     return math.log2(abs(first - second) / abs(second - third))

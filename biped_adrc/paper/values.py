@@ -15,7 +15,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper.poincare import regress_multipliers
-from biped_adrc.paper.push_map import LOST
+from biped_adrc.paper.pushes import LOST
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.two_steps import Extremes

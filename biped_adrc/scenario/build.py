@@ -5,7 +5,7 @@
     start(s, scene)      (q, v) at which the walk begins
 
 The controller always has the nominal robot as its model; the plant differs from it where the scenario asks for
-model errors. Called by `run`, by studies, and by worker processes, which receive the scenario alone.
+model errors. Called by `walk`, by studies, and by worker processes, which receive the scenario alone.
 """
 
 from __future__ import annotations

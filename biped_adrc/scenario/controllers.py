@@ -38,6 +38,8 @@ AROUND = ("contact", "prediction", "feedforward", "inner", "name")
 CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
 """Arguments of constructors that come from elsewhere in a scenario."""
 GAINS = ("K_p", "K_d")
+OF_POLES = ("poles", "bandwidth", "order")
+"""Values of the observer's record that say where its poles are."""
 MAKER = "from_"
 """An observer is made by its constructor, or by a class method whose name begins with this."""
 
@@ -102,10 +104,9 @@ def _values(
     entry, where the record has none; but not with poles, which already say what bandwidth and order would.
     """
     accepted, o = takes(make), c.observer
-    settings = {"poles": o.poles, "bandwidth": o.bandwidth, "order": o.order}
+    settings = {name: x for name in OF_POLES if (x := getattr(o, name)) is not None}
     if o.poles is None:
-        settings |= {name: x for name, x in defaults.items() if settings[name] is None}
-    settings = {name: x for name, x in settings.items() if x is not None}
+        settings = {**defaults, **settings}
     gains = {name: x for name in GAINS if (x := getattr(c, name)) is not None}
     values = {**c.own, **settings, **gains, "solve_theta": c.solve_theta}
     values["reset"] = ResetPolicy(o.reset)

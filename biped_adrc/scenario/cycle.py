@@ -29,8 +29,8 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
+from biped_adrc.scenario.walk import method_of
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""

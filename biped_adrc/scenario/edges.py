@@ -4,7 +4,8 @@ A window of a push is given in the time of one single support. When the impacts 
 is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it
 was asked for, since a push that acts for less time than intended spoils a comparison without any other sign.
 
-An edge is an instant at which a disturbance switches (`Disturbance.switches`).
+An edge is an instant at which a disturbance switches (`Disturbance.switches`), by the number of its single
+support and the time [s] from its start; the number 0 is for times from the start of the walk.
 
     the push from 0.1 to 0.3 s in single support 3 was cut by the impact at 0.2531 s
     the push from 0.6 s on in single support 2 did not begin before the impact at 0.5402 s
@@ -35,7 +36,9 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     """
     result = list[str]()
     for part in () if walker.disturbance is None else summands(walker.disturbance):
-        edges = _edges(part)
+        edges = {
+            step: sorted(s for k, s in part.switches if k == step) for step, _ in part.switches
+        }
         remarks = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
         if not remarks and not _acted(part, trajectory, walker.plant.n):
             names = [_name(step, times) for step, times in edges.items()]
@@ -104,7 +107,7 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     split = walker.split(Mode())
     if split is None:
         return ()
-    edges = {step for part in summands(walker.disturbance) for step in _edges(part)}
+    edges = {step for part in summands(walker.disturbance) for step, _ in part.switches}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
     # an edge of step 0 is in time of the walk: it may be in any single support
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
@@ -116,16 +119,6 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
         f"constant of the observer ({1e3 * constant:.2g} ms): the largest errors may be mostly errors of "
         "integration; give a step as short as that, or the compiled engine and no step",
     )
-
-
-def _edges(disturbance: Disturbance) -> dict[int, list[float]]:
-    """Times [s] of the edges by number of the single support, from its start; under 0 from the start of the
-    walk.
-    """
-    edges: dict[int, list[float]] = {}
-    for step, s in disturbance.switches:
-        edges.setdefault(step, []).append(s)
-    return {step: sorted(times) for step, times in edges.items()}
 
 
 def _name(step: int, times: list[float]) -> str:

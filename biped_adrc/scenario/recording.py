@@ -4,7 +4,7 @@ The simulation stores states only. Everything else (references, torques, estimat
 them by the pure functions of the closed loop when it is first asked for, so a walk has all signals without
 having recorded any; those of a stored walk are in its file.
 
-`walk`, `run.walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
+`walk`, `walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
 reproduction of the paper read it.
 
     walk.signals         arrays over time: q, v, u, errors, estimates, ground reaction

@@ -38,12 +38,10 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.shown import call_text
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
-from biped_adrc.scenario.registry import construct, find, known_name, portable, spelled, takes
+from biped_adrc.scenario.registry import construct, find, known_name, portable, takes
 from biped_adrc.scenario.units import in_si, quantity
 
 _T = TypeVar("_T")
-OF_FILES = ("robot", "gait")
-"""Kinds whose names may be those of files."""
 NONE = "none"
 """Text for no value."""
 SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
@@ -257,7 +255,7 @@ def read(what: Described, x: Any) -> Any:
         if x == NONE and NoneType in types:
             return None
         if what.kind:
-            return spelled(what.kind, x) if what.kind in OF_FILES else known_name(what.kind, x)
+            return known_name(what.kind, x)
         if not types:
             result = in_si(x)
             return x if result is None else result

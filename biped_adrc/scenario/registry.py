@@ -10,7 +10,7 @@ constructor takes by name, which is how a new controller gets gains, reference o
 
 What becomes of a name:
 
-    "adrc"             spelled -> "ADRC" -> find -> Entry -> load -> ADRCController -> construct
+    "adrc"             known_name -> "ADRC" -> find -> Entry -> load -> ADRCController -> construct
     "my_law:Mine"      no entry; find -> Entry("my_law:Mine") -> load imports my_law
     register(.., f)    Entry with the object itself; records name it by its module:Class (`portable`)
 """
@@ -133,20 +133,19 @@ def is_own(name: str) -> bool:
     return _OWN.fullmatch(name) is not None
 
 
-def spelled(kind: str, name: str) -> str:
-    """The name as the registry spells it, whatever its capitals, hyphens and underscores; others unchanged."""
-    return next((known for known in names(kind) if _plain(known) == _plain(name)), name)
-
-
 def find(kind: str, name: str) -> Entry:
     """The entry of a name. Raises InputError with the names there are, the nearest first."""
     return REGISTRY[kind].get(known_name(kind, name)) or Entry(name)
 
 
 def known_name(kind: str, name: str) -> str:
-    """The name as `spelled`, or package.module:Class. Raises InputError for others, with the nearest first."""
-    known = spelled(kind, name)
-    if known in REGISTRY[kind] or is_own(known):
+    """The name as the registry spells it, whatever its capitals, hyphens and underscores.
+
+    package.module:Class, and the file of a robot or a gait, are unchanged. Raises InputError for others, with
+    the nearest first.
+    """
+    known = next((x for x in names(kind) if _plain(x) == _plain(name)), name)
+    if known in REGISTRY[kind] or is_own(known) or kind in ("robot", "gait"):
         return known
     raise InputError(
         f"{kind} '{name}': {unknown(name, names(kind))}; one of your own is package.module:Class"

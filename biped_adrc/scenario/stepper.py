@@ -48,9 +48,8 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import check_start, default_method
+from biped_adrc.scenario.walk import check_start, default_method, method_of
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""

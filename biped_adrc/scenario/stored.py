@@ -30,7 +30,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
@@ -230,20 +230,14 @@ class Writer:
             self.records.append(made)
         return self._known[id(x)][0]
 
-    def _record(self, x: object) -> PartRecord:
+    def _record(self, x: Any) -> PartRecord:
         """The record of one object; of one that is the user's its class alone."""
-        home = home_of(type(x))
-        values = {name: self.plain(getattr(x, name)) for name in _names(x) if hasattr(x, name)}
-        if is_ours(home) and values.keys() >= set(_names(x)):
-            return {"class": home, "values": values}
-        return {"class": home_of(x) if hasattr(x, "__qualname__") else home}
-
-
-def _names(x: Any) -> list[str]:
-    """Names of what the constructor of an object takes; none for a class or a function itself."""
-    if is_dataclass(x):
-        return [f.name for f in fields(x) if f.init]
-    return [] if hasattr(x, "__qualname__") else list(takes(x.__class__))
+        if hasattr(x, "__qualname__"):  # a class or a function itself
+            return {"class": home_of(x)}
+        home, names = home_of(type(x)), takes(x.__class__)
+        if not is_ours(home) or not all(hasattr(x, name) for name in names):
+            return {"class": home}
+        return {"class": home, "values": {name: self.plain(getattr(x, name)) for name in names}}
 
 
 @dataclass

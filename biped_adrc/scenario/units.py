@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from typing import NamedTuple
 
 
@@ -79,12 +80,9 @@ def quantity(text: str, unit: str) -> float:
 def in_si(text: str) -> float | None:
     """The number of a text such as "2 mm" in SI units, whatever its unit; None for another text."""
     match = _QUANTITY.fullmatch(text)
-    if match is None or not match[2]:
-        return None
-    try:
-        return _scaled(float(match[1]), unit_of(match[2]).factor)
-    except ValueError:
-        return None
+    with suppress(ValueError):
+        return quantity(text, "") if match and match[2] else None
+    return None
 
 
 def unit_of(text: str) -> Unit:

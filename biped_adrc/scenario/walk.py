@@ -1,30 +1,36 @@
-"""Simulation of one walk from a gait's periodic orbit, by one integration method or by several in turn.
+"""Simulation of one walk by one integration method, or by several in turn.
 
 ADRC's observer answers the edge of a push by a transient of 1 to 2 ms, far shorter than the step that suffices
 elsewhere. A walk is therefore cut at impacts into parts (`Part`), with a fine step in the single supports in
 which the disturbance switches and a usual one in the others; the trajectories are joined.
 
-`walk` is for walkers made in Python, `run.walk_scenario` for scenarios. Both return a `Walk`.
+`walk` is for walkers made in Python, from the orbit of a gait, `walk_scenario` for scenarios. Both return a
+`Walk`. `execute_twice` is what a worker process runs: an `Outcome` of a few numbers, with the same walk at half
+the step, whose difference estimates the error of integration.
 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     made = ba.walk(walker, gait, impacts=8)          # a Walk
     refined(walker, 8, 1, RK4(), RK4(5e-5))          # parts: usual, fine where the push switches, usual
+
+Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
+from the stored state, and a walk starts just after its impact.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
 from types import NoneType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.control.base import Controller
 from biped_adrc.core.checks import check_part, handing_out, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
@@ -32,16 +38,22 @@ from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, OneStepMethod
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.build import plant_around
-from biped_adrc.scenario.recording import Walk
-
-if TYPE_CHECKING:
-    from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.build import (
+    RIGID,
+    RobotAndGait,
+    build,
+    plant_around,
+    plant_step,
+    soft_loop,
+)
+from biped_adrc.scenario.build import start as start_of
+from biped_adrc.scenario.recording import Outcome, Walk
+from biped_adrc.scenario.scenario import FREE, Scenario
 
 
 class Part(NamedTuple):
@@ -52,6 +64,12 @@ class Part(NamedTuple):
     method: OneStepMethod
 
 
+METHODS: dict[str, Callable[..., OneStepMethod]] = {
+    "rk4": RK4,
+    "exponential": Exponential,
+    "adaptive": Adaptive,
+    "stiff": Stiff,
+}
 FINE_STEP = 5e-5
 """[s] of the exponential method where a push switches. After an edge the error of ADRC is a spike of 1 to 2 ms;
 this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five."""
@@ -141,6 +159,48 @@ def refined(
     return tuple(Part(len(list(group)), method) for method, group in groupby(methods))
 
 
+def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
+    """The integration method of a scenario, with its step or tolerance; the walker's default where none is
+    given.
+    """
+    run = s.run
+    if run.method in FREE:
+        return METHODS[run.method](run.tolerance, run.tolerance)
+    method = default_method(walker) if run.method is None else METHODS[run.method]()
+    return method if run.h is None else replace(method, h=run.h)  # type: ignore[type-var]
+
+
+def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
+    """The parts of the walk and their methods: steps of `fine` where a push switches, of h elsewhere [s]."""
+    run = s.run
+    if run.fine is not None:
+        usual, fine = (method_of(s.replace({"run.h": h}), walker) for h in (run.h, run.fine))
+        return refined(walker, run.impacts, run.first_step, usual, fine)
+    if run.h is None and run.method is None:
+        return default_parts(walker, run.impacts, run.first_step, run.engine)
+    return (Part(run.impacts, method_of(s, walker)),)
+
+
+def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
+    """The same scenario with every integration step half as long, to estimate the error of integration.
+
+    A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
+    """
+    run = s.run
+    if s.ground.plant != RIGID:
+        return s.replace({"ground.plant_step": 0.5 * plant_step(s)})
+    if run.method in FREE:
+        return s.replace(run={"method": "adaptive", "tolerance": 1e-2 * run.tolerance})
+    h, fine = run.h, run.fine
+    if h is None:
+        usual = method_of(s, build(s) if walker is None else walker)
+        assert isinstance(usual, RK4 | Exponential)
+        h = usual.h
+        if fine is None and run.method is None and run.engine == COMPILED:
+            fine = FINE_STEP if isinstance(usual, Exponential) else None
+    return s.replace(run={"h": 0.5 * h, "fine": None if fine is None else 0.5 * fine})
+
+
 def walk(
     walker: Walker,
     gait: Gait = None,  # type: ignore[assignment]  # so that a scenario alone is answered in words
@@ -174,18 +234,70 @@ def walk(
     check_part(gait, "the gait of the walk", Gait)
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
-    begin = _begin(gait, walker, start, first_step)
+    check_count(first_step, f"the walk begins in single support {first_step}")
+    if start is None:
+        if (count := len(gait.q_minus)) != (n := walker.nominal.n):
+            raise InputError(
+                f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
+                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot: "
+                "load_gait(name, biped) or design_gait(biped, speed)"
+            )
+        start = gait.start(walker.nominal)
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = stepping_loop(walker, moved, engine, first_step)
-        run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
+        check_start(*start, walker)
+        run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
         result = Walk(walker, gait, run)
     else:
         own_part = None if method is None else (Part(impacts, method),)
         parts = own_part or default_parts(walker, impacts, first_step, engine)
-        result = walk_in_parts(walker, gait, begin, first_step, parts, engine, progress)
+        result = walk_in_parts(walker, gait, start, first_step, parts, engine, progress)
     return result if within is None else result.until_infeasible(within)
+
+
+def walk_scenario(
+    s: Scenario,
+    progress: Progress | None = None,
+    controller: Controller | None = None,
+) -> Walk:
+    """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
+
+    The same scenario gives the same walk in every process: all random numbers come from its seed.
+
+    progress: called as the walk goes on. controller: in place of the scenario's, such as an exported one; the
+    walk then keeps no scenario. A fall is a status of the trajectory, not an error.
+    Raises InputError for values that do not fit together.
+
+    >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
+    >>> walk.outcome.status
+    'COMPLETED'
+    """
+    check_part(s, "what is to walk", Scenario)
+    check_part(controller, "the controller of the walk", Controller, NoneType)
+    scene = RobotAndGait.of(s)
+    walker = build(s, scene)
+    kept = s if controller is None else None
+    if controller is not None:
+        walker = replace(walker, controller=controller)
+    if scene.gait:
+        begin = start_of(s, scene)
+    else:
+        from biped_adrc.scenario.cycle import cycle_start
+
+        begin = cycle_start(scene.biped, walker.slope)
+    first, engine = s.run.first_step, s.run.engine
+    if (loop := soft_loop(s, walker)) is not None:
+        run = walk_on(loop, walker, begin, Mode(first), s.run.impacts, progress)
+        return Walk(walker, scene.gait, run, kept)
+    parts = parts_of(s, walker)
+    return walk_in_parts(walker, scene.gait, begin, first, parts, engine, progress, kept)
+
+
+def execute_twice(s: Scenario) -> Outcome:
+    """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
+    return replace(walk_scenario(s).outcome, half=walk_scenario(halved(s)).outcome)
 
 
 def walk_in_parts(
@@ -248,26 +360,6 @@ def runs_in_parts(
         if not run.status.ok or event is None or event.x_plus is None:
             return
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
-
-
-def _begin(
-    gait: Gait, walker: Walker, start: tuple[Array, Array] | None, first_step: int
-) -> tuple[Array, Array]:
-    """`start`, or the start of the gait, checked.
-
-    Raises InputError, also for no number of a single support, and a gait of a robot with other coordinates.
-    """
-    check_count(first_step, f"the walk begins in single support {first_step}")
-    if start is None:
-        if (count := len(gait.q_minus)) != (n := walker.nominal.n):
-            raise InputError(
-                f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
-                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot: "
-                "load_gait(name, biped) or design_gait(biped, speed)"
-            )
-        start = gait.start(walker.nominal)
-    check_start(*start, walker)
-    return start
 
 
 def check_start(q: Array, v: Array, walker: Walker) -> None:

@@ -27,8 +27,8 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
-from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
+from biped_adrc.scenario.walk import method_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
@@ -84,10 +84,9 @@ def _digits(data: bytes) -> str:
 
 def _source(thing: Callable[..., object]) -> str:
     """Hash of the text of a class or function; "none" where there is no text."""
-    try:
+    with suppress(OSError, TypeError):
         return _digits(inspect.getsource(thing).encode())
-    except (OSError, TypeError):
-        return "none"
+    return "none"
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
@@ -95,10 +94,8 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot.name" or not path.is_file():
-        return (path,)
     with suppress(ModelError):  # who loads it says what is wrong
-        return path, load_description(path).urdf
+        return (path, load_description(path).urdf) if name == "robot.name" else (path,)
     return (path,)
 
 
@@ -140,9 +137,8 @@ def trial_of(s: Scenario) -> Trial:
         "run.fine is a step besides, expected none": s.run.fine is not None,
         f"run.engine is '{s.run.engine}', expected '{COMPILED}'": s.run.engine != COMPILED,
     }
-    if any(wrong.values()):
-        result = "; ".join(text for text, is_so in wrong.items() if is_so)
-        raise InputError(f"a study walks in sampled time, with one step, compiled: {result}")
+    if found := "; ".join(text for text, is_so in wrong.items() if is_so):
+        raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
     scene = scene_of(s)
     q, v = start(s, scene)
     walker, mode = build(s, scene), Mode(s.run.first_step)

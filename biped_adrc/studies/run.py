@@ -17,7 +17,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from itertools import pairwise
 from threading import Lock
 from typing import Any
@@ -30,12 +29,11 @@ from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.soft_steps import contact_errors
 from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.semantics import parts
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array
-from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
+from biped_adrc.engine.batch import BatchWalk, left_by, run_case
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
@@ -101,12 +99,10 @@ def run_trials(records: Sequence[Record]) -> list[WalkRow]:
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
     """The function that carries a trial out, in any thread."""
-    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t.case, t.loop)
-
-
-def _on_other_ground(c: Case, loop: SteppingLoop) -> BatchWalk:
-    """The walk of a case with its controller around another plant than the rigid one."""
-    return left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
+    c, loop = t.case, t.loop
+    if loop is None:
+        return run_case(c)
+    return lambda: left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
@@ -130,6 +126,7 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
     The cost of transport, work / (weight x distance), is None without forward motion.
     """
     s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
+    plant = walker.plant
     row: WalkRow = {
         "status": status,
         "detail": walked.detail,
@@ -145,25 +142,16 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
-        result = _by_table(t, walked, limits(s))
+        n, k, after = Nodes.of_table(walked.table, plant.p), limits(s).of(plant.description), None
+        if walked.status is Status.COMPLETED:
+            after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
+        judged = supports(walker, n, k, walked.impacts, after)
+        result = counted(n, Feasibility(walked.status, judged, k, walked.impacts))
     else:
         return row
-    weighed = walker.plant.weight * float(row.get("distance") or 0.0)
+    weighed = plant.weight * float(row.get("distance") or 0.0)
     cost = float(result["work"] or 0.0) / weighed if weighed > 0.0 else None
     return row | result | {"cost_of_transport": cost}
-
-
-def _by_table(t: Trial, walked: BatchWalk, limits: Limits) -> WalkRow:
-    """What is counted in a compiled walk."""
-    walker, plant = t.case.walker, t.case.walker.plant
-    assert walked.table is not None
-    n, k = Nodes.of_table(walked.table, plant.p), limits.of(plant.description)
-    after = None
-    if walked.status is Status.COMPLETED:
-        x = walked.final_state
-        after = plant.momentum(x[: plant.n], x[plant.n : 2 * plant.n])
-    result = supports(walker, n, k, walked.impacts, after)
-    return counted(n, Feasibility(walked.status, result, k, walked.impacts))
 
 
 def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:

@@ -40,10 +40,10 @@ from __future__ import annotations
 
 import itertools
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field
 
 from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import field_of
@@ -88,10 +88,11 @@ class Variable(Part):
         """The first choice, or the middle of the range."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
-    def acts(self, values: Values) -> bool:
-        """Whether it has an effect beside these values of a scenario."""
+    def acts(self, values: Values, free: Collection[str] = ()) -> bool:
+        """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
         return all(
-            values.get(name, field_of(name).default) in those for name, those in self.when.items()
+            name in free or values.get(name, field_of(name).default) in those
+            for name, those in self.when.items()
         )
 
 
@@ -107,10 +108,14 @@ def _variable(name: str, value: Any) -> Variable:
     return Variable(range=read_range(name, keys), when=when)
 
 
+Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(value, _variable))]
+"""Variables by name, read with their units."""
+
+
 class Search(Part):
     """What is searched, and how candidates are judged."""
 
-    variables: dict[str, Variable] = Field(min_length=1)
+    variables: Variables = Field(min_length=1)
     objective: Objective
     limits: tuple[Limit, ...] = ()
     """What a candidate has to keep."""
@@ -123,14 +128,6 @@ class Search(Part):
     """Candidates that are walked on the second set."""
     seed: int = Field(default=0, ge=0)
     """Of the sampler."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _read(cls, value: Any) -> Any:
-        """Variables are read with their units."""
-        if isinstance(value, Mapping) and "variables" in value:
-            return {**value, "variables": each(value["variables"], _variable)}
-        return value
 
     @property
     def measures(self) -> tuple[Measure, ...]:
@@ -145,14 +142,7 @@ class Search(Part):
 
     def acting(self, values: Values) -> dict[str, Variable]:
         """The variables that may have an effect beside these values, which no variable changes."""
-        fixed = {name: x for name, x in values.items() if name not in self.variables}
-        return {
-            name: v
-            for name, v in self.variables.items()
-            if all(
-                n in self.variables or Variable(when={n: x}).acts(fixed) for n, x in v.when.items()
-            )
-        }
+        return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
         """The values of a candidate's scenario: the base, and what was chosen that has an effect."""

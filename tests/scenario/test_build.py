@@ -11,9 +11,9 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
 from biped_adrc.scenario.units import unit_of
+from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.run import run_trials
 
 
@@ -132,6 +132,7 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"bandwidth": 3.0}, "did you mean 'controller.observer.bandwidth'"),
         ({"hardware": {"perod": 1e-3}}, "hardware.perod: .* 'hardware.period'"),
         ({"hardware.period": "1 m"}, "'m' is another dimension, expected a unit such as 's'"),
+        ({"hardware.period": "1e999"}, "too large"),
         ({"controller.K_p": -1.0}, "controller.K_p: found -1.0, should be greater than 0"),
         ({"run.impacts": True}, "run.impacts: found True, expected a number"),
         ({"pushes.0.shape": "puls"}, "pushes.0.shape: .*did you mean 'pulse'"),

@@ -16,7 +16,6 @@ SCENARIOS = [
         {"observer": {"poles": (-1.0, -2.0, -3.0)}, "text": 'x"y\n', "flag": True, "t": (1.0, 2)}
     ),
     ba.Scenario(errors={"mass": {"the torso": 1.1}}, robot="three_link"),
-    ba.Scenario({"name": "LESO", "observer": {"bandwidth": 1 / 3}}, run={"impacts": 8}),
 ]
 
 

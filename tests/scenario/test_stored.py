@@ -17,7 +17,6 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
-from biped_adrc.scenario.stored import Reader, Writer
 from tests.commands import command
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}
@@ -154,21 +153,3 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
     save(load(path), path, None, {**beside, "walker": json.dumps(record)})
     with pytest.raises(InputError, match=r"a\.npz"):
         ba.load_walk(path)
-
-
-def test_plain_values_come_back() -> None:
-    values = {
-        "a": (1, [2.5, None]),
-        "b": np.arange(6.0).reshape(2, 3),
-        "c": 1 + 2j,
-        "d": Path("x/y"),
-    }
-    values |= {"e": ba.ResetPolicy.MODEL, "f": np.float64(0.1), "g": np.zeros((0, 4))}
-    writer = Writer()
-    record = json.loads(json.dumps(writer.plain(values)))
-    again = Reader(writer.records).made(record)
-    assert again.keys() == values.keys()
-    for name, x in values.items():
-        np.testing.assert_array_equal(again[name], x) if isinstance(x, np.ndarray) else None
-        assert isinstance(x, np.ndarray) or again[name] == x
-    assert again["g"].shape == (0, 4)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
@@ -61,16 +59,3 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
     assert {name: row[name] for name in rates._fields} == pytest.approx(rates._asdict(), abs=1e-9)
     at_once = {name: x for name, x in values.items() if "touchdown" not in name}
     assert run_trials([at_once])[0]["false_notices"] is None
-
-
-@dataclass(frozen=True)
-class Mine(ByKinematics):
-    """One of the user's."""
-
-    height: float = 2e-3
-
-
-def test_one_of_the_user_s_is_found_by_its_module():
-    scenario = ba.Scenario(hardware={"touchdown": {"name": f"{__name__}:Mine"}}, **USUAL)
-    assert build(scenario).touchdown == Mine()
-    assert scenario.dotted()["hardware.touchdown.name"] == f"{__name__}:Mine"

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from biped_adrc.scenario.units import in_si, quantity
+from biped_adrc.scenario.units import quantity
 
 
 @pytest.mark.parametrize(
@@ -28,21 +28,3 @@ def test_decimal_prefixes_are_exact():
     for k in range(1, 2000):
         assert quantity(f"{k / 100} ms", "s") == float(f"{k / 100}e-3")
         assert quantity(f"{k} us", "s") == float(f"{k}e-6")
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("3 Hz", "'Hz' is another dimension, expected a unit such as 'rad/s'"),
-        ("3 furlong", "'furlong' is not known; units are products such as 'N m'"),
-        ("x", "expected a number"),
-        ("1e999", "too large"),
-    ],
-)
-def test_what_is_no_quantity_is_said(text, message):
-    with pytest.raises(ValueError, match=message):
-        quantity(text, "rad/s")
-
-
-def test_a_value_of_ones_own_is_read_in_si():
-    assert (in_si("2 mm"), in_si("3"), in_si("push.csv")) == (0.002, None, None)

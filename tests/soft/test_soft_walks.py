@@ -14,7 +14,7 @@ from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.ground import SoftGround
-from biped_adrc.scenario.run import halved
+from biped_adrc.scenario.walk import halved
 
 from .loops import SOFT, TICK, loop_on, run_of
 

@@ -3,7 +3,7 @@
 They take plain values and draw any study: rows and columns are names, numbers come with the ends of an
 interval of 95 %, which are NaN where there is none. What is not finite has no mark.
 
-`push_map_figure` draws the map of pushes of the paper's reproduction (`paper.push_map`): how two controllers
+`push_map_figure` draws the map of pushes of the paper's reproduction (`paper.pushes`): how two controllers
 walk on after the same push, over onset, amplitude and joints.
 """
 
