@@ -191,8 +191,5 @@ def until_infeasible(
     cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
     detail = f"single support {arc.mode.step}, {result.t:.4f} s: {result.what}"
     return replace(
-        trajectory,
-        arcs=(*arcs[: result.support], cut),
-        status=Status.INFEASIBLE,
-        detail=detail,
+        trajectory, arcs=(*arcs[: result.support], cut), status=Status.INFEASIBLE, detail=detail
     )

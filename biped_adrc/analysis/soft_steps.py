@@ -126,10 +126,7 @@ def _recorded(arc: Arc) -> Readings:
 
 
 def step_of(
-    r: Readings,
-    friction: float,
-    axes: tuple[Array, Array],
-    level: Array | float = 0.0,
+    r: Readings, friction: float, axes: tuple[Array, Array], level: Array | float = 0.0
 ) -> SoftStep:
     """Measure one single support, from readings at K times.
 
@@ -154,10 +151,7 @@ def step_of(
 
 
 def slipping(
-    force: Array,
-    speed: Array,
-    friction: float,
-    axes: tuple[Array, Array],
+    force: Array, speed: Array, friction: float, axes: tuple[Array, Array]
 ) -> NDArray[np.bool_]:
     """Whether each foot slips (...,), from its force [N] and speed [m/s], each (..., 2).
 

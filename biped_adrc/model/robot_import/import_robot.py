@@ -159,10 +159,7 @@ def record_of(
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
-        "friction": {
-            "viscous": of_moving(reading.viscous),
-            "static": of_moving(reading.static),
-        },
+        "friction": {"viscous": of_moving(reading.viscous), "static": of_moving(reading.static)},
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
     }
