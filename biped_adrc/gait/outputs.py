@@ -12,7 +12,7 @@ Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtua
 Any smooth y(q) is an output too: J = dy/dq and drift = J' q'. `FunctionOutputs` differentiates a Python
 function numerically.
 
-Output controllers (`control.output_adrc`, feedback linearisation) call an `Outputs` object at each evaluation
+Output controllers (`control.adrc`, feedback linearisation) call an `Outputs` object at each evaluation
 and use J and drift to solve y'' for the torque.
 """
 

@@ -36,7 +36,7 @@ from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import Limits
+from biped_adrc.model.robots.robot_toml import Limits
 from biped_adrc.scenario.build import plant_around
 from biped_adrc.scenario.recording import Walk
 
