@@ -2,7 +2,7 @@
 
     (alpha, Theta-) = polynomials in (v, L),   h = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
 
-The map is fitted to a library of designed gaits (`analysis.family_design`). Theta+ is where a step begins, so
+The map is fitted to a library of designed gaits (`analysis.gait_design`). Theta+ is where a step begins, so
 that a step may follow one of another length. With sigma the angular momentum about the stance foot,
 y = sigma^2 at the *decision*, a share DECISION of the step, goes from step to step by
 

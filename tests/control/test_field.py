@@ -11,9 +11,8 @@ from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.adrc import ADRCController, OutputADRCController
 from biped_adrc.control.around import Around
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.npd import NPDController
+from biped_adrc.control.npd import NPDController, PDGravityController
 from biped_adrc.control.npid import NPIDController
-from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
