@@ -55,11 +55,6 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
         return "fell"
     if status is not Status.COMPLETED:
         return "ended"
-    return verdict_of(broken)
-
-
-def verdict_of(broken: Collection[str]) -> str:
-    """Verdict on a walk that made all its steps, a word in `VERDICTS`; broken as for `outcome_of`."""
     if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"

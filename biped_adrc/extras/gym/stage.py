@@ -127,16 +127,6 @@ class LearnerTask(Checked, Shown):
         limit = self.scenario.hardware.torque_limit
         return known if limit is None else known._replace(torque=min(limit, known.torque))
 
-    def rewards(self, squares: Array, goes_on: Array, most: float) -> Array:
-        """Rewards (N,) [1] of N walks, from |e|^2 [rad^2] and |u|^2 [N^2 m^2] (N, 2) and
-        whether each goes on (N,).
-
-        most: u_1^2 [N^2 m^2].
-        """
-        e, u = squares[:, 0] / NEAR**2, squares[:, 1] / most
-        paid: Array = self.alive + self.tracking / (1.0 + e) - self.effort * u
-        return np.where(goes_on, paid, 0.0)
-
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
@@ -241,9 +231,10 @@ class Stage:
 
     def rewards(self) -> Array:
         """Rewards (N,) [1] of the last sample."""
-        squares = self.view[:, self.first + 2 : self.first + 4]
-        most = self.plant.p * self.limits.torque**2
-        return self.task.rewards(squares, self.stepper.codes == 0, most)
+        task, (e, u) = self.task, self.view[:, self.first + 2 : self.first + 4].T
+        e, u = e / NEAR**2, u / (self.plant.p * self.limits.torque**2)
+        paid = task.alive + task.tracking / (1.0 + e) - task.effort * u
+        return np.where(self.stepper.codes == 0, paid, 0.0)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen or diverged (N,), and whether its time or its impacts are over (N,)."""

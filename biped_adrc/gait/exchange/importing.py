@@ -42,7 +42,7 @@ from scipy.io import loadmat, savemat
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_text
+from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_json
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.record import (
@@ -110,8 +110,7 @@ def write_record(record: GaitRecord, path: Path | str) -> None:
         units = {key: unit for key, unit in units.items() if key in entries}
         write_mat(path, {"format": FORMAT, **entries}, units)
     else:
-        text = json.dumps({"format": FORMAT, **plain(entries), "units": units}, indent=1)
-        write_text(path, text + "\n")
+        write_json({"format": FORMAT, **plain(entries), "units": units}, path)
 
 
 def read_record(
