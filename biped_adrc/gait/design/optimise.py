@@ -199,9 +199,8 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
         biped, replace(request, nodes=len(rates)), loose, float(np.sign(rate))
     )
     allowed = dict.fromkeys(ASKED, SPEED)
-    if (
-        limits.clearance is None
-    ):  # the foot may scuff, and is kept up in the second half at the nodes alone
+    # the foot may scuff, and is kept up in the second half at the nodes alone
+    if limits.clearance is None:
         allowed["foot clearance"] = np.inf
     result = programme.missed(flat(x))
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, EXACT)}
