@@ -10,9 +10,9 @@ from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import Measurement as Measurement
-from biped_adrc.control.finite_time import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.footstep import Footstep as Footstep
 from biped_adrc.control.npd import NPDController as NPDController
+from biped_adrc.control.output_npd import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.passive import Passive as Passive
 from biped_adrc.control.reference_reset import ReferenceReset as ReferenceReset
 from biped_adrc.control.stride import StridePI as StridePI
@@ -65,7 +65,7 @@ from biped_adrc.model.ground import StepDown as StepDown
 from biped_adrc.model.ground import uneven_ground as uneven_ground
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf
-from biped_adrc.model.robots.limits import Limits as Limits
+from biped_adrc.model.robots.robot_toml import Limits as Limits
 from biped_adrc.observers.base import ChainObserver as ChainObserver
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy

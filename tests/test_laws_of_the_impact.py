@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from biped_adrc.model import physical as laws
 from biped_adrc.model.contact import LinkMotion
-from biped_adrc.model.robot_import import import_checks as laws
-from biped_adrc.model.robot_import.import_checks import impact_momenta, largest_gaps
+from biped_adrc.model.physical import impact_momenta, largest_gaps
 from biped_adrc.paper.physical_laws import model_laws
 
 

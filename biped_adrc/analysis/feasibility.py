@@ -31,7 +31,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots.limits import SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.robot_toml import SLIP, KnownLimits, Limits
 
 VERDICTS = {
     "infeasible": "not feasible",
@@ -55,11 +55,6 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
         return "fell"
     if status is not Status.COMPLETED:
         return "ended"
-    return verdict_of(broken)
-
-
-def verdict_of(broken: Collection[str]) -> str:
-    """Verdict on a walk that made all its steps, a word in `VERDICTS`; broken as for `outcome_of`."""
     if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"
@@ -196,8 +191,5 @@ def until_infeasible(
     cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
     detail = f"single support {arc.mode.step}, {result.t:.4f} s: {result.what}"
     return replace(
-        trajectory,
-        arcs=(*arcs[: result.support], cut),
-        status=Status.INFEASIBLE,
-        detail=detail,
+        trajectory, arcs=(*arcs[: result.support], cut), status=Status.INFEASIBLE, detail=detail
     )

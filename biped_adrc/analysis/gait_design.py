@@ -3,11 +3,21 @@
 `gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore simulates the
 result under NPD: it has to return to its orbit within RETURNS, and its first step has to keep the limits. The
 result is a `DesignedGait`, gait and proof together.
+
+A family of gaits is a library by speed and step length, and two fits.
+
+    library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve
+    curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
+    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
+
+A step of the family goes from the member that ended the step before to another one (`control.footstep`).
+Along it W, the work of gravity, and J are integrals over Theta (`gait.zero_dynamics`), without a simulation.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,18 +26,22 @@ from numpy.typing import ArrayLike
 from biped_adrc.analysis.certificate import IMPULSE, Certificate, certificates
 from biped_adrc.analysis.signals import signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.control.footstep import StepCurve, step_reset
 from biped_adrc.control.npd import NPDController
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown, columns
+from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
+from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
+from biped_adrc.model.robots.robot_toml import ENDS, WINDOW, KnownLimits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
@@ -153,3 +167,153 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
     effort = optimum.iterations, optimum.seconds
     return DesignedGait(gait, request, optimum.objective, certificate, delta2, gap, *effort)
+
+
+RESERVE = StepLimits(
+    friction=0.42, impulse_friction=0.45, torque=120.0, clearance=0.08, lift_off=0.5
+)
+"""Limits of the library. A step between two members asks for more friction than the members do; the foot comes
+down steeply, so that uneven ground changes the end of a step little."""
+CURVE_DEGREE, STEP_DEGREE = 4, 3
+"""Degrees of the polynomials."""
+OF_LIBRARY = ("method", "curves", "minimised", "limits")
+"""What the provenance of a gait says of all gaits of the library."""
+SAMPLES = 1200
+"""Random steps to which `StepMap` is fitted."""
+NODES = 16
+"""Gauss nodes of each part of a step."""
+
+
+@dataclass(frozen=True)
+class _OnCurve:
+    """A function h of Theta as a curve on which there are configurations."""
+
+    phase: Array
+    h: Callable[[float], tuple[Array, Array, Array]]
+
+
+def library(
+    biped: Biped,
+    speeds: Sequence[float],
+    lengths: Sequence[float],
+    limits: StepLimits = RESERVE,
+    done: Callable[[str], None] = lambda text: None,
+) -> list[tuple[float, float, Gait]]:
+    """Speed [m/s], step length [m] and the gait of least torque, for each pair that has one.
+
+    done: is called with each pair in words. Raises GaitError where fewer pairs have a gait than the fit needs.
+    """
+    least, gaits = (CURVE_DEGREE + 1) * (CURVE_DEGREE + 2) // 2, []
+    if min(len(set(speeds)), len(set(lengths))) <= CURVE_DEGREE:
+        raise GaitError(
+            f"the family has {len(set(speeds))} speeds and {len(set(lengths))} lengths, expected at least "
+            f"{CURVE_DEGREE + 1} of both"
+        )
+    for v in speeds:
+        for L in lengths:
+            try:
+                gait = optimise(biped, GaitRequest(v, L, limits=limits)).gait
+            except GaitError as error:
+                done(f"{v:g} m/s, {L:g} m: none, {error}")
+                continue
+            gaits.append((v, L, gait))
+            done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
+    if len(gaits) < least:
+        raise GaitError(
+            f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; "
+            f"a family needs at least {least}"
+        )
+    return gaits
+
+
+def design_family(
+    name: str,
+    biped: Biped,
+    gaits: Sequence[tuple[float, float, Gait]],
+    provenance: Mapping[str, object],
+    seed: int = 0,
+) -> GaitFamily:
+    """The family through a library of gaits, as `library` returns it.
+
+    provenance: how the library was made, beside what its gaits say. seed: of the random steps.
+    Raises GaitError where a member that was designed has no periodic walk in the family.
+    """
+    mu, first = np.array([(v, L) for v, L, _ in gaits]), gaits[0][2].provenance
+    constraints = [gait.constraint for _, _, gait in gaits]
+    y = [(*c.curve.coefficients.ravel(), c.theta_plus, c.theta_minus) for c in constraints]
+    curves = PolynomialMap.fit(mu, np.array(y), CURVE_DEGREE)
+    empty = PolynomialMap(((0,),), np.zeros((1, 1)), np.zeros(1), np.ones(1))
+    family = GaitFamily(
+        name,
+        biped.description.name,
+        biped.preset,
+        curves,
+        StepMap(empty, empty),
+        constraints[0].phase,
+        mu.min(axis=0),
+        mu.max(axis=0),
+        provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
+    )
+    members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
+    return with_steps(biped, family, members, seed)
+
+
+def with_steps(
+    biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int
+) -> GaitFamily:
+    """The family with its `StepMap`, from random steps, and with the numbers of its members."""
+    random, low, high = np.random.default_rng(seed), family.low, family.high
+    ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (SAMPLES, 5))
+    steps = np.array([step_integrals(biped, family, *x) for x in ends])
+    v, before, L, end, ahead = ends.T
+    to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
+    to_decision = PolynomialMap.fit(
+        np.column_stack((v, before, L, ahead)), steps[:, :-2], STEP_DEGREE
+    )
+    return replace(family, steps=StepMap(to_impact, to_decision), members=members)
+
+
+def step_integrals(
+    biped: Biped, family: GaitFamily, v: float, before: float, L: float, end: float, ahead: float
+) -> Array:
+    """delta^2 after a step, 2 W', J' up to the next decision, dq_b/dTheta (p,) there, 2 W, J after it (p + 5,).
+
+    The first step is L [m] long, follows one of length `before` [m], and ends on the member (v [m/s], L). The
+    next one begins there and ends on the member (end [m/s], ahead [m]).
+    """
+    c, p, mu = family.phase, biped.p, np.array((v, L))
+    earlier = family.member(v, before)
+    plus = float(c @ biped.relabel(configuration(earlier, earlier.theta_minus)[0]))
+    minus = family.curve(mu)[2]
+    q, dq, _ = configuration(_OnCurve(c, lambda theta: family.h(mu, plus, theta)), minus)
+    v_minus = np.sign(minus - plus) * dq
+    impact = biped.impact(q, v_minus)
+    delta = biped.angular_momentum(impact.q, impact.v) / biped.angular_momentum(q, v_minus)
+    start = float(c @ impact.q)
+    slope = impact.v[:p] / float(c @ impact.v)
+    reset = step_reset(family, np.array((v, ahead)), start, impact.q[:p], slope)
+    curve = _OnCurve(c, StepCurve(family, v, end, ahead, start, reset))
+    decision = start + DECISION * (family.curve(np.array((v, ahead)))[2] - start)
+    first = _integrals(biped, curve, start, decision)
+    last = _integrals(biped, curve, decision, family.curve(np.array((end, ahead)))[2])
+    return np.array((delta**2, *first, *slope, *last))
+
+
+def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple[float, float]:
+    """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2] from start to end [rad]."""
+    s, weights, _ = gauss_nodes(NODES)
+    W = J = 0.0
+    for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
+        q, dq, _ = configuration(curve, float(theta))
+        inertia = float(biped.inertia(q)[-1] @ dq)
+        W -= weight * inertia * float(biped.gravity(q)[-1])
+        J += weight * inertia
+    return 2.0 * W, J
+
+
+def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
+    """Of the periodic step of a member: speed, step length, friction, peak torque [N m], least F_N [N]."""
+    orbit = ZeroDynamics.of(biped, h).cycle
+    F_T, F_N = orbit.ground_reaction.T
+    numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)
+    return (v, L, *(round(float(x), 3) for x in numbers))

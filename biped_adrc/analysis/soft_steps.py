@@ -33,7 +33,7 @@ from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.limits import SLIP
+from biped_adrc.model.robots.robot_toml import SLIP
 
 AT_CONE = 0.99
 """Share of mu F_N [1] from which on a tangential force is at the cone; the solver does not come closer."""
@@ -126,10 +126,7 @@ def _recorded(arc: Arc) -> Readings:
 
 
 def step_of(
-    r: Readings,
-    friction: float,
-    axes: tuple[Array, Array],
-    level: Array | float = 0.0,
+    r: Readings, friction: float, axes: tuple[Array, Array], level: Array | float = 0.0
 ) -> SoftStep:
     """Measure one single support, from readings at K times.
 
@@ -154,10 +151,7 @@ def step_of(
 
 
 def slipping(
-    force: Array,
-    speed: Array,
-    friction: float,
-    axes: tuple[Array, Array],
+    force: Array, speed: Array, friction: float, axes: tuple[Array, Array]
 ) -> NDArray[np.bool_]:
     """Whether each foot slips (...,), from its force [N] and speed [m/s], each (..., 2).
 

@@ -41,10 +41,7 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.hybrid.system import Guard, HybridSystem
-from biped_adrc.model.derivatives import (
-    acceleration_derivatives,
-    impact_derivatives,
-)
+from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
 
 TorqueDerivative = Callable[[Instant], Array]
 """A function of an instant of a walk: du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque."""

@@ -82,8 +82,7 @@ def export_command(
 ) -> None:
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
     from biped_adrc.extras.export.computer import Computer
-    from biped_adrc.extras.export.export import export_c
-    from biped_adrc.extras.export.fmu import contents
+    from biped_adrc.extras.export.export import contents, export_c
     from biped_adrc.extras.export.loaded import tried
     from biped_adrc.scenario.build import RobotAndGait, build
 

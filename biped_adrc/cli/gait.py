@@ -126,7 +126,7 @@ def _family(
     biped: Biped, speeds: str | None, steps: str, limits: StepLimits | None, out: Path | None
 ) -> None:
     """Design a gait for every pair of speed and step length, and store the family through them in a file."""
-    from biped_adrc.analysis.family_design import RESERVE, design_family, library
+    from biped_adrc.analysis.gait_design import RESERVE, design_family, library
 
     if speeds is None:
         raise InputError("--steps is given without --speeds; a family needs both")

@@ -147,9 +147,8 @@ class CLFQPController(Controller):
         if solved is not None:
             return to.U @ solved + to.u_0
         limit = math.inf if self.torque_limit is None else self.torque_limit
-        return np.clip(
-            u, -limit, limit
-        )  # each motor by itself: the last resort, after which V may grow
+        # each motor by itself: the last resort, after which V may grow
+        return np.clip(u, -limit, limit)
 
     def allows(self, u: Array, F: Array) -> bool:
         """Whether a torque u (p,) [N m] and a force of the ground F = (F_T, F_N) (2,) [N] keep all limits."""

@@ -39,9 +39,8 @@ def weights(d: float, period: float) -> tuple[Array, Array]:
     d [s]: the delay. period [s]: of the ticks.
     """
     count = math.ceil(d / period - WHOLE)
-    left = np.minimum(
-        np.arange(count, 0, -1) * period, d
-    )  # from the torque's first instant to t + d
+    # from the torque's first instant to t + d
+    left = np.minimum(np.arange(count, 0, -1) * period, d)
     after = np.append(left[1:], 0.0)
     return (left - after) / d, (left**2 - after**2) / d**2
 

@@ -19,9 +19,8 @@ ADRC, its output form and DOB have an observer that is their whole state:
     z <- correct(z, y),     z <- predict(z, input)          at a tick
 
 r is the point of the reference, x^ the observer's estimate. An `ObservingController` defines the observer's
-measurement y, its input, and the torque; observer and reference may be any. `adrc` measures the joints,
-`output_adrc` the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets and time bases included,
-is here once.
+measurement y, its input, and the torque; observer and reference may be any. `adrc` measures the joints or
+the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets and time bases included, is here once.
 """
 
 from __future__ import annotations

@@ -243,6 +243,12 @@ def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> An
         return json.loads(path.read_text(encoding="utf-8"))
 
 
+def write_json(record: Mapping[str, Any], path: Path) -> None:
+    """Write a record as a JSON file, with a line for each key, so that two files are compared easily."""
+    lines = (f'  "{key}": {json.dumps(value)}' for key, value in record.items())
+    write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
+
+
 def plain(value: object) -> Any:
     """Convert a value to types that JSON has, recursively.
 

@@ -18,17 +18,7 @@ from biped_adrc import __version__
 
 SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
-NUMERICAL = (
-    "biped-adrc",
-    "pin",
-    "numpy",
-    "scipy",
-    "casadi",
-    "numba",
-    "llvmlite",
-    "qpsolvers",
-    "daqp",
-)
+NUMERICAL = (*SHOWN[:4], "casadi", "numba", "llvmlite", "qpsolvers", "daqp")
 """Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""

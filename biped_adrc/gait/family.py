@@ -2,7 +2,7 @@
 
     (alpha, Theta-) = polynomials in (v, L),   h = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
 
-The map is fitted to a library of designed gaits (`analysis.family_design`). Theta+ is where a step begins, so
+The map is fitted to a library of designed gaits (`analysis.gait_design`). Theta+ is where a step begins, so
 that a step may follow one of another length. With sigma the angular momentum about the stance foot,
 y = sigma^2 at the *decision*, a share DECISION of the step, goes from step to step by
 
@@ -24,7 +24,7 @@ from typing import Any, Self
 import numpy as np
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import data_folder, output_path, plain, reading, write_text
+from biped_adrc.core.files import data_folder, output_path, plain, reading, write_json
 from biped_adrc.core.part import SETUP, Part, setup
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
@@ -166,9 +166,7 @@ class GaitFamily(Part):
 
     def save(self, path: Path | str) -> None:
         """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
-        record = {"format": FORMAT, **plain(self)}
-        lines = [f'  "{key}": {json.dumps(value)}' for key, value in record.items()]
-        write_text(output_path(Path(path), (".json",)), "{\n" + ",\n".join(lines) + "\n}\n")
+        write_json({"format": FORMAT, **plain(self)}, output_path(path, (".json",)))
 
 
 def load_family(family: str | Path, biped: Biped) -> GaitFamily:

@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import CONTROL, data_folder, output_path, reading, write_text
+from biped_adrc.core.files import CONTROL, data_folder, output_path, reading, write_json
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -168,9 +168,8 @@ class Gait(Shown):
         """Write the gait as a JSON file. Raises InputError for a name that does not end
         in .json, and OutputError.
         """
-        path = output_path(path, (".json",))
         c = self.constraint
-        record: dict[str, Any] = {
+        record = {
             "format": FORMAT,
             "name": self.name,
             "robot": self.robot,
@@ -187,24 +186,7 @@ class Gait(Shown):
             "curve": type(c.curve).__name__.lower(),
             "coefficients": c.curve.coefficients.tolist(),
         }
-        write_text(path, _readable(record))
-
-
-def _readable(record: Mapping[str, Any]) -> str:
-    """JSON text of a record with one line per row of numbers, so that differences of
-    two gait files are readable.
-    """
-    lines = []
-    for key, value in record.items():
-        if key == "coefficients":
-            rows = ",\n    ".join(json.dumps(row) for row in record["coefficients"])
-            lines.append(f'  "{key}": [\n    {rows}\n  ]')
-        elif isinstance(value, dict):
-            inner = ",\n    ".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
-            lines.append(f'  "{key}": {{\n    {inner}\n  }}')
-        else:
-            lines.append(f'  "{key}": {json.dumps(value)}')
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+        write_json(record, output_path(path, (".json",)))
 
 
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:

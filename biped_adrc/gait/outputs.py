@@ -12,7 +12,7 @@ Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtua
 Any smooth y(q) is an output too: J = dy/dq and drift = J' q'. `FunctionOutputs` differentiates a Python
 function numerically.
 
-Output controllers (`control.output_adrc`, feedback linearisation) call an `Outputs` object at each evaluation
+Output controllers (`control.adrc`, feedback linearisation) call an `Outputs` object at each evaluation
 and use J and drift to solve y'' for the torque.
 """
 
@@ -149,13 +149,8 @@ class FunctionOutputs(Outputs):
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = returned(self.function(q), None, self, "function")
-        J = self._slopes(q)
+        J = np.array([_along(self.function, q, _H * e, _SLOPE) / _H for e in np.eye(len(q))]).T
         return OutputPoint(y, J @ v, J, self._bend(q, v))
-
-    def _slopes(self, q: Array) -> Array:
-        """dy/dq (p, n) by central differences."""
-        columns = [_along(self.function, q, _H * e, _SLOPE) / _H for e in np.eye(len(q))]
-        return np.array(columns).T
 
     def _bend(self, q: Array, v: Array) -> Array:
         """J' v (p,): the second derivative of y along v; the step has the length _H, whatever the speed."""

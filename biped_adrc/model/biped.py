@@ -176,27 +176,22 @@ class Biped(Shown):
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
-        """Single-support dynamics (1), from the model pinned at the stance foot."""
-        chain = self._stance_chain()
-        return PinnedDynamics(self.pinned_tree, self.description, chain, self.armature)
+        """Single-support dynamics (1), from the model pinned at the stance foot. Raises ModelError
+        for a wrong base.
+        """
+        d, pitch = self.description, self.tree.joint_above(self.description.trunk)
+        if pitch is None or pitch.name != d.unactuated:
+            raise ModelError(
+                f"URDF '{self.tree.source}': link '{d.trunk}' hangs on "
+                f"'{pitch.name if pitch else 'nothing'}', expected '{d.unactuated}'"
+            )
+        chain = absolute_angles(self.tree, d.joints, [d.stance_foot])[0]
+        return PinnedDynamics(self.pinned_tree, d, chain, self.armature)
 
     @cached_property
     def floating(self) -> FloatingDynamics:
         """Unpinned dynamics (2) and impact (7), from the model with a planar base."""
         return FloatingDynamics(self.tree, self.description, self.armature)
-
-    def _stance_chain(self) -> Array:
-        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates. Raises
-        ModelError for a wrong base.
-        """
-        pitch = self.tree.joint_above(self.description.trunk)
-        if pitch is None or pitch.name != self.description.unactuated:
-            raise ModelError(
-                f"URDF '{self.tree.source}': link '{self.description.trunk}' hangs on "
-                f"'{pitch.name if pitch else 'nothing'}', expected '{self.description.unactuated}'"
-            )
-        foot = self.description.stance_foot
-        return absolute_angles(self.tree, self.description.joints, [foot])[0]
 
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
@@ -333,7 +328,7 @@ class Biped(Shown):
 
     def momentum(self, q: Array, v: Array) -> Array:
         """Linear momentum m p_com' (x, z) (2,) [N s] in single support at (q, q')."""
-        return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v))[1]
+        return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v), 0.0 * v)[1]
 
     def extended_inertia(self, q: Array) -> Array:
         """Inertia matrix D_e(q) (n + 2, n + 2) of the unpinned model (2) in q_e = (q_s, p_e)."""

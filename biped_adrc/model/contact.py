@@ -89,15 +89,9 @@ class FloatingDynamics:
 
     def velocity_map(self, q: Array) -> Array:
         """Jacobian J_e(q) (n + 2, n + 2) from q_e' = (q_s', p_e') to the velocity of the floating
-        model; entries [1] and [m].
+        model, whose base moves such that the stance foot moves with p_e'; entries [1] and [m].
         """
-        return self._velocity_map(self.configuration(q))
-
-    def _velocity_map(self, x: Array) -> Array:
-        """J_e (n + 2, n + 2) at Pinocchio's configuration x (m,): the base moves such that the
-        stance foot moves with p_e'.
-        """
-        J = self._foot_jacobian(x, self.stance)
+        J = self._foot_jacobian(self.configuration(q), self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
         J_e[self.angles, np.arange(self.n)] = 1.0
         J_e[self.base, : self.n] = -J[:, self.angles]
@@ -118,8 +112,7 @@ class FloatingDynamics:
 
     def extended(self, q: Array) -> tuple[Array, Array]:
         """D_e (n + 2, n + 2) [kg m^2, kg] of (2) and E_2 = dp_2/dq_e (2, n + 2) [m] of (4)."""
-        x = self.configuration(q)
-        J_e = self._velocity_map(x)
+        x, J_e = self.configuration(q), self.velocity_map(q)
         D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
         return D_e, self._foot_jacobian(x, self.swing) @ J_e
 

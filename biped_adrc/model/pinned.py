@@ -114,16 +114,8 @@ class PinnedDynamics:
         )
         return J.reshape(6, -1)[XZ] @ self.T  # one coordinate comes without its axis
 
-    def centre_of_mass(
-        self, q: Array, v: Array | None = None, a: Array | None = None
-    ) -> tuple[Array, Array, Array]:
-        """Position [m], velocity [m/s] and acceleration [m/s^2] of the COM, each (x, z) (2,).
-
-        v (n,) [rad/s] and a (n,) [rad/s^2] are zero if they are not given.
-        """
-        zero = np.zeros(self.model.nv)
-        v = zero if v is None else v
-        a = zero if a is None else a
+    def centre_of_mass(self, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
+        """Position [m], velocity [m/s] and acceleration [m/s^2] of the COM, each (x, z) (2,)."""
         pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
         d = self.data
         return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()

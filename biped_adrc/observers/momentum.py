@@ -31,11 +31,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from biped_adrc.observers.base import (
-    equal_poles,
-    mean_bandwidth,
-    stable_poles,
-)
+from biped_adrc.observers.base import equal_poles, mean_bandwidth, stable_poles
 from biped_adrc.observers.gpi import InjectedChain
 
 

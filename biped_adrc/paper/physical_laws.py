@@ -32,8 +32,8 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem, Mode
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.physical import largest_gaps
 from biped_adrc.model.reduction import reduce
-from biped_adrc.model.robot_import.import_checks import largest_gaps
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.paper.scenarios import pushed_steps, scenario
 from biped_adrc.scenario.build import RobotAndGait, build

@@ -2,7 +2,7 @@
 
     .html          an offline page with the animation in Meshcat's viewer (`meshcat.view`)
     .gif           a moving picture from the side (`from_the_side.moving_picture`)
-    .png, .svg     a strip of stick figures (`from_the_side.stick_figures`)
+    .png, .svg     a strip of stick figures (`from_the_side.moving_picture`)
 
 `biped-adrc animate` and `Walk.animate` call `export` with a `Clip` of what is to be shown; each of
 the three takes of it what it can use, and options that it has no use for are refused.
@@ -15,8 +15,7 @@ from pathlib import Path
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import output_path, write_text
-from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
-from biped_adrc.view.from_the_side.stick_figures import write_strip
+from biped_adrc.view.from_the_side.moving_picture import write_moving_picture, write_strip
 from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.placement import Clip, Recorded
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.family_design import library
+from biped_adrc.analysis.gait_design import library
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.family import DECISION, load_family
 from biped_adrc.model.ground import Stones

@@ -21,7 +21,7 @@ from fmpy.fmi2 import (
 from fmpy.validation import validate_fmu
 
 from biped_adrc.extras.export import loaded as loading
-from biped_adrc.extras.export.fmu import contents, fmu_of
+from biped_adrc.extras.export.export import contents, fmu_of
 from biped_adrc.extras.export.loaded import NOT_MEASURED, OK
 from tests.export.calls import recorded
 

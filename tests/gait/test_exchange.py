@@ -10,8 +10,15 @@ import biped_adrc as ba
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.conventions import CONVENTIONS, own_convention
 from biped_adrc.gait.curves import Bezier, Polynomial
-from biped_adrc.gait.exchange.files import RUN_UNITS, export_run, read_mat, read_record
-from biped_adrc.gait.exchange.importing import closing_conventions, export_gait, import_gait
+from biped_adrc.gait.exchange.importing import (
+    RUN_UNITS,
+    closing_conventions,
+    export_gait,
+    export_run,
+    import_gait,
+    read_mat,
+    read_record,
+)
 from biped_adrc.gait.exchange.record import GaitRecord, coordinates, mapped, record_of
 
 

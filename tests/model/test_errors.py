@@ -6,7 +6,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.model.robot_import.import_checks import checks
+from biped_adrc.model.physical import checks
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}

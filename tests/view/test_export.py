@@ -20,9 +20,8 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.export import export
-from biped_adrc.view.from_the_side.moving_picture import encoded, write_moving_picture
+from biped_adrc.view.from_the_side.moving_picture import encoded, strip, write_moving_picture
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.from_the_side.stick_figures import strip
 from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.placement import Clip, WalkScene, ending
 from biped_adrc.view.style import new_figure

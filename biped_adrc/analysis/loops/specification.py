@@ -133,13 +133,8 @@ class Specification(Shown):
         """All numbers by name, none of them NaN: stable [0 or 1], growth [1/s], delay_margin [s],
         disk_margin [1], ripple [N m].
         """
-        return {
-            "stable": float(self.stable),
-            "growth": self.worst.growth,
-            "delay_margin": self.delay_margin,
-            "disk_margin": self.disk_margin,
-            "ripple": self.ripple,
-        }
+        margins = {name: getattr(self, name) for name in ("delay_margin", "disk_margin", "ripple")}
+        return {"stable": float(self.stable), "growth": self.worst.growth, **margins}
 
     def __str__(self) -> str:
         growth, share, robot = self.worst

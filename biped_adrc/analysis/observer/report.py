@@ -241,15 +241,18 @@ class ObserverReport(OnHardware):
             f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of "
             f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"
         )
-        header = (
-            "m",
-            "bandwidth",
-            "limited by",
-            "rms torque",
-            "delay margin",
-            "|e / xi| at 5 Hz [s^2]",
+        return Section(
+            title,
+            (
+                "m",
+                "bandwidth",
+                "limited by",
+                "rms torque",
+                "delay margin",
+                "|e / xi| at 5 Hz [s^2]",
+            ),
+            tuple(rows),
         )
-        return Section(title, header, tuple(rows))
 
 
 def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.errors import InputError, ModelError
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.equations import WalkerNumbers
@@ -56,11 +56,8 @@ class Computer:
 
     @cached_property
     def robot(self) -> PlanarRobot:
-        """The nominal model. Raises InputError for one that is no planar tree of rigid links."""
-        try:
-            return robot_of(self.walker.nominal)
-        except ModelError as reason:
-            raise InputError(f"there is no C of the robot's model: {reason}") from reason
+        """The nominal model."""
+        return robot_of(self.walker.nominal)
 
     @cached_property
     def differences(self) -> Sensors | None:

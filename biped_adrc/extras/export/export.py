@@ -4,11 +4,27 @@
 
 The folder has a header, a source, an example main.c, a Makefile, a README and the licence. What
 cannot be exported is refused with the part that stands in the way.
+
+*An FMU* is the controller as a functional mock-up unit of FMI 2.0, that other simulators step,
+`controller.fmu`:
+
+    fmu = fmu_of(source)         # of a `Source`
+    fmu.data                     # the bytes of the archive
+
+The FMU is the exported C, unchanged, a wrapper with the functions of FMI, the description of its
+ports, a page about it and the licence; and a binary, where there is a C compiler. The same
+source and compiler give the same bytes.
 """
 
 from __future__ import annotations
 
+import hashlib
+import io
+import platform
+import uuid
+import zipfile
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.closed_loop.walker import Walker
@@ -16,10 +32,140 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import OutputError
 from biped_adrc.core.files import write_bytes
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.fmu import fmu_of
-from biped_adrc.extras.export.source import Source, source_of
+from biped_adrc.extras.export.loaded import NO_COMPILER, compiled, compiler
+from biped_adrc.extras.export.source import Source, rendered, source_of
 from biped_adrc.scenario.build import build
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
+
+MACHINES = {("Linux", "x86_64"): "linux64"}
+"""Operating system and processor -> name of FMI 2.0 for the folder of a binary."""
+AS_READ = {True: "read at every step", False: "read at the first step only"}
+"""Whether `step` reads a rate -> text about it in the FMU's description."""
+
+
+@dataclass(frozen=True)
+class Port:
+    """An input or output of an FMU; its place among all is its value reference."""
+
+    name: str
+    """Name as in the header of the C."""
+    causality: str
+    """ "input" or "output"."""
+    kind: str
+    """The XML element with type, unit and start value."""
+    words: str
+    """Description of the port."""
+
+    @property
+    def variability(self) -> str:
+        """ "continuous" for an angle or rate, else "discrete": torques and whole numbers
+        change at sample instants only.
+        """
+        sampled = self.causality == "output" or not self.kind.startswith("<Real")
+        return "discrete" if sampled else "continuous"
+
+
+@dataclass(frozen=True)
+class Fmu:
+    """The files of an FMU, by their path inside."""
+
+    name: str
+    """Name of the file."""
+    files: Mapping[str, bytes]
+
+    def __repr__(self) -> str:
+        return f"Fmu({self.name}: {', '.join(self.files)})"
+
+    @property
+    def data(self) -> bytes:
+        """Bytes of the archive; they contain no date."""
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path, data in self.files.items():
+                entry = zipfile.ZipInfo(path)  # of 1980
+                entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+                archive.writestr(entry, data)
+        return out.getvalue()
+
+
+def fmu_of(source: Source) -> Fmu:
+    """Make the FMU of an exported controller. Raises InputError and OutputError as `compiled`."""
+    texts = _texts(source, "")
+    guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
+    texts = _texts(source, f"{{{guid}}}")
+    files = {path: text.encode() for path, text in texts.items()}
+    if not without_binary():
+        files[f"binaries/{_machine()}/{source.prefix}.so"] = _binary(source, texts)
+    return Fmu(f"{source.prefix}.fmu", files)
+
+
+def ports(source: Source) -> list[Port]:
+    """The ports of an FMU, in the order of their value references: angles, rates, torques, touchdown, flag."""
+    joints, read = source.words["joint_names"], source.words["rates_read"]
+    assert isinstance(joints, tuple)
+    assert isinstance(read, tuple)
+    numbered = list(enumerate(joints))
+    angle, rate = '<Real unit="rad" start="0"/>', '<Real unit="rad/s" start="0"/>'
+    torque, flags = '<Real unit="N.m"/>', '<Integer min="0" max="4"/>'
+    landed = "becomes true at the first sample after a touchdown, from which on q, v and u have the new labels"
+    flag = (
+        "0, or why the step has no result: 1 not measured, 2 no number; u is held, and zero later"
+    )
+    return [
+        *(Port(f"q[{i}]", "input", angle, f"angle of {joint}") for i, joint in numbered),
+        *(
+            Port(f"v[{i}]", "input", rate, f"rate of {joint}, {AS_READ[i in read]}")
+            for i, joint in numbered
+        ),
+        *(
+            Port(f"u[{i}]", "output", torque, f"torque of the motor of {joint}")
+            for i, joint in numbered[: source.p]
+        ),
+        Port("touchdown", "input", '<Boolean start="false"/>', landed),
+        Port("flag", "output", flags, flag),
+    ]
+
+
+def _texts(source: Source, guid: str) -> dict[str, str]:
+    """The text files of an FMU, by their path in the archive; guid: its identifier in the description."""
+    P = source.prefix
+    values = {**source.words, "guid": guid, "ports": ports(source)}
+    return {
+        "modelDescription.xml": rendered("modelDescription.xml", values),
+        "documentation/index.html": rendered("index.html", values),
+        "documentation/licenses/license.txt": source.files["LICENSE"],
+        f"sources/{P}.c": source.files[f"{P}.c"],
+        f"sources/{P}.h": source.files[f"{P}.h"],
+        f"sources/{P}_fmi2.h": rendered("fmi2.h", values),
+        f"sources/{P}_fmu.c": rendered("fmu.c", values),
+    }
+
+
+def without_binary() -> str:
+    """The reason why an FMU made on this machine has no binary; empty where it has one."""
+    if not _machine():
+        return f"FMI 2.0 has no name for {platform.system()} on {platform.machine()}"
+    return NO_COMPILER if compiler() is None else ""
+
+
+def contents() -> str:
+    """Text that says whether an FMU made on this machine holds a binary or sources alone."""
+    if why := without_binary():
+        return f"sources alone, since {why}"
+    return f"sources, and a binary for {_machine()}"
+
+
+def _machine() -> str:
+    """FMI 2.0's name of this machine; empty where it has none."""
+    return MACHINES.get((platform.system(), platform.machine()), "")
+
+
+def _binary(source: Source, texts: Mapping[str, str]) -> bytes:
+    """Compile the sources to a shared library; returns its bytes."""
+    files = {Path(path).name: text for path, text in texts.items() if path.startswith("sources/")}
+    names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
+    with compiled(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):
+        return library.read_bytes()
 
 
 def export_c(

@@ -109,14 +109,8 @@ def source_of(
         "operations": {name: f.operations for name, f in written.items()},
         "doubles": {name: f.doubles for name, f in written.items()},
     }
-    texts = {
-        "header.h": f"{prefix}.h",
-        "source.c": f"{prefix}.c",
-        "main.c": "main.c",
-        "Makefile": "Makefile",
-        "README.md": "README.md",
-        "LICENSE": "LICENSE",
-    }
+    texts = {"header.h": f"{prefix}.h", "source.c": f"{prefix}.c"}
+    texts |= {name: name for name in ("main.c", "Makefile", "README.md", "LICENSE")}
     files = {name: rendered(template, given) for template, name in texts.items()}
     return Source(prefix, real, files, functions_.fields, written, len(used), k.n, k.p, given)
 

@@ -34,8 +34,7 @@ from PIL import Image, ImageDraw
 
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
-from biped_adrc.extras.gym.stage import Flags, Stage
-from biped_adrc.extras.gym.task import LearnerTask
+from biped_adrc.extras.gym.stage import Flags, LearnerTask, Stage
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.view.colours import TRUNK

@@ -1,4 +1,13 @@
-"""N walks of one task side by side, stepped together: observations, rewards, ends.
+"""The task of a learner, and N walks of it side by side, stepped together: observations, rewards, ends.
+
+A task is a scenario, the meaning of its action, when a walk is over, and the reward.
+
+    reward of a sample = alive + tracking / (1 + |e|^2 / e_1^2) - effort |u|^2 / u_1^2
+
+with the true error e = q_b - h(Theta) [rad] and the torque u [N m] that acts, both at the end of the sample,
+e_1 = 0.1 rad, and u_1^2 the square of all motors at their limit. The sample in which the walk falls has the
+reward 0. No reward is negative, as effort is at most alive: to walk on pays more than to fall, and to track
+well most.
 
     observation  (q, q', e, e', u, Theta)       n + n + p + p + p + 1 numbers
 
@@ -13,8 +22,8 @@ many is the same as alone, bit for bit.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, fields, replace
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,14 +33,100 @@ from biped_adrc.closed_loop.semantics import labelled, noticed, parts
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.compiled_run import STATUS
-from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read
-from biped_adrc.scenario.build import RobotAndGait, build, limits
+from biped_adrc.model.robots.robot_toml import KnownLimits
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
+from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
+
+_TABLES = packaged("biped_adrc.extras.gym", "conditions.toml")
+BASE: dict[str, object] = flat(_TABLES["base"])
+"""Values that all conditions share."""
+CONDITIONS: dict[str, dict[str, object]] = {
+    name: flat({k: x for k, x in table.items() if k != "words"})
+    for name, table in _TABLES["conditions"].items()
+}
+"""Name of a condition -> fields of the scenario, on top of `BASE`."""
+OF_RIGID = "errors.impact_width"
+"""A field of the scenario that only walks on the rigid plant have."""
+TORQUES, ADDED = "torques", "added"
+"""Meaning of an action: all of the torque, or an addition to the torque of the scenario's controller."""
+NEAR = 0.1
+"""e_1 of the reward [rad]."""
+FALLEN_FROM = 1e-9
+"""Tolerance of the time limit [s]: a sample that ends so little before it is the last."""
+
+
+@dataclass(frozen=True)
+class LearnerTask(Checked, Shown):
+    """A scenario, the meaning of its action, the time limit and the weights of the reward.
+
+    Raises InputError for an action that does not exist, a time or weight out of range, and fields of the
+    scenario that would have no effect.
+    """
+
+    scenario: Scenario
+    """The scenario; its seed is replaced by that of each walk."""
+    action: Annotated[str, one_of((TORQUES, ADDED))] = TORQUES
+    """ "torques": the action is the whole torque; "added": it is added to that of the scenario's controller."""
+    seconds: PositiveFloat = 10.0
+    """Longest walk [s]."""
+    alive: NonNegativeFloat = 1.0
+    """Reward of a sample that does not end the walk [1]."""
+    tracking: NonNegativeFloat = 1.0
+    """Reward of a sample without tracking error [1]."""
+    effort: NonNegativeFloat = 0.1
+    """Cost of a sample with all motors at their limit [1], at most `alive`."""
+
+    def __post_init__(self) -> None:
+        if self.effort > self.alive:
+            raise InputError(
+                f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"
+            )
+        mine = flat({"controller": self.scenario.controller.record()})
+        if self.action == TORQUES and mine:
+            raise InputError(
+                f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "
+                "take action = 'added'"
+            )
+
+    @classmethod
+    def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> LearnerTask:
+        """Make the task of a scenario, or of a condition by name on the base of all conditions.
+
+        values: fields of the task, and of the scenario, by name. Raises InputError for a condition that does
+        not exist on this plant, and for values that are no scenario.
+        """
+        if scenario is not None and condition is not None:
+            raise InputError("a scenario and a condition were given, expected one of them")
+        how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
+        record = nested(values)
+        if scenario is not None:
+            return cls(scenario.replace(record), **how)
+        ground = record.get("ground", RIGID)
+        plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
+        there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
+        name = condition or "nothing"
+        if name not in there:
+            raise InputError(
+                f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
+            )
+        return cls(Scenario(**merged(nested({**BASE, **CONDITIONS[name]}), record)), **how)
+
+    def limits(self, scene: RobotAndGait) -> KnownLimits:
+        """Limits of ground and motors; the torque limit is the scenario's where that is lower."""
+        known = limits(self.scenario).of(scene.biped.description)
+        limit = self.scenario.hardware.torque_limit
+        return known if limit is None else known._replace(torque=min(limit, known.torque))
+
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
@@ -136,9 +231,10 @@ class Stage:
 
     def rewards(self) -> Array:
         """Rewards (N,) [1] of the last sample."""
-        squares = self.view[:, self.first + 2 : self.first + 4]
-        most = self.plant.p * self.limits.torque**2
-        return self.task.rewards(squares, self.stepper.codes == 0, most)
+        task, (e, u) = self.task, self.view[:, self.first + 2 : self.first + 4].T
+        e, u = e / NEAR**2, u / (self.plant.p * self.limits.torque**2)
+        paid = task.alive + task.tracking / (1.0 + e) - task.effort * u
+        return np.where(self.stepper.codes == 0, paid, 0.0)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen or diverged (N,), and whether its time or its impacts are over (N,)."""

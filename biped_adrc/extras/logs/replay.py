@@ -241,6 +241,7 @@ class Replay(Shown):
         from biped_adrc.view.style import GREY, new_figure
 
         x = self.signals
+        look: Any = {"color": GREY, "alpha": 0.2, "lw": 0.0, "label": "contact"}
         with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
@@ -255,13 +256,8 @@ class Replay(Shown):
                     without_observer(axes)
                 else:
                     curves(axes, x, values, symbol)
-                look: Any = {
-                    "transform": axes.get_xaxis_transform(),
-                    "color": GREY,
-                    "alpha": 0.2,
-                    "lw": 0.0,
-                }
-                axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, label="contact", **look)
+                across = axes.get_xaxis_transform()
+                axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, transform=across, **look)
                 finished(axes, unit)
             for axes in (beyond, residual):
                 axes.set_xlabel("")
@@ -306,10 +302,7 @@ def replay(
     check_positive(window, f"the window of contact is {window} s")
     filter_time = scenario.hardware.encoders.filter_time if filter_time is None else filter_time
     scene = RobotAndGait.of(scenario)
-    if scene.biped.p == 0:
-        raise InputError(
-            f"robot '{scenario.robot.name}' has no motors and no controller, expected one with motors"
-        )
+    scene.walked  # noqa: B018  # a robot without motors is refused
     result = log if isinstance(log, RobotLog) else read_log(log, scene.biped)
     has, wants = (result.q.shape[1], result.u.shape[1]), (scene.biped.n, scene.biped.p)
     if has != wants:

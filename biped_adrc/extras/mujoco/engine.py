@@ -56,12 +56,7 @@ class MuJoCoEngine:
     """
 
     def __init__(
-        self,
-        biped: Biped,
-        model: MuJoCoModel,
-        h: float,
-        integrator: str,
-        lag: float = 0.0,
+        self, biped: Biped, model: MuJoCoModel, h: float, integrator: str, lag: float = 0.0
     ):
         self.biped, self.model, self.h, self.lag = biped, model, h, lag
         self.data = data = mujoco().MjData(model)

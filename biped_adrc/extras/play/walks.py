@@ -301,10 +301,7 @@ def structure_numbers(
         "delays": walk.delays,
         "slope": walk.walker.slope,
         "ownSlope": walk.walker.slope - s.ground.slope,
-        "limits": {
-            "friction": known.friction,
-            "torque": known.torque if limit is None else limit,
-        },
+        "limits": {"friction": known.friction, "torque": known.torque if limit is None else limit},
         "hand": hand_places(walk.code),
         "sliders": moved | {DELAY: ((), [*walk.delay().items()])},
     }

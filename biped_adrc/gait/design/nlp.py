@@ -31,10 +31,11 @@ import numpy as np
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.start import LONGEST
 from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
+LONGEST = 1.2
+"""Longest step that is searched, as a share of the leg length."""
 SHORTEST = 0.05
 """Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5

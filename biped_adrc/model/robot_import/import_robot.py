@@ -44,8 +44,8 @@ from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.physical import checks
 from biped_adrc.model.robot_import.anatomy import Anatomy, PlanarBase, anatomy, on_planar_base
-from biped_adrc.model.robot_import.import_checks import checks
 from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
 from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, pairs, to_xml
 from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
@@ -159,10 +159,7 @@ def record_of(
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
-        "friction": {
-            "viscous": of_moving(reading.viscous),
-            "static": of_moving(reading.static),
-        },
+        "friction": {"viscous": of_moving(reading.viscous), "static": of_moving(reading.static)},
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
     }
@@ -199,7 +196,7 @@ class Derived:
     guesses: tuple[str, ...]
     """Sentences on what was found and guessed."""
     checks: tuple[Check, ...]
-    """The laws of `import_checks` with their numbers."""
+    """The laws of `model.physical` with their numbers."""
     record: Mapping[str, Any]
     """Content of its robot.toml."""
 

@@ -28,15 +28,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
 from biped_adrc.view.colours import bent_arrow
-from biped_adrc.view.placement import (
-    TILE,
-    WalkScene,
-    joint_transform,
-    legs,
-    placed,
-    spokes,
-    turn,
-)
+from biped_adrc.view.placement import TILE, WalkScene, joint_transform, legs, placed, spokes, turn
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here

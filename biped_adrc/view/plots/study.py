@@ -278,10 +278,7 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
 
 
 def _pushes(
-    axes: Axes,
-    rows: Sequence[PlainRecord],
-    kinds: list[tuple[str, float]],
-    onsets: list[float],
+    axes: Axes, rows: Sequence[PlainRecord], kinds: list[tuple[str, float]], onsets: list[float]
 ) -> None:
     """Draw the cells of one panel, columns by onset [ms], rows by (pattern, amplitude [N m])."""
     for r in rows:
