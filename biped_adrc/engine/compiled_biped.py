@@ -5,7 +5,7 @@ methods that are asked for at every instant in machine code, traced from `model.
 contact and all else stay Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has
 no compiled form. `compiled_references` does the same for the references of a controller.
 
-`pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
+`Call` and `parts_of` are how the rest of the engine calls generated code from
 Python.
 """
 
@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import accumulate
@@ -23,11 +23,14 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
@@ -41,18 +44,6 @@ Shape = tuple[int, ...]
 
 _C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """Called with the lock of Python held: to let go of it would cost as much as a call."""
-
-
-def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
-    """Call a function for every row of inp (N, inputs) and write out (N, outputs), both contiguous float64.
-
-    By addresses: one ctypes call per row, no array is made.
-    """
-    function = _C(machine.addresses[name])
-    at, inputs, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
-    for _ in range(len(inp)):
-        function(at, inputs, result)
-        inputs, result = inputs + inp.strides[0], result + out.strides[0]
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -85,6 +76,36 @@ class Call:
         out = self.out.copy()
         out.setflags(write=False)  # once, for all the views that are handed out
         return out
+
+    def rows(self, inp: Array) -> Array:
+        """The outputs (N, outputs) of all rows of inp (N, inputs)."""
+        inp, out = np.ascontiguousarray(inp), np.empty((len(inp), len(self.out)))
+        starts = inp.ctypes.data, out.ctypes.data
+        K, inputs, outputs = self.K.ctypes.data, inp.strides[0], out.strides[0]
+        for i in range(len(inp)):
+            self._function(K, starts[0] + i * inputs, starts[1] + i * outputs)
+        return out
+
+
+def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
+    """The functions of a disturbance's terms, (t, step, t_start, q, v) -> (zeta, force), for n coordinates.
+
+    Raises NotCompiled.
+    """
+    terms = () if disturbance is None else disturbance.terms
+    numbers = (np.array([*floats(term), 0.0]) for term in terms)
+    codes = (push_code(term, n) for term in terms)
+    return [
+        Call(*of, 3 + 2 * n, n + 2)
+        for of in zip(codes, ["push"] * len(terms), numbers, strict=True)
+    ]
+
+
+def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) -> Array:
+    """zeta (K, n) [N m] at K times [s], in rows (q, q', ..) of n coordinates."""
+    when = np.broadcast_to((mode.step, mode.start), (len(t), 2))
+    inp = np.column_stack((t, when, rows[:, : 2 * n]))
+    return sum((term.rows(inp)[:, :n] for term in terms), np.zeros((len(t), n)))
 
 
 def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:

@@ -16,8 +16,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import parts_of, pointer_call
-from biped_adrc.engine.compiled_push import summed, terms_of
+from biped_adrc.engine.compiled_biped import Call, parts_of, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
@@ -48,10 +47,8 @@ def compiled_readings(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: tracked_point(reference, s, m)
     )
     shapes = tuple(np.shape(part) for part in example)
-    lengths = [len(arc.t) for arc in trajectory.arcs]
-    out = np.empty((sum(lengths), sum(map(prod, shapes))))
-    for arc, rows in zip(trajectory.arcs, np.split(out, np.cumsum(lengths)[:-1]), strict=True):
-        pointer_call(code, "reading", K, _inputs(walker, arc), rows)
+    call = Call(code, "reading", K, 0, sum(map(prod, shapes)))
+    out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
     return InstantSignals(*parts_of(out, shapes))
 
 
@@ -60,7 +57,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
     try:
-        zeta = summed(terms_of(walker.disturbance, n), t, x, mode, n)
+        zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
     except NotCompiled:
         zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
     head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)

@@ -21,11 +21,11 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_push import push_of
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
-from biped_adrc.engine.kernels.record import FUNCTIONS
-from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.kernels.record import FUNCTIONS, PART
+from biped_adrc.engine.program import Program, push_code
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
@@ -67,6 +67,8 @@ class CompiledWalker:
         split, fields, tables = _method(walker, method)
         program = Program.of(walker, size, split, reference, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
+        push = Sum() if walker.disturbance is None else walker.disturbance
+        parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
@@ -74,6 +76,9 @@ class CompiledWalker:
             "K": program.K,
             "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+            "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
+            "push": np.array(floats(push.terms)),
+            "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
         if isinstance(walker.timing, SampledTime) and walker.held is not None:
             T, motors = walker.timing.period, walker.held.motors
@@ -87,6 +92,7 @@ class CompiledWalker:
             "n_slow": nx - k * p,
             "k": k,
             "moving": nx if flows else 2 * n,
+            "pulled": push.pulls,
             "least_step": LEAST_STEP,
             "farthest": bounds.farthest,
         }
@@ -96,8 +102,7 @@ class CompiledWalker:
         ticks = PythonTicks(walker, nx, program.address("flow")) if in_python else None
         if ticks is not None:
             fields |= ticks.addresses
-        parts, pushed = push_of(walker.disturbance, n)
-        return cls(walker, program, plan(tables | pushed, parts, fields), ticks)
+        return cls(walker, program, plan(tables, fields), ticks)
 
     def raised(self, run: CompiledRun) -> BaseException | None:
         """What Python has raised in a run, and forgets here."""

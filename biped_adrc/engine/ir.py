@@ -241,7 +241,25 @@ def module_text(functions: dict[str, SymbolicFunction]) -> str:
 def function_text(name: str, function: SymbolicFunction) -> str:
     """The text of one function with arguments K, inp, out, which do not overlap."""
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
-    return "\n".join([head, *_Writer().written(straight_line(function)), "ret void", "}"])
+    lines = [*_lines("v", function, function.out), "ret void"]
+    if function.acts is not None:
+        lines = [
+            *_lines("a", function, function.acts),
+            "%acts = load double, ptr %out",
+            "%some = fcmp ogt double %acts, 0.0",
+            "br i1 %some, label %act, label %rest",
+            "rest:",
+            *_lines("r", function, ca.SX.zeros(function.out.numel())),
+            "ret void",
+            "act:",
+            *lines,
+        ]
+    return "\n".join([head, *lines, "}"])
+
+
+def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
+    """The lines that compute and store `out`, in values whose names begin with this letter."""
+    return _Writer(letter).written(straight_line(function._replace(out=out)))
 
 
 class _Writer(Writer):
@@ -249,10 +267,10 @@ class _Writer(Writer):
 
     patterns, language = PATTERNS, "machine code"
 
-    def __init__(self) -> None:
-        """`count` numbers the values."""
+    def __init__(self, letter: str) -> None:
+        """Names are the letter and a number, `count` of the last one."""
         super().__init__()
-        self.count = 0
+        self.letter, self.count = letter, 0
 
     def new(self, text: str, operands: tuple[str, ...]) -> str:
         """Write a line and give its value a new name."""
@@ -261,8 +279,9 @@ class _Writer(Writer):
     def _named(self, text: str, lines: list[str]) -> str:
         """As `new`, into these lines."""
         self.count += 1
-        lines.append(f"%v{self.count} = {text}")
-        return f"%v{self.count}"
+        name = f"%{self.letter}{self.count}"
+        lines.append(f"{name} = {text}")
+        return name
 
     def literal(self, x: float) -> str:
         """A double in LLVM's language with all its bits, so that no digits are lost."""

@@ -36,8 +36,13 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_push import Terms, summed, terms_of
+from biped_adrc.engine.compiled_biped import (
+    Call,
+    CompiledBiped,
+    compiled_references,
+    pushes,
+    zeta_rows,
+)
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
@@ -66,7 +71,7 @@ class LoopInCode(SteppingLoop):
 
     program: Program | None = None
     """Of its sample instants; None where a part of it cannot be compiled."""
-    terms: Terms | None = None
+    terms: list[Call] | None = None
     """Those of its disturbance; None for none, or for Python."""
     why: str = ""
     """Why its sample instants are not compiled."""
@@ -95,18 +100,6 @@ class LoopInCode(SteppingLoop):
             return out[:-1]
         return super().tick(t, x, mode)
 
-    @cached_property
-    def pushes(self) -> list[tuple[slice, Call]]:
-        """The functions of the terms, each with its place in zeta and force (n + 2,)."""
-        n = self.plant.n
-        places = {"torque": slice(0, n), "resultant": slice(n, n + 2)}
-        return [
-            (at, Call(code, name, K, 3 + 2 * n, at.stop - at.start))
-            for code, K in self.terms or ()
-            for name, at in places.items()
-            if name in code.addresses
-        ]
-
     def push(self, t: float, row: Array, mode: Mode) -> Load | None:
         """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
         are not finite.
@@ -115,10 +108,10 @@ class LoopInCode(SteppingLoop):
             return super().push(t, row, mode)
         n = self.plant.n
         result = np.zeros(n + 2)
-        for at, call in self.pushes:
-            inp = call.inp
+        for term in self.terms:
+            inp = term.inp
             inp[0], inp[1], inp[2], inp[3:] = t, mode.step, mode.start, row[: 2 * n]
-            result[at] += call()
+            result += term()
         size = result.dot(result)
         if not math.isfinite(size):
             return super().push(t, row, mode)
@@ -133,7 +126,7 @@ class LoopInCode(SteppingLoop):
         """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
         if self.terms is None:
             return super().zetas(t, rows, mode)
-        return summed(self.terms, t, rows, mode, self.plant.n)
+        return zeta_rows(self.terms, t, rows, mode, self.plant.n)
 
 
 @dataclass(frozen=True)
@@ -158,7 +151,7 @@ class CompiledLoop(SteppingLoop):
         values: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
         if self.disturbance is not None:
             with suppress(NotCompiled):
-                values["terms"] = terms_of(self.disturbance, self.plant.n)
+                values["terms"] = pushes(self.disturbance, self.plant.n)
         try:
             values["program"] = Program.of_loop(self, size)
             values["program"].functions(["sample"])

@@ -24,7 +24,8 @@ from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers, push
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
@@ -168,3 +169,14 @@ def product(k: int, p: int) -> LoadedCode:
         return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
     return generated(("matvec", k, p), {"matvec": matvec}, vectors=True)
+
+
+def push_code(term: Disturbance, n: int) -> LoadedCode:
+    """Machine code with the function `push` of a term of a disturbance of n coordinates.
+
+    Terms are compiled by themselves, so that other pushes do not compile the walker again. Raises NotCompiled
+    for one that cannot be traced, with the reason.
+    """
+    if type(term).switching_times is not Disturbance.switching_times:
+        raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
+    return generated(("push", n, structure(term)), {"push": partial(push, term, n)})

@@ -106,7 +106,9 @@ class CompiledWalk:
             run.keep(table=np.empty((table_height(walker.plant.p), room)))
         assert walker.disturbance is not None
         torque = run.place("K") + torque_place(compiled.program.numbers)
-        return cls(compiled, run, (torque, run.term(len(walker.disturbance.terms) - 1)))
+        return cls(
+            compiled, run, (torque, run.place("push") + len(floats(walker.disturbance.terms[:-1])))
+        )
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, only columns of the single support in which it is stay there."""
@@ -180,7 +182,7 @@ class PythonWalk:
                 at = torque_place(compiled.program.numbers)
                 places.append((compiled.program.K[at : at + p], slice(p)))
             if compiled.terms is not None:
-                places.append((compiled.terms[-1][1][:2], slice(p, None)))
+                places.append((compiled.terms[-1].K[:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property

@@ -9,8 +9,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.ir import in_memory
+from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import lasting, structure
 from biped_adrc.engine.symbols import floats
 from tests.control.conforms import call
@@ -43,8 +43,8 @@ def value(term):
     """The torque of a term by its machine code, and by Python."""
     q, v = np.zeros(5), np.arange(1.0, 6.0)
     inp, K = np.concatenate(([0.1, 1.0, 0.0], q, v)), np.array([*floats(term), 0.0])
-    code = term_code(term, 5)
-    return call(code, "torque", K, inp, 5), term.torque(0.1, 1, 0.0, q, v)
+    code = push_code(term, 5)
+    return call(code, "push", K, inp, 7)[:5], term.torque(0.1, 1, 0.0, q, v)
 
 
 @pytest.mark.parametrize(("torque", "before", "after"), REACHED.values(), ids=REACHED)

@@ -19,7 +19,7 @@ import numpy as np
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PART, PLACES, ROWS, TABLES, Ints
+from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PLACES, ROWS, TABLES, Ints
 from biped_adrc.hybrid.constants import FULL, STRUCK
 from biped_adrc.hybrid.status import Status
 
@@ -55,10 +55,6 @@ class CompiledRun:
     def place(self, name: str) -> int:
         """Cell of the first number of a vector."""
         return (int(self.cells[PLACES[name]]) - self.address) // 8
-
-    def term(self, k: int) -> int:
-        """Cell at which the numbers of term k of the disturbance begin."""
-        return (int(self.cells[self.place("parts") + PART * k + 1]) - self.address) // 8
 
     def __getitem__(self, name: str) -> float:
         """A number, or the address of a vector."""
@@ -123,11 +119,10 @@ def table_height(p: int) -> int:
     return 4 + 3 * p + 4
 
 
-def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) -> CompiledRun:
+def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
     """Lay out a run: tables and fields by their names in `record.Run`; those left out are empty and 0.
 
-    parts: as `record.Run.parts`, the numbers' addresses as their places in the table `push`. Raises InputError
-    for a period too short.
+    Raises InputError for a period too short.
     """
     values = {"moving": fields["nx"], "guards": 3, **fields}
     if 0.0 < values.get("period", 0.0) < LEAST_PERIOD:
@@ -135,24 +130,19 @@ def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) 
             f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
         )
     n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
-    slow, none, parts = int(values.get("n_slow", 0)), np.zeros(0), parts.copy()
+    slow, none = int(values.get("n_slow", 0)), np.zeros(0)
     values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(tables.get("phi", none))}
-    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches")}
-    values |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
-    floats = (tables.get(name, none) for name in TABLES[:-1])
-    blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
+    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches", "parts")}
+    blocks = [np.ravel(tables.get(name, none)).view(np.int64) for name in TABLES]
     width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
-    lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
+    lengths = [*map(len, blocks), *(width for _ in ROWS)]
     starts = np.cumsum([len(KINDS), *lengths])
     places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
-    parts[:, 1] = 8 * (places["push"] + parts[:, 1])
     cells = np.zeros(starts[-1], dtype=np.int64)
-    filled = np.concatenate([*blocks, parts.ravel()])
+    filled = np.concatenate(blocks)
     cells[len(KINDS) : len(KINDS) + len(filled)] = filled
     for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():
         cells[PLACES[name]] = 8 * start
-    numbers = np.arange(len(parts)) * PART + 1 + places["parts"]
-    pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
-    return CompiledRun(cells, pointers)
+    return CompiledRun(cells, np.array([PLACES[name] for name in places]))

@@ -18,7 +18,7 @@ from biped_adrc.hybrid.constants import X_ROWS, Y_ROWS
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
 """Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
-PART = 3
+PART = 2
 """Numbers in `parts` for one."""
 WALK = 3
 """Numbers for one of many walks: addresses of its run, and of the torque and the force in it; 0 for no walk."""
@@ -87,9 +87,9 @@ class Run:
     n_drops: int
     n_switches: int
     n_parts: int
-    """Parts of the disturbance."""
+    """Terms of the disturbance."""
     pulled: int
-    """1 where a part of it is a force from outside."""
+    """1 where one of them is a force from outside."""
     period: float
     """Of sample instants [s]; 0 for continuous time."""
     part: float
@@ -115,9 +115,10 @@ class Run:
     phi: Array
     """Matrices of ETD-RK4 (levels, 6, k, k)."""
     push: Array
-    """Numbers of the disturbance's parts."""
+    """Numbers of the disturbance, term after term."""
     parts: Ints
-    """Of each part: its torque's address, its numbers' address in `push`, its resultant's address or 0."""
+    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers it
+    has."""
     # -- what changes
     t: float
     """[s]"""
@@ -175,13 +176,13 @@ FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "mat
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
 ROWS = (
-    *("inp", "out", "zeta", "one"),
+    *("inp", "out", "load", "one"),
     *("values", "after", "tried", "x_first", "values_first"),
     *(*X_ROWS, *Y_ROWS),
 )
-"""Work vectors: inputs and outputs of a function, zeta and one part of it; event functions at the start of a
-step, at its end, and at a time tried in it; state and event functions before the march; those of
-`hybrid.constants`.
+"""Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
+at the start of a step, at its end, and at a time tried in it; state and event functions before the march; those
+of `hybrid.constants`.
 """
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
