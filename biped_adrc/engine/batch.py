@@ -33,7 +33,6 @@ from biped_adrc.core.errors import (
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.engine.simulate import run_made
@@ -51,8 +50,8 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-ROOM = 512
-"""Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
+AT_ONCE = 25
+"""Impacts for whose nodes there is room at the same time."""
 
 
 @dataclass(frozen=True)
@@ -233,9 +232,15 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        run["look"] = read
-        run.keep(table=np.empty((table_height(compiled.walker.plant.p), ROOM * impacts)))
-    status, strikes = run.stride(impacts)
+        longest, size = compiled.walker.max_step_time, 3 * compiled.walker.plant.p + 4
+        run.keep(longest, min(impacts, AT_ONCE), read, size)
+    status, parts, rows = Status.COMPLETED, list[Array](), list[Array]()
+    for done in range(0, impacts, AT_ONCE if read else impacts):
+        if status is Status.COMPLETED:
+            status, part = run.stride(min(impacts - done, AT_ONCE) if read else impacts)
+            parts.append(part)
+            rows.append(run.rows().copy())
+    strikes = np.vstack(parts)
     return BatchWalk(
         status,
         "",
@@ -245,7 +250,7 @@ def _strides(
         run["t"],
         COMPILED,
         mode.start,
-        run.table[:, : int(run["columns"])] if read else None,
+        np.ascontiguousarray(np.vstack(rows).T) if read else None,
     )
 
 

@@ -33,8 +33,6 @@ TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
 
 
-ROOM = 6000
-"""Nodes of a single support for which there is room at first; with too few it is walked again."""
 ONWARD, STORE = 0.005, 1_000_000
 """How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
 
@@ -65,8 +63,9 @@ def run_made(
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
     run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
+    longest, left = compiled.walker.max_step_time, options.t_end - options.t0
+    run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
     run["every"] = options.store_every
-    run.keep(np.empty((ROOM, 1 + 2 * run.nx)))
 
     def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         arc = flown(run, mode)
@@ -134,18 +133,15 @@ def compiled_plant(walker: Walker) -> Walker:
 
 def flown(run: CompiledRun, mode: Mode) -> FlownArc:
     """A run to its end or the first event, with the impact there."""
-    nx, run["count"] = run.nx, 0
+    nx, event, outcome = run.nx, None, None
     status, strikes = run.stride(1)
-    event, outcome = None, None
     for t, *x in strikes:
         outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
         event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
     if status in TERMINAL:
         event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
-    rows = run.nodes[: int(run["count"])]
-    nodes = Arc(
-        mode, rows[:, 0].copy(), rows[:, 1 : 1 + nx].copy(), rows[:, 1 + nx :].copy(), event
-    )
+    t, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
+    nodes = Arc(mode, t[:, 0], x, dx, event)
     detail = f"after t = {nodes.t[-1]:.6g} s" if status in simulator.FAILURES else ""
     status = Status.COMPLETED if status is Status.TIME_OUT else status
     return FlownArc(nodes, status, detail, outcome)

@@ -11,6 +11,7 @@ between two impacts, a tick a sample instant.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -20,11 +21,11 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PLACES, ROWS, TABLES, Ints
-from biped_adrc.hybrid.constants import FULL, STRUCK
+from biped_adrc.hybrid.constants import RESOLUTION, STRUCK
 from biped_adrc.hybrid.status import Status
 
 STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
-"""The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
+"""The status for each code of `hybrid.constants`; STRUCK has none."""
 LEAST_PERIOD = 1e-9
 """Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 NO_ROWS = np.zeros((0, 0))
@@ -43,7 +44,7 @@ class CompiledRun:
         at = self.place("x0")
         self.x = self.numbers[at : at + self.nx]
         """State (nx,), as a view."""
-        self.nodes = self.table = NO_ROWS
+        self.nodes = NO_ROWS
 
     @property
     def block(self) -> Ints:
@@ -67,10 +68,10 @@ class CompiledRun:
         where[PLACES[name]] = value
 
     def copy(self) -> CompiledRun:
-        """The same run in memory of its own, with its nodes and table."""
-        run = CompiledRun(self.block, self.pointers)
-        if self.nodes.size or self.table.size:
-            run.keep(self.nodes.copy(), self.table.copy())
+        """The same run in memory of its own, with its nodes."""
+        run, count = CompiledRun(self.block, self.pointers), int(self["count"])
+        run._keep_in(np.empty_like(self.nodes))
+        run.nodes[:count] = self.nodes[:count]
         return run
 
     def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
@@ -88,35 +89,33 @@ class CompiledRun:
         run.x[:] = x
         return run
 
-    def keep(self, nodes: Array = NO_ROWS, table: Array = NO_ROWS) -> None:
-        """Room for nodes (N, 1 + 2 nx), rows (t, x, x'), and for columns of `table` (height, M)."""
-        self.nodes, self.table = nodes, table
-        self["nodes"], self["room"] = nodes.ctypes.data, len(nodes)
-        self["table"] = table.ctypes.data
-        self["height"], self["most_columns"] = table.shape
+    def keep(self, longest: float, arcs: int = 1, look: int = 0, width: int = 0) -> None:
+        """Keep nodes, with room for so many arcs, none of them longer than `longest` [s].
+
+        look: address of a function of `width` numbers, which rows hold in place of states. An arc has stretches
+        between sample instants, switching times and its ends; the last step of each may be short, and a step
+        longer than RESOLUTION has nodes inside. Memory is taken by the rows that are written alone.
+        """
+        h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
+        time = longest + T + h
+        stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
+        rows = 1 + (time / h + 2.0 * stretches) * math.ceil(h / RESOLUTION)
+        self["look"], self["width"] = look, 4 + width if look else 1 + 2 * self.nx
+        self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
+
+    def _keep_in(self, nodes: Array) -> None:
+        self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
+
+    def rows(self) -> Array:
+        """The nodes kept since they were asked for last, to be copied before the run goes on."""
+        count, self["count"] = int(self["count"]), 0
+        return self.nodes[:count]
 
     def stride(self, impacts: int) -> tuple[Status, Array]:
-        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each impact.
-
-        Where there is no room for nodes or columns, it is made twice as large.
-        """
-        strikes, count = np.zeros((impacts, 1 + 2 * self.nx)), 0
-        while True:
-            step, at = self["step"], strikes[count:].ctypes.data
-            code = kernels().stride(self.address, impacts - count, at)
-            count += int(self["step"] - step)
-            if code != FULL:
-                return STATUS[code], strikes[:count]
-            double = np.empty_like
-            self.keep(
-                np.vstack((self.nodes, double(self.nodes))),
-                np.hstack((self.table, double(self.table))),
-            )
-
-
-def table_height(p: int) -> int:
-    """Numbers in a column of `table` with a `StepReading` of p joints behind the first four."""
-    return 4 + 3 * p + 4
+        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each."""
+        strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
+        code = kernels().stride(self.address, impacts, strikes.ctypes.data)
+        return STATUS[code], strikes[: int(self["step"] - step)]
 
 
 def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:

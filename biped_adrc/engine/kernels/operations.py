@@ -269,36 +269,22 @@ def lower(r: Run) -> None:
             r.drop += r.drops[2 * i + 1]
 
 
-@inner
-def node(r: Run, t: float, x: Array, dx: Array) -> bool:
-    """Keep (t, x, dx), x and dx (nx,), as the next row of `nodes`; False when there is no room."""
-    i, nx = r.count, r.nx
-    if i >= r.room:
-        return False
-    kept = shift(r.nodes, i * (1 + 2 * nx))
-    kept[0] = t
-    for j in range(nx):
-        kept[1 + j], kept[1 + nx + j] = x[j], dx[j]
-    r.count = i + 1
-    return True
-
-
 @unit
-def table_row(r: Run, t: float, x: Array) -> int:
-    """Keep what is read at t [s] in x (nx,) as the next column of `table`; 0 when there is no room, else 1."""
-    i, out = r.columns, r.out
-    if i >= r.most_columns:
-        return 0
-    copy(x, shift(r.inp, 3), r.nx)
-    if r.pulled != 0:
-        disturb(r, min(t, r.limit))
-    set_time(r, t)
-    call(r.look, r.K, r.inp, shift(out, 4))
-    out[0], out[1], out[2], out[3] = t, r.step, r.load[r.n], r.load[r.n + 1]
-    for j in range(r.height):
-        r.table[j * r.most_columns + i] = out[j]
-    r.columns = i + 1
-    return 1
+def node(r: Run, t: float, x: Array, dx: Array) -> None:
+    """Keep the next row of `nodes` at t [s]: of x and dx (nx,), or what `look` says."""
+    nx, row = r.nx, shift(r.nodes, r.count * r.width)
+    row[0] = t
+    if r.look == 0:
+        copy(x, shift(row, 1), nx)
+        copy(dx, shift(row, 1 + nx), nx)
+    else:
+        copy(x, shift(r.inp, 3), nx)
+        if r.pulled != 0:
+            disturb(r, min(t, r.limit))
+        set_time(r, t)
+        row[1], row[2], row[3] = r.step, r.load[r.n], r.load[r.n + 1]
+        call(r.look, r.K, r.inp, shift(row, 4))
+    r.count = min(r.count + 1, r.room - 1)
 
 
 # -- breaks ----------------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ class Run:
     matvec: int
     """E -> M E, with a matrix M (k, k) in the argument K."""
     look: int
-    """Address of what columns of `table` hold; 0 for none."""
+    """Address of what rows of `nodes` hold in place of states; 0 for none."""
     n: int
     """Coordinates."""
     nx: int
@@ -139,11 +139,9 @@ class Run:
     count: int
     """Nodes kept."""
     room: int
-    """Rows of `nodes`."""
-    columns: int
-    """Columns in `table`, how many there may be, and numbers in one."""
-    most_columns: int
-    height: int
+    """Rows of `nodes`, more than an arc can have."""
+    width: int
+    """Numbers in one of them."""
     sloped: int
     """1 where dx0 is the slope at x0 already."""
     lost: int
@@ -160,10 +158,8 @@ class Run:
     """End of the bracket of an event [s], and the event function there."""
     f_far: float
     nodes: Array
-    """Rows (t, x, x')."""
-    table: Array
-    """Columns (t, step, force from outside (2,), what `look` says) at each step and the end of each arc; at a
-    break just after it, under a force from outside just before it too."""
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end of
+    each arc, at a break just after it, under a force from outside just before it too."""
 
     if TYPE_CHECKING:
 
@@ -177,12 +173,11 @@ TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
 ROWS = (
     *("inp", "out", "load", "one"),
-    *("values", "after", "tried", "x_first", "values_first"),
+    *("values", "after", "tried"),
     *(*X_ROWS, *Y_ROWS),
 )
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
-at the start of a step, at its end, and at a time tried in it; state and event functions before the march; those
-of `hybrid.constants`.
+at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`.
 """
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
