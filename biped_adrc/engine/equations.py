@@ -359,6 +359,12 @@ class Equations:
         return self.function(at.inp, *N, at.lost)
 
 
+def matvec(k: int, p: int) -> SymbolicFunction:
+    """M E for E (k, p) and a matrix M (k, k) of the exponential method, which stands in the place of K."""
+    M, E = Vector("M", k * k), Vector("E", k * p)
+    return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+
+
 def push(term: Disturbance, n: int) -> SymbolicFunction:
     """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
 

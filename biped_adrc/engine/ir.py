@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping
 
 import casadi as ca
 
@@ -181,38 +181,27 @@ DECLARATIONS = "\n".join(
 """Head of every module."""
 
 
-def generated(
-    key: Hashable, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
-) -> LoadedCode:
-    """These functions in memory, by name; traced once per structure.
-
-    - key: the structure of what they are made from (`engine.structure`).
-    - functions: by name, each to be called for its expression.
-    - vectors: as of `machine.compiled`.
-    """
-
-    def text() -> str:
-        return module_text({name: f() for name, f in functions.items()})
-
-    return in_memory((key, *functions), list(functions), text, vectors)
-
-
+Functions = Mapping[str, Callable[[], SymbolicFunction]]
+"""By name, each to be called for its expression."""
 _IN_MEMORY: dict[Hashable, tuple[LoadedCode | str, list[Unchanged]]] = {}
 """Code by structure, or why there is none, with what it reached; a function is a value, so this is no state."""
 
 
-def in_memory(
-    key: Hashable, names: Sequence[str], text: Callable[[], str], vectors: bool = False
-) -> LoadedCode:
-    """The functions `names` of a module; its text is asked for where this structure is not in memory.
+def generated(key: Hashable, functions: Functions, vectors: bool = False) -> LoadedCode:
+    """These functions in memory, by name; traced once per structure.
+
+    - key: the structure of what they are made from (`engine.structure`).
+    - vectors: as of `machine.compiled`.
 
     Raises NotCompiled, each time without tracing anew.
     """
+    names = list(functions)
+    key = key, *names
     code, reached = _IN_MEMORY.get(key, (None, []))
     if code is None or not all(unchanged() for unchanged in reached):
         with reaching() as reached:
             try:
-                code = load_or_compile(_text_by(key, text), names, vectors)
+                code = load_or_compile(_text(key, functions), names, vectors)
             except NotCompiled as error:
                 code = str(error)
         _IN_MEMORY[key] = code, reached
@@ -221,13 +210,13 @@ def in_memory(
     return code
 
 
-def _text_by(key: Hashable, text: Callable[[], str]) -> str:
-    """The text that is made from a structure; from the disk where another process has made it for the same."""
+def _text(key: Hashable, functions: Functions) -> str:
+    """The text of these functions; from the disk where another process has made it for the same structure."""
     link = lasting(key)
     there = stored(link) if link else None
     if there is not None:
         return there.decode()
-    result = text()
+    result = module_text({name: f() for name, f in functions.items()})
     if link:
         keep(link, result.encode())
     return result

@@ -63,7 +63,7 @@ def matrix(r: Run, level: int, which: int) -> Array:
 def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
     """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
 
-    By generated vector code: k and p are constants in it.
+    By generated code: k and p are constants in it.
     """
     call(r.matvec, M, shift(y, r.n_slow), shift(out, r.n_slow))
 
