@@ -34,8 +34,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.engine.simulate import run_made
+from biped_adrc.engine.run import COMPILED, run_made, simulate_by
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator

@@ -104,10 +104,6 @@ class CompiledWalker:
             fields |= ticks.addresses
         return cls(walker, program, plan(tables, fields), ticks)
 
-    def raised(self, run: CompiledRun) -> BaseException | None:
-        """What Python has raised in a run, and forgets here."""
-        return None if self.ticks is None else self.ticks.errors.pop(run["inp"], None)
-
 
 def _method(
     walker: Walker, method: OneStepMethod
@@ -143,14 +139,13 @@ def _numbers_at(address: int, size: int) -> Array:
 class PythonTicks:
     """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states.
 
-    flow: address of the walker's flow. What a method raises is kept in `errors`, by the address of the run's
-    inputs, and the march ends as NOT_FINITE.
+    flow: address of the walker's flow. What a method raises is kept as `error`; the march ends as NOT_FINITE.
     """
 
     def __init__(self, walker: Walker, nx: int, flow: int):
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
-        self.errors = dict[float, BaseException]()
+        self.error: BaseException | None = None
         self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
 
     @property
@@ -177,7 +172,7 @@ class PythonTicks:
             self.flow(K, inputs, outputs)
             return np.concatenate((x, (1.0,), out[n : 2 * n]))
 
-        self._keep(ticked, inputs, out)
+        self._keep(ticked, out)
 
     def _impact(self, K: int, inputs: int, outputs: int) -> None:
         """An impact: reads (t, step, x) at `inputs`, writes (x+, 1) at `outputs`; K is not used.
@@ -192,11 +187,11 @@ class PythonTicks:
             after = Mode(int(inp[1]), float(inp[0]))
             return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)
 
-        self._keep(struck, inputs, out)
+        self._keep(struck, out)
 
-    def _keep(self, result: Callable[[], Array], inputs: int, out: Array) -> None:
+    def _keep(self, result: Callable[[], Array], out: Array) -> None:
         """`out` = result(); what it raises is kept, and `out` is NaN."""
         try:
             out[:] = result()
         except BaseException as error:  # goes on where the march was called
-            self.errors[inputs], out[:] = error, math.nan
+            self.error, out[:] = error, math.nan

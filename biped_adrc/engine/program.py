@@ -33,6 +33,9 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
+COMPILED = "compiled"
+"""Name of the engine in settings and records."""
+
 
 @dataclass(frozen=True)
 class Program:

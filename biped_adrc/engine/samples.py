@@ -32,7 +32,7 @@ from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import Reading, WalkerNumbers
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.on_plant import CompiledLoop
-from biped_adrc.engine.simulate import compiled_plant
+from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -167,13 +167,12 @@ class PythonWalk:
         if isinstance(loop, Walker):
             system = loop = compiled_plant(loop)
         elif isinstance(loop, CompiledLoop):
-            size = loop.controller_size(x)
-            system = compiled = loop.compiled(size)
+            system, _ = compiled, _ = loop.prepared(loop.controller_size(x))
             if compiled.program is not None:
                 at = torque_place(compiled.program.numbers)
                 places.append((compiled.program.K[at : at + p], slice(p)))
-            if compiled.terms is not None:
-                places.append((compiled.terms[-1].K[:2], slice(p, None)))
+            if compiled.pushes is not None:
+                places.append((compiled.pushes[-1].K[:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property
