@@ -23,13 +23,7 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.checks import check_fields
-from biped_adrc.core.errors import (
-    BipedError,
-    InputError,
-    ModelError,
-    NotFiniteError,
-    RaisedError,
-)
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
@@ -49,8 +43,6 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-AT_ONCE = 25
-"""Impacts for whose nodes there is room at the same time."""
 
 
 @dataclass(frozen=True)
@@ -187,9 +179,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
         if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
             raise
-        kinds = (k for k, kind in simulator.FAILURES.items() if isinstance(error, kind))
-        status = next(kinds, Status.RAISED)
-        detail = str(error) if isinstance(error, BipedError) else f"{type(error).__name__}: {error}"
+        status, detail = simulator.status_of(error)
         x, start = np.concatenate((case.q, case.v)), case.mode.start
         none = np.zeros((0, len(x)))
         walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
@@ -231,15 +221,8 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        longest, size = compiled.walker.max_step_time, 3 * compiled.walker.plant.p + 4
-        run.keep(longest, min(impacts, AT_ONCE), read, size)
-    status, parts, rows = Status.COMPLETED, list[Array](), list[Array]()
-    for done in range(0, impacts, AT_ONCE if read else impacts):
-        if status is Status.COMPLETED:
-            status, part = run.stride(min(impacts - done, AT_ONCE) if read else impacts)
-            parts.append(part)
-            rows.append(run.rows().copy())
-    strikes = np.vstack(parts)
+        run.keep(compiled.walker.max_step_time, impacts, read, 3 * compiled.walker.plant.p + 4)
+    status, strikes = run.stride(impacts)
     return BatchWalk(
         status,
         "",
@@ -249,7 +232,7 @@ def _strides(
         run["t"],
         COMPILED,
         mode.start,
-        np.ascontiguousarray(np.vstack(rows).T) if read else None,
+        np.ascontiguousarray(run.rows().T) if read else None,
     )
 
 

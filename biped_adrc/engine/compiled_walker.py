@@ -13,7 +13,7 @@ import ctypes
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -146,52 +146,44 @@ class PythonTicks:
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
         self.error: BaseException | None = None
-        self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
+        sizes = {"tick": (3 + nx + self.n, nx + 1 + self.n), "impact": (2 + nx, nx + 1)}
+        self.functions = {
+            name: _FUNCTION(partial(self._called, getattr(self, name), *size))
+            for name, size in sizes.items()
+        }
 
     @property
     def addresses(self) -> dict[str, int]:
         """Of both functions, by name."""
         return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
 
-    def _tick(self, K: int, inputs: int, outputs: int) -> None:
-        """A sample instant: reads (t, step, t_start, x, ..) at `inputs`, writes (x, 1, q'') at `outputs`.
+    def _called(
+        self, method: Callable[..., Array], read: int, written: int, K: int, inp: int, out: int
+    ) -> None:
+        """Evaluate a method with the addresses K, inp, out: `read` numbers (double) at inp, `written` at out.
 
-        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
-        support, its start [s], x (nx,), zeta (n,) [N m]. Written: x (nx,) after the sample instant, 1, and q''
-        (n,) [rad/s^2] under the new torque. The 1 stands where compiled code writes its least pivot, and says
-        that no matrix is singular. K: address of the parameters of the walker's flow.
+        NaN where it raises.
         """
-        n, nx = self.n, self.nx
-        inp, out = _numbers_at(inputs, 3 + nx + n), _numbers_at(outputs, nx + 1 + n)
-
-        def ticked() -> Array:
-            t, step, start = inp[:3].tolist()
-            x = inp[3 : 3 + nx] = self.walker.tick(
-                t, inp[3 : 3 + nx].copy(), Mode(int(step), start)
-            )
-            self.flow(K, inputs, outputs)
-            return np.concatenate((x, (1.0,), out[n : 2 * n]))
-
-        self._keep(ticked, out)
-
-    def _impact(self, K: int, inputs: int, outputs: int) -> None:
-        """An impact: reads (t, step, x) at `inputs`, writes (x+, 1) at `outputs`; K is not used.
-
-        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
-        support that begins, x (nx,) before the impact. Written: x+ (nx,) after it, and 1
-        where compiled code writes its least pivot: no matrix is singular.
-        """
-        inp, out = _numbers_at(inputs, 2 + self.nx), _numbers_at(outputs, self.nx + 1)
-
-        def struck() -> Array:
-            after = Mode(int(inp[1]), float(inp[0]))
-            return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)
-
-        self._keep(struck, out)
-
-    def _keep(self, result: Callable[[], Array], out: Array) -> None:
-        """`out` = result(); what it raises is kept, and `out` is NaN."""
+        result = _numbers_at(out, written)
         try:
-            out[:] = result()
+            result[:] = method(_numbers_at(inp, read), result, lambda: self.flow(K, inp, out))
         except BaseException as error:  # goes on where the march was called
-            self.error, out[:] = error, math.nan
+            self.error, result[:] = error, math.nan
+
+    def tick(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
+        """A sample instant: (x, 1, q'') of (t, step, t_start, x, ..).
+
+        t [s], the number of the single support, its start [s], x (nx,); then x (nx,) after the sample instant,
+        1 for the least pivot, so that no matrix is singular, and q'' (n,) [rad/s^2] under the new torque.
+        flow: computes the slope into out, at what is in inp.
+        """
+        t, step, start = inp[:3].tolist()
+        here = slice(3, 3 + self.nx)
+        x = inp[here] = self.walker.tick(t, inp[here].copy(), Mode(int(step), start))
+        flow()
+        return np.concatenate((x, (1.0,), out[self.n : 2 * self.n]))
+
+    def impact(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
+        """An impact: (x+, 1) of (t, step, x), x+ (nx,); t [s], step that of the single support that begins."""
+        after = Mode(int(inp[1]), float(inp[0]))
+        return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)

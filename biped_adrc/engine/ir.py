@@ -141,12 +141,11 @@ class Writer(ABC):
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
 """Comparisons by LLVM's conditions; a result is 0.0 or 1.0."""
-ONE = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
-"""Calls of functions of one number: LLVM's intrinsics, or the C library's."""
-ONE |= {code: name for code, name in FUNCTIONS.items() if name != "pow"}
-TWO = {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64"}
-"""Calls of functions of two numbers; minimum and maximum pass NaN on."""
-TWO |= {code: name for code, name in FUNCTIONS.items() if name == "pow"}
+CALLED = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
+CALLED |= {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64", **FUNCTIONS}
+"""LLVM's intrinsics and the C library's functions; minimum and maximum pass NaN on."""
+OF_TWO = (ca.OP_FMIN, ca.OP_FMAX, ca.OP_POW, ca.OP_CONSTPOW)
+"""Those of two numbers."""
 PATTERNS: Patterns = {
     ca.OP_ADD: "fadd double {a}, {b}",
     ca.OP_SUB: "fsub double {a}, {b}",
@@ -169,14 +168,15 @@ PATTERNS: Patterns = {
         code: (f"fcmp {sign} double {{a}}, {{b}}", "uitofp i1 {0} to double")
         for code, sign in COMPARISONS.items()
     },
-    **{code: f"call double @{name}(double {{a}})" for code, name in ONE.items()},
-    **{code: f"call double @{name}(double {{a}}, double {{b}})" for code, name in TWO.items()},
+    **{
+        code: f"call double @{name}(double {{a}}{', double {b}' if code in OF_TWO else ''})"
+        for code, name in CALLED.items()
+    },
 }
 """Lines of LLVM by operation."""
 DECLARATIONS = "\n".join(
-    [f"declare double @{name}(double) #0" for name in ONE.values()]
-    + [f"declare double @{name}(double, double) #0" for name in dict.fromkeys(TWO.values())]
-    + ["attributes #0 = { nounwind readnone willreturn }"]
+    f"declare double @{name}(double{', double' if code in OF_TWO else ''}) nounwind readnone willreturn"
+    for name, code in {name: code for code, name in CALLED.items()}.items()
 )
 """Head of every module."""
 

@@ -324,22 +324,26 @@ def symbols_of(example: T) -> tuple[ca.SX, T]:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, float | np.floating):
-        return [float(tree)]
-    if isinstance(tree, np.ndarray):
-        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
+    parts = (
+        x.ravel().tolist() if isinstance(x, np.ndarray) else (float(x),) for _, x in leaves(tree)
+    )
+    return list(chain.from_iterable(parts))
 
 
-def paths(tree: object, name: str = "") -> Iterator[str]:
+def paths(tree: object) -> list[str]:
     """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
-    if isinstance(tree, np.ndarray):
-        if tree.dtype.kind == "f":
-            yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
-    elif isinstance(tree, float | np.floating):
-        yield name
+    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
+    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
+
+
+def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Numbers and arrays of numbers in a tree, each with its name."""
+    if isinstance(tree, float | np.floating) or (
+        isinstance(tree, np.ndarray) and tree.dtype.kind == "f"
+    ):
+        yield name, tree
     for part, x in inside(tree):
-        yield from paths(x, name + part if name or part[0] == "[" else part[1:])
+        yield from leaves(x, name + part if name or part[0] == "[" else part[1:])
 
 
 def inside(tree: object) -> Iterator[tuple[str, object]]:
