@@ -65,12 +65,11 @@ def own(
     """The engine on one single support, as it is timed and with its states at the times, which steps divide."""
     compiled = CompiledWalker.of(walker, method, len(x) - 2 * walker.plant.n)
     every = round(float(times[1] - times[0]) / method.h)
-    rows = np.empty((2 * len(times), 1 + 2 * len(x)))
 
     def run() -> CompiledRun:
         run = compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1]))
         run["every"] = every
-        run.keep(rows)
+        run.keep(float(times[-1]))
         run.stride(1)
         return run
 

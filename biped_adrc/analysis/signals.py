@@ -140,7 +140,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     compiled = trajectory.settings.get("engine") == "compiled"
     tracked = tracked_by(walker.law, reference)
     if compiled or many:
-        from biped_adrc.engine.compiled_signals import compiled_readings
+        from biped_adrc.engine.calls import compiled_readings
 
         result = compiled_readings(walker, trajectory, tracked)
         if result is not None:

@@ -113,9 +113,14 @@ class SteppingLoop(ClosedLoop[Any]):
         start that is none.
         """
         mode = Mode() if mode is None else mode
-        run = simulator.run(self, self.checked_start(x0, options, mode), mode, None, options)
-        engine = {"engine": "pinocchio", "why": "the plant moves by itself"}
+        x0 = self.checked_start(x0, options, mode)
+        loop, engine = self.prepared(self.controller_size(x0))
+        run = simulator.run(loop, x0, mode, None, options)
         return replace(run, settings={**run.settings, **engine})
+
+    def prepared(self, size: int) -> tuple[SteppingLoop, dict[str, str]]:
+        """The loop that runs, for a controller with `size` states, and the settings that say what runs."""
+        return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
     def checked_start(self, x0: Array, options: RunOptions, mode: Mode) -> Array:
         """x0 (nx,) as an array. Raises InputError for one that is no state of this loop."""

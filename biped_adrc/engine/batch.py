@@ -23,20 +23,12 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.checks import check_fields
-from biped_adrc.core.errors import (
-    BipedError,
-    InputError,
-    ModelError,
-    NotFiniteError,
-    RaisedError,
-)
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.engine.simulate import run_made
+from biped_adrc.engine.run import COMPILED, run_made, simulate_by
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
@@ -51,8 +43,6 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-ROOM = 510
-"""Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
 
 @dataclass(frozen=True)
@@ -189,9 +179,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
         if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
             raise
-        kinds = (k for k, kind in simulator.FAILURES.items() if isinstance(error, kind))
-        status = next(kinds, Status.RAISED)
-        detail = str(error) if isinstance(error, BipedError) else f"{type(error).__name__}: {error}"
+        status, detail = simulator.status_of(error)
         x, start = np.concatenate((case.q, case.v)), case.mode.start
         none = np.zeros((0, len(x)))
         walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
@@ -233,8 +221,7 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        run["look"] = read
-        run.keep(table=np.empty((table_height(compiled.walker.plant.p), ROOM * impacts)))
+        run.keep(compiled.walker.max_step_time, impacts, read, 3 * compiled.walker.plant.p + 4)
     status, strikes = run.stride(impacts)
     return BatchWalk(
         status,
@@ -245,7 +232,7 @@ def _strides(
         run["t"],
         COMPILED,
         mode.start,
-        run.table[:, : int(run["columns"])] if read else None,
+        np.ascontiguousarray(run.rows().T) if read else None,
     )
 
 

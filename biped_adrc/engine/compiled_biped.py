@@ -1,23 +1,16 @@
-"""Methods in machine code that Python calls, for controllers that run in Python.
+"""A robot and references in machine code, for controllers that run in Python.
 
-`in_code` makes one of any method of a part. A `CompiledBiped` is a `model.biped.Biped` with those of its
-methods that are asked for at every instant in machine code, traced from `model.planar_robot`; kinematics,
-contact and all else stay Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has
-no compiled form. `compiled_references` does the same for the references of a controller.
-
-`pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
-Python.
+A `CompiledBiped` is a `model.biped.Biped` with those of its methods that are asked for at every instant in
+machine code, traced from `model.planar_robot`; kinematics, contact and all else stay Pinocchio's. `engine.run`
+puts it in the place of the plant when a controller has no compiled form. `compiled_references` does the same
+for the references of a controller.
 """
 
 from __future__ import annotations
 
-import ctypes
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property, lru_cache
-from itertools import accumulate
-from operator import methodcaller
+from functools import cached_property
 from types import new_class
 from typing import Any
 
@@ -25,97 +18,12 @@ import numpy as np
 
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.ir import generated
-from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
-from biped_adrc.engine.tracer import Tracer, located, run
+from biped_adrc.engine.calls import in_code
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
-
-Shape = tuple[int, ...]
-"""Shape of an array."""
-
-_C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-"""Called with the lock of Python held: to let go of it would cost as much as a call."""
-
-
-def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
-    """Call a function for every row of inp (N, inputs) and write out (N, outputs), both contiguous float64.
-
-    By addresses: one ctypes call per row, no array is made.
-    """
-    function = _C(machine.addresses[name])
-    at, inputs, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
-    for _ in range(len(inp)):
-        function(at, inputs, result)
-        inputs, result = inputs + inp.strides[0], result + out.strides[0]
-
-
-def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
-    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
-    first = rows.shape[:-1]
-    pairs = zip(shapes, places_of(shapes), strict=True)
-    return [rows[..., at].reshape(first + shape) for shape, at in pairs]
-
-
-@lru_cache(maxsize=1024)
-def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
-    """Where numbers of arrays of these shapes lie one after the other."""
-    ends = tuple(accumulate(map(math.prod, shapes)))
-    return tuple(map(slice, (0, *ends), ends))
-
-
-class Call:
-    """One generated function with its own output array; not to be shared between threads."""
-
-    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
-        """K (size,): its parameters; inputs, outputs: how many numbers."""
-        self.owner, self.K = machine, K
-        self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
-        self._function = _C(machine.addresses[name])
-        self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
-
-    def __call__(self) -> Array:
-        """The outputs (outputs,) of what is in `inp`; a copy, read-only."""
-        self._function(*self._at)
-        out = self.out.copy()
-        out.setflags(write=False)  # once, for all the views that are handed out
-        return out
-
-
-def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:
-    """A method of a part in machine code, for arguments of the shapes of these: it gives what the method gives.
-
-    Raises NotCompiled, also where the method raises at the examples.
-    """
-    with located(getattr(part, method)):
-        result = getattr(part, method)(*examples)
-    many, sizes = isinstance(result, tuple), tuple(map(np.shape, examples))
-    shapes = tuple(map(np.shape, result)) if many else (np.shape(result),)
-    inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
-
-    def traced() -> SymbolicFunction:
-        (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
-        symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
-        law = methodcaller(method, *(inp.take(*size) for size in sizes))
-        out = run(Tracer(), law, symbols)
-        return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
-
-    code = generated((method, sizes, structure(part)), {"method": traced})
-    called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)
-    places = places_of(sizes)
-
-    def evaluated(*arguments: Array | float) -> Any:
-        for at, x in zip(places, arguments, strict=True):
-            called.inp[at] = x
-        parts = parts_of(called(), shapes)
-        return rebuilt(result, parts) if many else parts[0]
-
-    return evaluated
 
 
 @dataclass(frozen=True)
@@ -138,6 +46,8 @@ class CompiledBiped(Biped):
         return {}
 
     def _called(self, method: str, *arguments: Array) -> Any:
+        """What a method gives at q and v, each (n,), and more."""
+        arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
         if method not in self._made:
             zeros = map(np.zeros_like, arguments)
             self._made[method] = in_code(self.robot, method, *zeros)
@@ -145,22 +55,22 @@ class CompiledBiped(Biped):
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
-        terms: Reduction = self._called("reduction", self._angles(q), self._angles(v))
+        terms: Reduction = self._called("reduction", q, v)
         return terms
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
-        terms: BodyTerms = self._called("body_terms", self._angles(q), self._angles(v))
+        terms: BodyTerms = self._called("body_terms", q, v)
         return terms
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction included."""
-        a: Array = self._called("acceleration", self._angles(q), self._angles(v), force)
+        a: Array = self._called("acceleration", q, v, force)
         return a
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
-        F: Array = self._called("ground_reaction", self._angles(q), self._angles(v), a)
+        F: Array = self._called("ground_reaction", q, v, a)
         return F
 
 

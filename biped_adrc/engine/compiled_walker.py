@@ -13,7 +13,7 @@ import ctypes
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -21,11 +21,11 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_push import push_of
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
-from biped_adrc.engine.kernels.record import FUNCTIONS
-from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.kernels.record import FUNCTIONS, PART
+from biped_adrc.engine.program import Program, push_code
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
@@ -67,6 +67,8 @@ class CompiledWalker:
         split, fields, tables = _method(walker, method)
         program = Program.of(walker, size, split, reference, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
+        push = Sum() if walker.disturbance is None else walker.disturbance
+        parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
@@ -74,6 +76,9 @@ class CompiledWalker:
             "K": program.K,
             "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+            "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
+            "push": np.array(floats(push.terms)),
+            "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
         if isinstance(walker.timing, SampledTime) and walker.held is not None:
             T, motors = walker.timing.period, walker.held.motors
@@ -87,6 +92,7 @@ class CompiledWalker:
             "n_slow": nx - k * p,
             "k": k,
             "moving": nx if flows else 2 * n,
+            "pulled": push.pulls,
             "least_step": LEAST_STEP,
             "farthest": bounds.farthest,
         }
@@ -96,12 +102,7 @@ class CompiledWalker:
         ticks = PythonTicks(walker, nx, program.address("flow")) if in_python else None
         if ticks is not None:
             fields |= ticks.addresses
-        parts, pushed = push_of(walker.disturbance, n)
-        return cls(walker, program, plan(tables | pushed, parts, fields), ticks)
-
-    def raised(self, run: CompiledRun) -> BaseException | None:
-        """What Python has raised in a run, and forgets here."""
-        return None if self.ticks is None else self.ticks.errors.pop(run["inp"], None)
+        return cls(walker, program, plan(tables, fields), ticks)
 
 
 def _method(
@@ -138,60 +139,51 @@ def _numbers_at(address: int, size: int) -> Array:
 class PythonTicks:
     """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states.
 
-    flow: address of the walker's flow. What a method raises is kept in `errors`, by the address of the run's
-    inputs, and the march ends as NOT_FINITE.
+    flow: address of the walker's flow. What a method raises is kept as `error`; the march ends as NOT_FINITE.
     """
 
     def __init__(self, walker: Walker, nx: int, flow: int):
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
-        self.errors = dict[float, BaseException]()
-        self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
+        self.error: BaseException | None = None
+        sizes = {"tick": (3 + nx + self.n, nx + 1 + self.n), "impact": (2 + nx, nx + 1)}
+        self.functions = {
+            name: _FUNCTION(partial(self._called, getattr(self, name), *size))
+            for name, size in sizes.items()
+        }
 
     @property
     def addresses(self) -> dict[str, int]:
         """Of both functions, by name."""
         return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
 
-    def _tick(self, K: int, inputs: int, outputs: int) -> None:
-        """A sample instant: reads (t, step, t_start, x, ..) at `inputs`, writes (x, 1, q'') at `outputs`.
+    def _called(
+        self, method: Callable[..., Array], read: int, written: int, K: int, inp: int, out: int
+    ) -> None:
+        """Evaluate a method with the addresses K, inp, out: `read` numbers (double) at inp, `written` at out.
 
-        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
-        support, its start [s], x (nx,), zeta (n,) [N m]. Written: x (nx,) after the sample instant, 1, and q''
-        (n,) [rad/s^2] under the new torque. The 1 stands where compiled code writes its least pivot, and says
-        that no matrix is singular. K: address of the parameters of the walker's flow.
+        NaN where it raises.
         """
-        n, nx = self.n, self.nx
-        inp, out = _numbers_at(inputs, 3 + nx + n), _numbers_at(outputs, nx + 1 + n)
-
-        def ticked() -> Array:
-            t, step, start = inp[:3].tolist()
-            x = inp[3 : 3 + nx] = self.walker.tick(
-                t, inp[3 : 3 + nx].copy(), Mode(int(step), start)
-            )
-            self.flow(K, inputs, outputs)
-            return np.concatenate((x, (1.0,), out[n : 2 * n]))
-
-        self._keep(ticked, inputs, out)
-
-    def _impact(self, K: int, inputs: int, outputs: int) -> None:
-        """An impact: reads (t, step, x) at `inputs`, writes (x+, 1) at `outputs`; K is not used.
-
-        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
-        support that begins, x (nx,) before the impact. Written: x+ (nx,) after it, and 1
-        where compiled code writes its least pivot: no matrix is singular.
-        """
-        inp, out = _numbers_at(inputs, 2 + self.nx), _numbers_at(outputs, self.nx + 1)
-
-        def struck() -> Array:
-            after = Mode(int(inp[1]), float(inp[0]))
-            return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)
-
-        self._keep(struck, inputs, out)
-
-    def _keep(self, result: Callable[[], Array], inputs: int, out: Array) -> None:
-        """`out` = result(); what it raises is kept, and `out` is NaN."""
+        result = _numbers_at(out, written)
         try:
-            out[:] = result()
+            result[:] = method(_numbers_at(inp, read), result, lambda: self.flow(K, inp, out))
         except BaseException as error:  # goes on where the march was called
-            self.errors[inputs], out[:] = error, math.nan
+            self.error, result[:] = error, math.nan
+
+    def tick(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
+        """A sample instant: (x, 1, q'') of (t, step, t_start, x, ..).
+
+        t [s], the number of the single support, its start [s], x (nx,); then x (nx,) after the sample instant,
+        1 for the least pivot, so that no matrix is singular, and q'' (n,) [rad/s^2] under the new torque.
+        flow: computes the slope into out, at what is in inp.
+        """
+        t, step, start = inp[:3].tolist()
+        here = slice(3, 3 + self.nx)
+        x = inp[here] = self.walker.tick(t, inp[here].copy(), Mode(int(step), start))
+        flow()
+        return np.concatenate((x, (1.0,), out[self.n : 2 * self.n]))
+
+    def impact(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
+        """An impact: (x+, 1) of (t, step, x), x+ (nx,); t [s], step that of the single support that begins."""
+        after = Mode(int(inp[1]), float(inp[0]))
+        return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)

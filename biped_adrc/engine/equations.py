@@ -6,10 +6,11 @@
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
     reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
     sample    (t, step, t_start, x, ..) -> x                  as tick, of a plant that moves by itself
+    push      (t, step, t_start, q, v) -> zeta, force         of the disturbance, with numbers of its own
     to, back, remainder                                       coordinates of the exponential method
 
 `force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is an
-input, since disturbances are compiled by themselves (`engine.compiled_push`) and may differ from run to run.
+input, so that another disturbance does not compile the walker again.
 flow, tick, impact and remainder add, after their result, the least pivot of the matrices that the controller
 inverts; flow, tick and remainder -1 in its place where a torque is beyond the walker's bound.
 
@@ -26,6 +27,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from operator import methodcaller
 from typing import NamedTuple, TypeVar
 
 import casadi as ca
@@ -38,8 +40,18 @@ from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.types import Array, Indices
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.symbols import Scalar, Vector, column, maximum, minimum, symbols_of, where
+from biped_adrc.engine.symbols import (
+    NotCompiled,
+    Scalar,
+    Vector,
+    column,
+    maximum,
+    minimum,
+    symbols_of,
+    where,
+)
 from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldParts
@@ -198,6 +210,8 @@ class SymbolicFunction(NamedTuple):
     """Symbols of the inputs."""
     out: ca.SX
     """Expressions of the outputs."""
+    acts: ca.SX | None = None
+    """Where it is not above 0 out is zero, and not computed; None for always."""
 
 
 @dataclass(frozen=True)
@@ -343,3 +357,27 @@ class Equations:
         form = self._split(at.trace)
         N = at.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
         return self.function(at.inp, *N, at.lost)
+
+
+def matvec(k: int, p: int) -> SymbolicFunction:
+    """M E for E (k, p) and a matrix M (k, k) of the exponential method, which stands in the place of K."""
+    M, E = Vector("M", k * k), Vector("E", k * p)
+    return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
+
+
+def push(term: Disturbance, n: int) -> SymbolicFunction:
+    """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
+
+    Not computed where the term does not act, since most pushes act for a small part of a walk. Raises
+    NotCompiled.
+    """
+    (K, symbols), inp, trace = symbols_of(term), Vector("inp", 3 + 2 * n), Tracer()
+    when, state = (inp.take(), inp.take(), inp.take()), (inp.take(n), inp.take(n))
+    zeta = run(trace, methodcaller("torque", *when, *state), symbols)
+    force = run(trace, methodcaller("resultant", *when), symbols)
+    if (np.shape(zeta), np.shape(force)) != ((n,), (2,)):
+        raise NotCompiled(f"{type(term).__name__} gives no ({n},) torque or no (2,) resultant")
+    acts = None
+    if type(term).acts is not Disturbance.acts:
+        acts = column(run(trace, methodcaller("acts", *when), symbols))
+    return SymbolicFunction(K, inp.symbol, column(zeta, force), acts)

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import struct
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping
 
 import casadi as ca
 
@@ -141,12 +141,11 @@ class Writer(ABC):
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
 """Comparisons by LLVM's conditions; a result is 0.0 or 1.0."""
-ONE = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
-"""Calls of functions of one number: LLVM's intrinsics, or the C library's."""
-ONE |= {code: name for code, name in FUNCTIONS.items() if name != "pow"}
-TWO = {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64"}
-"""Calls of functions of two numbers; minimum and maximum pass NaN on."""
-TWO |= {code: name for code, name in FUNCTIONS.items() if name == "pow"}
+CALLED = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
+CALLED |= {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64", **FUNCTIONS}
+"""LLVM's intrinsics and the C library's functions; minimum and maximum pass NaN on."""
+OF_TWO = (ca.OP_FMIN, ca.OP_FMAX, ca.OP_POW, ca.OP_CONSTPOW)
+"""Those of two numbers."""
 PATTERNS: Patterns = {
     ca.OP_ADD: "fadd double {a}, {b}",
     ca.OP_SUB: "fsub double {a}, {b}",
@@ -169,50 +168,40 @@ PATTERNS: Patterns = {
         code: (f"fcmp {sign} double {{a}}, {{b}}", "uitofp i1 {0} to double")
         for code, sign in COMPARISONS.items()
     },
-    **{code: f"call double @{name}(double {{a}})" for code, name in ONE.items()},
-    **{code: f"call double @{name}(double {{a}}, double {{b}})" for code, name in TWO.items()},
+    **{
+        code: f"call double @{name}(double {{a}}{', double {b}' if code in OF_TWO else ''})"
+        for code, name in CALLED.items()
+    },
 }
 """Lines of LLVM by operation."""
 DECLARATIONS = "\n".join(
-    [f"declare double @{name}(double) #0" for name in ONE.values()]
-    + [f"declare double @{name}(double, double) #0" for name in dict.fromkeys(TWO.values())]
-    + ["attributes #0 = { nounwind readnone willreturn }"]
+    f"declare double @{name}(double{', double' if code in OF_TWO else ''}) nounwind readnone willreturn"
+    for name, code in {name: code for code, name in CALLED.items()}.items()
 )
 """Head of every module."""
 
 
-def generated(
-    key: Hashable, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
-) -> LoadedCode:
-    """These functions in memory, by name; traced once per structure.
-
-    - key: the structure of what they are made from (`engine.structure`).
-    - functions: by name, each to be called for its expression.
-    - vectors: as of `machine.compiled`.
-    """
-
-    def text() -> str:
-        return module_text({name: f() for name, f in functions.items()})
-
-    return in_memory((key, *functions), list(functions), text, vectors)
-
-
+Functions = Mapping[str, Callable[[], SymbolicFunction]]
+"""By name, each to be called for its expression."""
 _IN_MEMORY: dict[Hashable, tuple[LoadedCode | str, list[Unchanged]]] = {}
 """Code by structure, or why there is none, with what it reached; a function is a value, so this is no state."""
 
 
-def in_memory(
-    key: Hashable, names: Sequence[str], text: Callable[[], str], vectors: bool = False
-) -> LoadedCode:
-    """The functions `names` of a module; its text is asked for where this structure is not in memory.
+def generated(key: Hashable, functions: Functions, vectors: bool = False) -> LoadedCode:
+    """These functions in memory, by name; traced once per structure.
+
+    - key: the structure of what they are made from (`engine.structure`).
+    - vectors: as of `machine.compiled`.
 
     Raises NotCompiled, each time without tracing anew.
     """
+    names = list(functions)
+    key = key, *names
     code, reached = _IN_MEMORY.get(key, (None, []))
     if code is None or not all(unchanged() for unchanged in reached):
         with reaching() as reached:
             try:
-                code = load_or_compile(_text_by(key, text), names, vectors)
+                code = load_or_compile(_text(key, functions), names, vectors)
             except NotCompiled as error:
                 code = str(error)
         _IN_MEMORY[key] = code, reached
@@ -221,13 +210,13 @@ def in_memory(
     return code
 
 
-def _text_by(key: Hashable, text: Callable[[], str]) -> str:
-    """The text that is made from a structure; from the disk where another process has made it for the same."""
+def _text(key: Hashable, functions: Functions) -> str:
+    """The text of these functions; from the disk where another process has made it for the same structure."""
     link = lasting(key)
     there = stored(link) if link else None
     if there is not None:
         return there.decode()
-    result = text()
+    result = module_text({name: f() for name, f in functions.items()})
     if link:
         keep(link, result.encode())
     return result
@@ -241,7 +230,25 @@ def module_text(functions: dict[str, SymbolicFunction]) -> str:
 def function_text(name: str, function: SymbolicFunction) -> str:
     """The text of one function with arguments K, inp, out, which do not overlap."""
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
-    return "\n".join([head, *_Writer().written(straight_line(function)), "ret void", "}"])
+    lines = [*_lines("v", function, function.out), "ret void"]
+    if function.acts is not None:
+        lines = [
+            *_lines("a", function, function.acts),
+            "%acts = load double, ptr %out",
+            "%some = fcmp ogt double %acts, 0.0",
+            "br i1 %some, label %act, label %rest",
+            "rest:",
+            *_lines("r", function, ca.SX.zeros(function.out.numel())),
+            "ret void",
+            "act:",
+            *lines,
+        ]
+    return "\n".join([head, *lines, "}"])
+
+
+def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
+    """The lines that compute and store `out`, in values whose names begin with this letter."""
+    return _Writer(letter).written(straight_line(function._replace(out=out)))
 
 
 class _Writer(Writer):
@@ -249,10 +256,10 @@ class _Writer(Writer):
 
     patterns, language = PATTERNS, "machine code"
 
-    def __init__(self) -> None:
-        """`count` numbers the values."""
+    def __init__(self, letter: str) -> None:
+        """Names are the letter and a number, `count` of the last one."""
         super().__init__()
-        self.count = 0
+        self.letter, self.count = letter, 0
 
     def new(self, text: str, operands: tuple[str, ...]) -> str:
         """Write a line and give its value a new name."""
@@ -261,8 +268,9 @@ class _Writer(Writer):
     def _named(self, text: str, lines: list[str]) -> str:
         """As `new`, into these lines."""
         self.count += 1
-        lines.append(f"%v{self.count} = {text}")
-        return f"%v{self.count}"
+        name = f"%{self.letter}{self.count}"
+        lines.append(f"{name} = {text}")
+        return name
 
     def literal(self, x: float) -> str:
         """A double in LLVM's language with all its bits, so that no digits are lost."""

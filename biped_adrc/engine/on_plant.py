@@ -20,31 +20,25 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.closed_loop import other_plant
-from biped_adrc.closed_loop.protocols import (
-    Load,
-    SteppingPlant,
-)
+from biped_adrc.closed_loop.protocols import Load, SteppingPlant
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_push import Terms, summed, terms_of
+from biped_adrc.engine.calls import Call, pushes, zeta_rows
+from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.symbols import NotCompiled
-from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 
 
@@ -61,15 +55,37 @@ COMPILED_MODEL = "compiled model"
 
 
 @dataclass(frozen=True)
-class LoopInCode(SteppingLoop):
-    """A loop with what there is of it in machine code, for one run."""
+class CompiledLoop(SteppingLoop):
+    """As `SteppingLoop`, which says what its fields are: the same walk to round-off, much faster.
+
+    What there is of it in machine code is made for each run, by `prepared`.
+    """
 
     program: Program | None = None
     """Of its sample instants; None where a part of it cannot be compiled."""
-    terms: Terms | None = None
-    """Those of its disturbance; None for none, or for Python."""
-    why: str = ""
-    """Why its sample instants are not compiled."""
+    pushes: list[Call] | None = None
+    """Terms of its disturbance; None for Python."""
+
+    def prepared(self, size: int) -> tuple[CompiledLoop, dict[str, str]]:
+        """As `SteppingLoop.prepared`, with work space of its own.
+
+        What cannot be compiled still gets the terms of its model and its references in machine code, where they
+        have any.
+        """
+        values, engine = dict[str, Any](), {"engine": COMPILED}
+        with suppress(NotCompiled):
+            values["pushes"] = pushes(self.disturbance, self.plant.n)
+        try:
+            values["program"] = Program.of_loop(self, size)
+            values["program"].functions(["sample"])
+        except NotCompiled as reason:
+            engine = {"engine": COMPILED_MODEL, "why": str(reason)}
+            values["program"] = None
+            values["controller"] = compiled_references(self.controller, self.plant.n)
+            if isinstance(self.model, Biped):
+                with suppress(ModelError):  # of a robot that is no planar tree
+                    values["model"] = CompiledBiped.of(self.model)
+        return replace(self, **values), engine
 
     @cached_property
     def sample(self) -> Call:
@@ -95,30 +111,18 @@ class LoopInCode(SteppingLoop):
             return out[:-1]
         return super().tick(t, x, mode)
 
-    @cached_property
-    def pushes(self) -> list[tuple[slice, Call]]:
-        """The functions of the terms, each with its place in zeta and force (n + 2,)."""
-        n = self.plant.n
-        places = {"torque": slice(0, n), "resultant": slice(n, n + 2)}
-        return [
-            (at, Call(code, name, K, 3 + 2 * n, at.stop - at.start))
-            for code, K in self.terms or ()
-            for name, at in places.items()
-            if name in code.addresses
-        ]
-
     def push(self, t: float, row: Array, mode: Mode) -> Load | None:
         """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
         are not finite.
         """
-        if self.terms is None:
+        if self.pushes is None:
             return super().push(t, row, mode)
         n = self.plant.n
         result = np.zeros(n + 2)
-        for at, call in self.pushes:
-            inp = call.inp
+        for term in self.pushes:
+            inp = term.inp
             inp[0], inp[1], inp[2], inp[3:] = t, mode.step, mode.start, row[: 2 * n]
-            result[at] += call()
+            result += term()
         size = result.dot(result)
         if not math.isfinite(size):
             return super().push(t, row, mode)
@@ -127,45 +131,10 @@ class LoopInCode(SteppingLoop):
     @cached_property
     def pushed_in_python(self) -> bool:
         """Whether its disturbance is not compiled."""
-        return self.disturbance is not None and self.terms is None
+        return self.disturbance is not None and self.pushes is None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
         """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
-        if self.terms is None:
+        if self.pushes is None:
             return super().zetas(t, rows, mode)
-        return summed(self.terms, t, rows, mode, self.plant.n)
-
-
-@dataclass(frozen=True)
-class CompiledLoop(SteppingLoop):
-    """As `SteppingLoop`, which says what its fields are: the same walk to round-off, much faster."""
-
-    def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
-        """As `SteppingLoop.run`, from x0 (nx,)."""
-        began = Mode() if mode is None else mode
-        x0 = self.checked_start(x0, options, began)
-        loop = self.compiled(self.controller_size(x0))
-        run = simulator.run(loop, x0, began, None, options)
-        settings = {"engine": COMPILED_MODEL, "why": loop.why} if loop.why else {"engine": COMPILED}
-        return replace(run, settings={**run.settings, **settings})
-
-    def compiled(self, size: int) -> LoopInCode:
-        """The loop for a controller with `size` states, made anew for each run, for its work space.
-
-        What cannot be compiled still gets the terms of its model and its references in machine code, where they
-        have any.
-        """
-        values: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
-        if self.disturbance is not None:
-            with suppress(NotCompiled):
-                values["terms"] = terms_of(self.disturbance, self.plant.n)
-        try:
-            values["program"] = Program.of_loop(self, size)
-            values["program"].functions(["sample"])
-        except NotCompiled as reason:
-            values |= {"program": None, "why": str(reason)}
-            values["controller"] = compiled_references(self.controller, self.plant.n)
-            if isinstance(self.model, Biped):
-                with suppress(ModelError):  # of a robot that is no planar tree
-                    values["model"] = CompiledBiped.of(self.model)
-        return LoopInCode(**values)
+        return zeta_rows(self.pushes, t, rows, mode, self.plant.n)

@@ -4,9 +4,6 @@ One compilation serves every robot, gain and gait of the same structure, which h
 (`engine.structure`). So a program is made in microseconds where its functions are in
 memory, in milliseconds where they are on disk; only for a new structure is anything traced and
 compiled.
-
-Beside the functions of `engine.equations` stands `matvec`, the product of the exponential method: M E
-for a matrix M (k, k) in the place of K and E (k, p).
 """
 
 from __future__ import annotations
@@ -24,15 +21,20 @@ from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.engine import equations
 from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.engine.tracer import located
 from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
+
+COMPILED = "compiled"
+"""Name of the engine in settings and records."""
 
 
 @dataclass(frozen=True)
@@ -129,10 +131,11 @@ class Program:
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
-        split = self.numbers.split
+        split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
-            return product(len(split.A), self.numbers.plant.p).addresses[name]
-        return self.machine.addresses.get(name, 0)
+            sizes = len(split.A), self.numbers.plant.p
+            code = generated(sizes, {name: partial(equations.matvec, *sizes)}, vectors=True)
+        return code.addresses.get(name, 0)
 
 
 def numbers_of(walker: Walker) -> WalkerNumbers:
@@ -156,15 +159,12 @@ def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> Walke
     return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)
 
 
-def product(k: int, p: int) -> LoadedCode:
-    """Machine code with the function `matvec` for M (k, k) and E (k, p), as vector instructions.
+def push_code(term: Disturbance, n: int) -> LoadedCode:
+    """Machine code with the function `push` of a term of a disturbance of n coordinates.
 
-    The matrices of ETD-RK4 change with the length of a step, so M is an argument, in the place of
-    K.
+    Terms are compiled by themselves, so that other pushes do not compile the walker again. Raises NotCompiled
+    for one that cannot be traced, with the reason.
     """
-
-    def matvec() -> SymbolicFunction:
-        M, E = Vector("M", k * k), Vector("E", k * p)
-        return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
-
-    return generated(("matvec", k, p), {"matvec": matvec}, vectors=True)
+    if type(term).switching_times is not Disturbance.switching_times:
+        raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
+    return generated(("push", n, structure(term)), {"push": partial(equations.push, term, n)})

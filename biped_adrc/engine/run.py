@@ -1,27 +1,48 @@
-"""One run of a walker by the engine asked for; what ran is in the trajectory's settings.
+"""One run of a walker by the engine asked for, with the trajectory that the Python engine would leave.
 
-Entry to the engine for `scenario.walk` and the reproduction of the paper. "pinocchio" runs the
-Python loop on Pinocchio's dynamics, "compiled" tries machine code first. numba and LLVM are
-imported only when they are needed.
+"pinocchio" runs the loop of `hybrid.simulator` on Pinocchio's dynamics. "compiled" takes the fastest way that
+fits:
+
+- all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
+  is one call of a kernel;
+- compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
+  (`engine.compiled_walker`);
+- compiled plant otherwise: the loop of `hybrid.simulator` on compiled dynamics;
+- Pinocchio, for a robot that is no planar tree.
+
+The settings of the trajectory say what ran.
 """
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
+from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.program import COMPILED as COMPILED
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
-PINOCCHIO, COMPILED, COMPILED_PLANT = "pinocchio", "compiled", "compiled plant"
-"""Names of the engines in settings and records; "compiled plant" is what ran where a part does not compile."""
+PINOCCHIO = "pinocchio"
+COMPILED_PLANT = "compiled plant"
+"""Names of the engines in settings and records; the second one is what ran where a part does not compile."""
 ENGINES = (PINOCCHIO, COMPILED)
 """Those that can be asked for."""
+TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
+"""Names of the event functions that end a run, by status."""
+ONWARD, STORE = 0.005, 1_000_000
+"""How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
 
 
 def check_engine(engine: str) -> None:
@@ -51,11 +72,101 @@ def simulate_by(
         options["stop_after"] = FOOT_STRIKE, impacts
     run_options, why = RunOptions(**options), {}
     if engine == COMPILED:
-        from biped_adrc.engine.simulate import run_compiled
-
         try:
             return run_compiled(walker, x0, mode, method, run_options)
         except ModelError as error:
             why = {"why": f"{error}; Pinocchio was used instead"}
     run = simulator.run(walker, x0, mode, method, run_options)
     return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})
+
+
+def run_compiled(
+    walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+) -> Trajectory:
+    """As `hybrid.simulator.run` for a walker, from x0 (nx,), all compiled or on a compiled plant.
+
+    Raises InputError for a start that is not finite or parts that do not fit, ModelError for a robot that
+    is no planar tree.
+    """
+    options.check(np.asarray(x0))
+    size = walker.controller_size(x0)
+    try:
+        compiled = CompiledWalker.of(walker, method, size, options.t0)
+        made = run_made(compiled, x0, mode, method, options)
+        return replace(made, detail=detail_of(walker, method, made))
+    except NotCompiled as reason:
+        why = f"{reason}; it runs in Python on the compiled plant"
+    walker, run = compiled_plant(walker), None
+    if walker.sampled:
+        with suppress(NotCompiled):
+            compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
+            run = run_made(compiled, x0, mode, method, options)
+    run = run or simulator.run(walker, x0, mode, method, options)
+    return replace(run, settings={**run.settings, "engine": COMPILED_PLANT, "why": why})
+
+
+def run_made(
+    compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+) -> Trajectory:
+    """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
+    run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
+    longest, left = compiled.walker.max_step_time, options.t_end - options.t0
+    run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
+    run["every"] = options.store_every
+
+    def flown(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
+        """To the end or the first event, with the impact there."""
+        nx, event, outcome = run.nx, None, None
+        status, strikes = run.stride(1)
+        for t, *x in strikes:
+            outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
+            event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
+        if status in TERMINAL:
+            event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
+        at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
+        arc = Arc(mode, at[:, 0], x, dx, event)
+        if compiled.ticks is not None and compiled.ticks.error is not None:
+            return _ended_by(compiled.ticks.error, arc)
+        detail = f"after t = {arc.t[-1]:.6g} s" if status in simulator.FAILURES else ""
+        status = Status.COMPLETED if status is Status.TIME_OUT else status
+        return FlownArc(arc, status, detail, outcome)
+
+    walked = run_arcs(flown, x0, mode, method.label, options)
+    return replace(walked, settings={**walked.settings, "engine": COMPILED})
+
+
+def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
+    """The arc that ends with what Python raised at a sample instant or an impact; raises it where a mistake is
+    seen at once, at the first sample instant.
+    """
+    if not isinstance(error, Exception):
+        raise error
+    status, detail = simulator.status_of(error)
+    if status is Status.RAISED and len(arc.t) == 1:
+        raise error
+    return FlownArc(arc, status, detail)
+
+
+def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
+    """The detail of a run, with what Python says of its next steps where compiled code lost its numbers.
+
+    Machine code gives NaN without a name; the methods in Python name the class that gave it.
+    """
+    if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
+        return run.detail
+    options = RunOptions(run.t_end + ONWARD, run.t_end, store_every=STORE)
+    try:
+        result = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)
+    except Exception as error:  # what a method raises in Python, such as a division by zero
+        return f"{run.detail}: {type(error).__name__}: {error}"
+    if result.status is not run.status or not result.detail:
+        return run.detail
+    return result.detail if run.detail in result.detail else f"{run.detail}: {result.detail}"
+
+
+def compiled_plant(walker: Walker) -> Walker:
+    """The walker with compiled dynamics and references. Raises ModelError."""
+    controller = compiled_references(walker.controller, walker.plant.n)
+    model = None if walker.model is None else CompiledBiped.of(walker.model)
+    plant = CompiledBiped.of(walker.plant)
+    return replace(walker, plant=plant, model=model, controller=controller)

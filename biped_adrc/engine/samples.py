@@ -12,7 +12,6 @@ moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled pla
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, cast
@@ -31,9 +30,9 @@ from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import Reading, WalkerNumbers
-from biped_adrc.engine.kernels.compiled_run import CompiledRun, table_height
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.on_plant import CompiledLoop
-from biped_adrc.engine.simulate import compiled_plant
+from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -78,8 +77,8 @@ class CompiledWalk:
 
     compiled: CompiledWalker
     run: CompiledRun
-    """Where it is; moved by the kernel `samples`. Its table is that of this single support, as
-    `engine.batch.BatchWalk.table`; without columns where it is not judged."""
+    """Where it is; moved by the kernel `samples`. Its nodes are those of this single support, as
+    `engine.batch.BatchWalk.table`; none where it is not judged."""
 
     places: tuple[int, int]
     """Cells of the torque and the force from outside, the last term of the disturbance."""
@@ -101,20 +100,20 @@ class CompiledWalk:
         compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
-            code = compiled.program.reading(step_reading)
-            run["look"], room = code.addresses["reading"], columns(walker, run["h"])
-            run.keep(table=np.empty((table_height(walker.plant.p), room)))
+            look = compiled.program.reading(step_reading).addresses["reading"]
+            run.keep(walker.max_step_time, 1, look, 3 * walker.plant.p + 4)
         assert walker.disturbance is not None
         torque = run.place("K") + torque_place(compiled.program.numbers)
-        return cls(compiled, run, (torque, run.term(len(walker.disturbance.terms) - 1)))
+        return cls(
+            compiled, run, (torque, run.place("push") + len(floats(walker.disturbance.terms[:-1])))
+        )
 
     def over(self, on: bool) -> Array:
-        """The table; where the walk goes on, only columns of the single support in which it is stay there."""
-        run, table, count = self.run, self.run.table, int(self.run["columns"])
-        last = int(np.searchsorted(table[1, :count], run["step"])) if on else count
-        result = table[:, :count].copy()
-        table[:, : count - last], run["columns"] = result[:, last:], count - last
-        return result
+        """The table; where the walk goes on, nodes of the single support in which it is stay there."""
+        run, rows = self.run, self.run.rows().copy()
+        stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
+        run.nodes[: len(stay)], run["count"] = stay, len(stay)
+        return np.ascontiguousarray(rows.T)
 
     @property
     def addresses(self) -> list[int]:
@@ -134,12 +133,6 @@ class CompiledWalk:
     def law(self, view: Reading) -> int:
         """Address of machine code for what `view` says."""
         return self.compiled.program.reading(view).addresses["reading"]
-
-
-def columns(walker: Walker, h: float) -> int:
-    """Columns of the longest single support with steps h [s], two at each break."""
-    period = cast(SampledTime, walker.timing).period
-    return 64 + (3 + math.ceil(period / h)) * math.ceil(walker.max_step_time / period)
 
 
 @dataclass(frozen=True)
@@ -174,13 +167,12 @@ class PythonWalk:
         if isinstance(loop, Walker):
             system = loop = compiled_plant(loop)
         elif isinstance(loop, CompiledLoop):
-            size = loop.controller_size(x)
-            system = compiled = loop.compiled(size)
+            system, _ = compiled, _ = loop.prepared(loop.controller_size(x))
             if compiled.program is not None:
                 at = torque_place(compiled.program.numbers)
                 places.append((compiled.program.K[at : at + p], slice(p)))
-            if compiled.terms is not None:
-                places.append((compiled.terms[-1][1][:2], slice(p, None)))
+            if compiled.pushes is not None:
+                places.append((compiled.pushes[-1].K[:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property

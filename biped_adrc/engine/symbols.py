@@ -207,10 +207,6 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     return columns.reshape(B.shape)
 
 
-SymbolRow = list[Number]
-"""One row of a matrix beside its right sides, during elimination."""
-
-
 class Solver:
     """`linear.solve` on symbols: elimination with the largest pivot of each column.
 
@@ -230,23 +226,21 @@ class Solver:
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
-        rows = [list(a) + list(b) for a, b in zip(A, B.reshape(n, -1), strict=True)]
+        rows: Any = np.hstack((A, B.reshape(n, -1))).astype(object)
         inverse: list[Number] = []
         for j in range(n):
             for i in range(j + 1, n):
-                rows[j], rows[i] = _larger_first(rows[j], rows[i], j)
-            self.pivots.append(abs(rows[j][j]))
-            inverse.append(1.0 / rows[j][j])
+                one, other = rows[j, j:].copy(), rows[i, j:].copy()
+                swap = abs(Scalar(expression(other[0]))) > abs(Scalar(expression(one[0])))
+                rows[j, j:], rows[i, j:] = _chosen(swap, other, one), _chosen(swap, one, other)
+            self.pivots.append(abs(rows[j, j]))
+            inverse.append(1.0 / rows[j, j])
             for i in range(j + 1, n):
-                factor = rows[i][j] * inverse[j]
-                rows[i] = [
-                    a - factor * b if c > j else 0.0 for c, (a, b) in _pairs(rows[i], rows[j])
-                ]
-        X = np.full((n, len(rows[0]) - n), 0.0, dtype=object)
+                rows[i, j:] = rows[i, j:] - rows[i, j] * inverse[j] * rows[j, j:]
+        X: Any = np.full((n, rows.shape[1] - n), 0.0, dtype=object)
         for i in reversed(range(n)):
-            for c in range(X.shape[1]):
-                known = sum(rows[i][k] * X[k, c] for k in range(i + 1, n))
-                X[i, c] = (rows[i][n + c] - known) * inverse[i]
+            known = sum(rows[i, k] * X[k] for k in range(i + 1, n))
+            X[i] = (rows[i, n:] - known) * inverse[i]
         return X.reshape(B.shape)
 
     @property
@@ -258,21 +252,7 @@ class Solver:
         return least
 
 
-def _pairs(one: SymbolRow, other: SymbolRow) -> Iterator[tuple[int, tuple[Number, Number]]]:
-    """Column number, and the entries of both rows in that column."""
-    return enumerate(zip(one, other, strict=True))
-
-
-def _larger_first(one: SymbolRow, other: SymbolRow, j: int) -> tuple[SymbolRow, SymbolRow]:
-    """The two rows, that with the larger entry in column j first; entries left of column j are zero.
-
-    The exchange is a choice for each entry, since the rows are known at run time only.
-    """
-    a, b = (abs(Scalar(expression(row[j]))) for row in (one, other))
-    swap = b > a
-    first = [where(swap, b, a) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
-    second = [where(swap, a, b) if c >= j else 0.0 for c, (a, b) in _pairs(one, other)]
-    return first, second
+_chosen: Callable[..., Any] = elementwise(where)
 
 
 def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
@@ -344,22 +324,26 @@ def symbols_of(example: T) -> tuple[ca.SX, T]:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, float | np.floating):
-        return [float(tree)]
-    if isinstance(tree, np.ndarray):
-        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
+    parts = (
+        x.ravel().tolist() if isinstance(x, np.ndarray) else (float(x),) for _, x in leaves(tree)
+    )
+    return list(chain.from_iterable(parts))
 
 
-def paths(tree: object, name: str = "") -> Iterator[str]:
+def paths(tree: object) -> list[str]:
     """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
-    if isinstance(tree, np.ndarray):
-        if tree.dtype.kind == "f":
-            yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
-    elif isinstance(tree, float | np.floating):
-        yield name
+    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
+    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
+
+
+def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Numbers and arrays of numbers in a tree, each with its name."""
+    if isinstance(tree, float | np.floating) or (
+        isinstance(tree, np.ndarray) and tree.dtype.kind == "f"
+    ):
+        yield name, tree
     for part, x in inside(tree):
-        yield from paths(x, name + part if name or part[0] == "[" else part[1:])
+        yield from leaves(x, name + part if name or part[0] == "[" else part[1:])
 
 
 def inside(tree: object) -> Iterator[tuple[str, object]]:

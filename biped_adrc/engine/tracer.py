@@ -109,9 +109,9 @@ class Tracer:
     def __init__(self) -> None:
         """The replacements, by identity of what methods name: NumPy, math, two functions of `linear`."""
         self.solver, random = Solver(), Hidden("random numbers")
-        functions = {name: elementwise(function_of(theirs)) for name, theirs in FUNCTIONS.items()}
+        scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
         numpy = {
-            **functions,
+            **{name: elementwise(function) for name, function in scalars.items()},
             "zeros": _filled(0.0),
             "ones": _filled(1.0),
             "empty": _filled(0.0),
@@ -128,24 +128,20 @@ class Tracer:
             "random": random,
             "linalg": _Substitute(np.linalg, {"solve": self.solver}),
         }
-        scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
-        scalars |= {f"a{name}": function_of(f"a{name}") for name in ("sin", "cos", "tan")}
-        self._functions = {
-            getattr(math, name): f for name, f in scalars.items() if hasattr(math, name)
-        }
-        self._functions |= {getattr(np, name): f for name, f in functions.items()}
-        self._substitutes: list[tuple[object, object]] = [
-            (np, _Substitute(np, numpy)),
-            (math, _Substitute(math, scalars)),
+        scalars |= {name.replace("arc", "a"): function for name, function in scalars.items()}
+        modules = (np, numpy), (math, {k: f for k, f in scalars.items() if hasattr(math, k)})
+        pairs = [
+            *((module, _Substitute(module, twins)) for module, twins in modules),
+            *((getattr(module, name), f) for module, twins in modules for name, f in twins.items()),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
             (checks.returned, lambda found, *_, **__: found),
             (checks.point_returned, lambda found, *_: found),
             (checks.check_part, lambda *_: None),
-            (np.random, random),
             (np.random.default_rng, random),
             (stdlib_random, random),
         ]
+        self._substitutes = {id(old): (old, new) for old, new in pairs}
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
@@ -167,7 +163,7 @@ class Tracer:
         if f not in self._copies:
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
-            copy = types.FunctionType(
+            copy: Any = types.FunctionType(
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
@@ -190,12 +186,8 @@ class Tracer:
 
         A part has methods for symbols, as have the parts in it; its content stays as it is.
         """
-        for old, new in self._substitutes:
-            if value is old:
-                return new
-        # such as of `from math import sin`
-        if isinstance(value, np.ufunc | types.BuiltinFunctionType):
-            return self._functions.get(value, value)
+        if id(value) in self._substitutes:
+            return self._substitutes[id(value)][1]
         if isinstance(value, tuple | list):
             inside = [self.on_symbols(part) for part in value]
             return Unchangeable(inside) if type(value) is list else rebuilt(value, inside)
@@ -322,10 +314,10 @@ def catches(code: types.CodeType) -> bool:
 
 def _refused(code: types.CodeType) -> Any:
     """In place of a method that catches exceptions."""
+    name, file = code.co_qualname.replace(".<locals>", ""), Path(code.co_filename).name
 
     def refuse(*_: object, **__: object) -> Any:
-        name = code.co_qualname.replace(".<locals>", "")
-        place = f"{name} ({Path(code.co_filename).name}:{code.co_firstlineno})"
+        place = f"{name} ({file}:{code.co_firstlineno})"
         raise Located(f"{place} cannot be compiled: it catches exceptions")
 
     return refuse

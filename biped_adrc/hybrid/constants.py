@@ -10,8 +10,8 @@ HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT, RAN_AWAY = 4, 5, 6, 7, 8
 """Codes: places in `hybrid.status.Status`."""
-STRUCK, FULL = 9, 10
-"""Codes that are no status: an event with a reset ended the arc; there is no room for another node."""
+STRUCK = 9
+"""Code that is no status: an event with a reset ended the arc."""
 
 RESOLUTION = 2e-3
 """Longest stretch of a step without a look at the event functions [s]."""

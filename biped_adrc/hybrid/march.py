@@ -300,18 +300,24 @@ def left(t: float) -> float:
 
 
 @inner
-def nodes(r: Run, t0: float, t1: float) -> bool:
+def keep(r: Run, t: float, x: Array, dx: Array) -> None:
+    """A node at t [s], where they are kept."""
+    if r.every > 0 or r.look != 0:
+        node(r, t, x, dx)
+
+
+@inner
+def nodes(r: Run, t0: float, t1: float) -> None:
     """Keep the end of a step from t0 to t1 [s]; where every step is kept, points inside a long one too, for
-    which a cubic would be too coarse. False when there is no room.
+    which a cubic would be too coarse.
     """
     count = pieces(t0, t1) if r.every == 1 else 1
     for j in range(1, count):
         s = t0 + (t1 - t0) * j / count
         retake(r, t0, s)
         flow(r, s, r.x_e, r.dx_e)
-        if not node(r, s, r.x_e, r.dx_e):
-            return False
-    return node(r, t1, r.x1, r.dx1)
+        node(r, s, r.x_e, r.dx_e)
+    node(r, t1, r.x1, r.dx1)
 
 
 @inner
@@ -378,7 +384,7 @@ def pass_on(r: Run) -> None:
 def stop(r: Run, code: int) -> int:
     """x0 (nx,) and t at the event just found, kept as a node with its slope from the left; its code.
 
-    FULL where there is no room for the node. A status, and all as before, where the state is not finite.
+    A status, and all as before, where the state is not finite.
     """
     te = r.t_event
     if not finite(r.x_e, r.nx):
@@ -387,10 +393,7 @@ def stop(r: Run, code: int) -> int:
     r.t = te
     if r.every > 0:
         flow(r, left(te), r.x0, r.dx0)
-        if not node(r, te, r.x0, r.dx0):
-            return FULL
-    if r.look != 0 and table_row(r, te, r.x0) == 0:
-        return FULL
+    keep(r, te, r.x0, r.dx0)
     return code
 
 
@@ -406,10 +409,7 @@ def through(r: Run, t_next: float) -> int:
     r.limit = left(t_next)
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t, t_next)
-    if r.every > 0 and not node(r, t, r.x0, r.dx0):
-        return FULL
-    if r.look != 0 and table_row(r, t, r.x0) == 0:
-        return FULL
+    keep(r, t, r.x0, r.dx0)
     while t < t_next:
         steps += 1
         if r.kind == SOLVER:
@@ -424,16 +424,13 @@ def through(r: Run, t_next: float) -> int:
             return stop(r, code)
         skipped += 1
         if r.every > 0 and (t1 >= t_next or skipped >= r.every):
-            if not nodes(r, t, t1):
-                return FULL
+            nodes(r, t, t1)
             skipped = 0
         pass_on(r)
         r.t = t = t1
-        last = (
-            t >= t_next and t < r.t_end and r.pulled == 0
-        )  # the next stretch begins with the same
-        if r.look != 0 and not last and table_row(r, t, r.x0) == 0:
-            return FULL
+        # the next stretch begins with the same, but for a force that jumps
+        if r.look != 0 and (t < t_next or t >= r.t_end or r.pulled != 0):
+            node(r, t, r.x0, r.dx0)
     return 0
 
 

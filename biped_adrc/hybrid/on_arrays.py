@@ -294,15 +294,9 @@ def next_break(r: Run) -> float:
     return r.calendar.next_break(r.t)
 
 
-def node(r: Run, t: float, x: Array, dx: Array) -> bool:
-    """Keep (t, x, dx), t in [s]; there is always room."""
+def node(r: Run, t: float, x: Array, dx: Array) -> None:
+    """Keep (t, x, dx), t in [s]."""
     r.record.add(t, x.copy(), dx.copy())
-    return True
-
-
-def table_row(r: Run, t: float, x: Array) -> int:
-    """No table is kept here."""
-    return 1
 
 
 # -- a solver's steps ------------------------------------------------------------------------------

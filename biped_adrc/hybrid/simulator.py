@@ -2,7 +2,7 @@
 
 Every arc is one march from the last event to the next (`hybrid.march`), which starts with the clock updates
 that are due. `run_arcs` is shared: the Python engine flies an arc with `flow_arc`, the compiled one with a
-kernel (`engine.simulate`). Systems that move by themselves give a `Mover` in place of a flow.
+kernel (`engine.run`). Systems that move by themselves give a `Mover` in place of a flow.
 """
 
 from __future__ import annotations

@@ -21,11 +21,10 @@ import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.disturbances.base import Windowed
-from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import load_or_compile
-from biped_adrc.engine.program import Program
+from biped_adrc.engine.program import Program, push_code
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.constraint import continued
@@ -472,10 +471,8 @@ def torque_compiles(disturbance, at):
     inp, n = np.concatenate([np.ravel(x) for x in at]), len(at[3])
     zeta, force = np.zeros(n), np.zeros(2)
     for term in disturbance.terms:
-        code, K = term_code(term, n), np.array([*floats(term), 0.0])
-        zeta += call(code, "torque", K, inp, n)
-        if term.pulls:
-            force += call(code, "resultant", K, inp, 2)
+        load = call(push_code(term, n), "push", np.array([*floats(term), 0.0]), inp, n + 2)
+        zeta, force = zeta + load[:n], force + load[n:]
     assert np.max(np.abs(zeta - disturbance.zeta(*at))) <= 1e-13
     assert np.max(np.abs(force - disturbance.net_force(*at[:3]))) <= 1e-14
 

@@ -13,7 +13,7 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import HipForce, OnLink
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.disturbances.waves import TorqueNoise
-from biped_adrc.engine.compiled_push import term_code
+from biped_adrc.engine.program import push_code
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
@@ -179,7 +179,7 @@ def test_a_disturbance_in_plain_python_is_compiled(biped, gait):
     ],
 )
 def test_disturbances_that_differ_in_numbers_share_one_machine_code(biped, make):
-    assert len({term_code(term, 5).addresses["torque"] for term in make(biped)}) == 1
+    assert len({push_code(term, 5).addresses["push"] for term in make(biped)}) == 1
 
 
 # -- noise -----------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.signals import signals, signals_of
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.engine.compiled_signals import compiled_readings
+from biped_adrc.engine.calls import compiled_readings
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.reference import TimeReference
 

@@ -565,3 +565,14 @@ def test_progress_and_the_engine_asked_for(gait, ticked):
     assert [t for t, _ in told] == [event.t for event in run.events(FOOT_STRIKE)]
     run = simulate_by("pinocchio", ticked, x0, Mode(), ba.RK4(1e-3), t_end=0.01)
     assert run.settings["engine"] == "pinocchio"
+
+
+@pytest.mark.parametrize("h", [7e-4, 2.5e-3, 9e-3])
+def test_all_nodes_of_the_longest_single_support_are_kept(biped, gait, h):
+    """With the least time between breaks: sample instants, a torque that waits, switches, short last steps."""
+    push = ba.TorquePulse(PULSE, step=1, start=0.01, stop=0.0123)
+    timing = ba.SampledTime(1e-3, delay=4e-4)
+    walker = ba.Walker(biped, npd(gait), push, timing, max_step_time=0.0995)
+    python, compiled = runs(walker, gait, ba.RK4(h), impacts=1)
+    assert compiled.status is ba.Status.STALLED
+    assert compiled.arcs[0].t == pytest.approx(python.arcs[0].t, abs=1e-12)

@@ -4,13 +4,15 @@ import sys
 import types
 from dataclasses import dataclass
 
+import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_push import term_code
-from biped_adrc.engine.ir import in_memory
+from biped_adrc.engine.equations import SymbolicFunction
+from biped_adrc.engine.ir import generated
+from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import lasting, structure
 from biped_adrc.engine.symbols import floats
 from tests.control.conforms import call
@@ -43,8 +45,8 @@ def value(term):
     """The torque of a term by its machine code, and by Python."""
     q, v = np.zeros(5), np.arange(1.0, 6.0)
     inp, K = np.concatenate(([0.1, 1.0, 0.0], q, v)), np.array([*floats(term), 0.0])
-    code = term_code(term, 5)
-    return call(code, "torque", K, inp, 5), term.torque(0.1, 1, 0.0, q, v)
+    code = push_code(term, 5)
+    return call(code, "push", K, inp, 7)[:5], term.torque(0.1, 1, 0.0, q, v)
 
 
 @pytest.mark.parametrize(("torque", "before", "after"), REACHED.values(), ids=REACHED)
@@ -87,10 +89,9 @@ def test_numbers_are_no_structure(make):
 
 
 def test_the_same_structure_is_compiled_once():
-    text = "define void @f(ptr %K, ptr %inp, ptr %out) {\nret void\n}"
-    made, once = [], (object(),)
+    made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
-        in_memory(once, ["f"], lambda: made.append(1) or text)
+        generated(once, {"f": lambda: made.append(1) or SymbolicFunction(x, y, y)})
     assert made == [1]
 
 

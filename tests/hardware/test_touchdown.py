@@ -10,7 +10,7 @@ from biped_adrc.analysis.touchdowns import matched, touchdowns
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.simulate import run_compiled
+from biped_adrc.engine.run import run_compiled
 from biped_adrc.hardware.sample_hold import read
 from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown, Look, belief_of
 from biped_adrc.hybrid.simulator import RunOptions

@@ -15,7 +15,7 @@ from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, WALK, Ints, Run
 from biped_adrc.hybrid.constants import *
-from biped_adrc.hybrid.march import arm, travel
+from biped_adrc.hybrid.march import arm, keep, travel
 
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
@@ -25,28 +25,17 @@ MOST_ARCS = 100
 def go_on(r: Run) -> int:
     """From x0 at t to the first event or t_end; a code.
 
-    Where there is no room for the nodes (FULL) all is as before, so that the call can be repeated with more. An
-    arc that ends before its first step leaves one node, so that no arc is empty.
+    An arc that ends before its first step leaves one node, so that no arc is empty.
     """
-    t, armed, count, t_arc, columns = r.t, r.armed, r.count, r.t_arc, r.columns
-    copy(r.x0, r.x_first, r.nx)
-    copy(r.values, r.values_first, r.guards)
-    r.lost = 0
+    count, r.lost = r.count, 0
     lower(r)
-    if armed == 0:
+    if r.armed == 0:
         arm(r)  # type: ignore[arg-type]
     code = travel(r)  # type: ignore[arg-type]
-    if r.every > 0 and r.count == 0 and code != FULL:
+    if r.count == count:
         for i in range(r.nx):
             r.dx0[i] = 0.0
-        if not node(r, r.t, r.x0, r.dx0):
-            code = FULL
-    if r.look != 0 and r.columns == columns and code != FULL and table_row(r, r.t, r.x0) == 0:
-        code = FULL
-    if code == FULL:
-        r.t, r.armed, r.count, r.t_arc, r.columns = t, armed, count, t_arc, columns
-        copy(r.x_first, r.x0, r.nx)
-        copy(r.values_first, r.values, r.guards)
+        keep(r, r.t, r.x0, r.dx0)  # type: ignore[arg-type]
     return code
 
 
@@ -64,8 +53,7 @@ def land(r: Run) -> int:
 def stride(r: Run, impacts: int, strikes: Array) -> int:
     """Over `impacts` impacts, or until t_end (TIME_OUT); a status.
 
-    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each. Where there is no room for nodes or columns of
-    `table` (FULL), the run is at the start of its arc.
+    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each.
     """
     nx = r.nx
     for count in range(impacts):
@@ -84,17 +72,10 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
 
 @unit
 def sample(r: Run) -> int:
-    """From a sample instant to the next one; a code, 0 for COMPLETED.
-
-    Where there is no room for columns of the table, those in it are given up. Where the walk ends, the run is
-    at its end.
-    """
+    """From a sample instant to the next one, or to the end of the walk; a code, 0 for COMPLETED."""
     for _ in range(MOST_ARCS):
         r.t_end = next_tick(r, r.t, clock_start(r))
         code = go_on(r)
-        if code == FULL:
-            r.columns = 0
-            code = go_on(r)
         if code == STRUCK:
             code = land(r)
         if code != COMPLETED:

@@ -11,6 +11,7 @@ between two impacts, a tick a sample instant.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,12 +20,12 @@ import numpy as np
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PART, PLACES, ROWS, TABLES, Ints
-from biped_adrc.hybrid.constants import FULL, STRUCK
+from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PLACES, ROWS, TABLES, Ints
+from biped_adrc.hybrid.constants import RESOLUTION, STRUCK
 from biped_adrc.hybrid.status import Status
 
 STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
-"""The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
+"""The status for each code of `hybrid.constants`; STRUCK has none."""
 LEAST_PERIOD = 1e-9
 """Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 NO_ROWS = np.zeros((0, 0))
@@ -43,7 +44,7 @@ class CompiledRun:
         at = self.place("x0")
         self.x = self.numbers[at : at + self.nx]
         """State (nx,), as a view."""
-        self.nodes = self.table = NO_ROWS
+        self.nodes = NO_ROWS
 
     @property
     def block(self) -> Ints:
@@ -56,10 +57,6 @@ class CompiledRun:
         """Cell of the first number of a vector."""
         return (int(self.cells[PLACES[name]]) - self.address) // 8
 
-    def term(self, k: int) -> int:
-        """Cell at which the numbers of term k of the disturbance begin."""
-        return (int(self.cells[self.place("parts") + PART * k + 1]) - self.address) // 8
-
     def __getitem__(self, name: str) -> float:
         """A number, or the address of a vector."""
         where: Any = self.numbers if KINDS[name] == "float" else self.cells
@@ -71,10 +68,10 @@ class CompiledRun:
         where[PLACES[name]] = value
 
     def copy(self) -> CompiledRun:
-        """The same run in memory of its own, with its nodes and table."""
-        run = CompiledRun(self.block, self.pointers)
-        if self.nodes.size or self.table.size:
-            run.keep(self.nodes.copy(), self.table.copy())
+        """The same run in memory of its own, with its nodes."""
+        run, count = CompiledRun(self.block, self.pointers), int(self["count"])
+        run._keep_in(np.empty_like(self.nodes))
+        run.nodes[:count] = self.nodes[:count]
         return run
 
     def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
@@ -92,42 +89,39 @@ class CompiledRun:
         run.x[:] = x
         return run
 
-    def keep(self, nodes: Array = NO_ROWS, table: Array = NO_ROWS) -> None:
-        """Room for nodes (N, 1 + 2 nx), rows (t, x, x'), and for columns of `table` (height, M)."""
-        self.nodes, self.table = nodes, table
-        self["nodes"], self["room"] = nodes.ctypes.data, len(nodes)
-        self["table"] = table.ctypes.data
-        self["height"], self["most_columns"] = table.shape
+    def keep(self, longest: float, arcs: int = 1, look: int = 0, width: int = 0) -> None:
+        """Keep nodes, with room for so many arcs, none of them longer than `longest` [s].
+
+        look: address of a function of `width` numbers, which rows hold in place of states. An arc has stretches
+        between sample instants, switching times and its ends; the last step of each may be short, and a step
+        longer than RESOLUTION has nodes inside. Memory is taken by the rows that are written alone.
+        """
+        h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
+        time = longest + T + h
+        stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
+        rows = 1 + (time / h + 2.0 * stretches) * math.ceil(h / RESOLUTION)
+        self["look"], self["width"] = look, 4 + width if look else 1 + 2 * self.nx
+        self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
+
+    def _keep_in(self, nodes: Array) -> None:
+        self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
+
+    def rows(self) -> Array:
+        """The nodes kept since they were asked for last, to be copied before the run goes on."""
+        count, self["count"] = int(self["count"]), 0
+        return self.nodes[:count]
 
     def stride(self, impacts: int) -> tuple[Status, Array]:
-        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each impact.
-
-        Where there is no room for nodes or columns, it is made twice as large.
-        """
-        strikes, count = np.zeros((impacts, 1 + 2 * self.nx)), 0
-        while True:
-            step, at = self["step"], strikes[count:].ctypes.data
-            code = kernels().stride(self.address, impacts - count, at)
-            count += int(self["step"] - step)
-            if code != FULL:
-                return STATUS[code], strikes[:count]
-            double = np.empty_like
-            self.keep(
-                np.vstack((self.nodes, double(self.nodes))),
-                np.hstack((self.table, double(self.table))),
-            )
+        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each."""
+        strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
+        code = kernels().stride(self.address, impacts, strikes.ctypes.data)
+        return STATUS[code], strikes[: int(self["step"] - step)]
 
 
-def table_height(p: int) -> int:
-    """Numbers in a column of `table` with a `StepReading` of p joints behind the first four."""
-    return 4 + 3 * p + 4
-
-
-def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) -> CompiledRun:
+def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
     """Lay out a run: tables and fields by their names in `record.Run`; those left out are empty and 0.
 
-    parts: as `record.Run.parts`, the numbers' addresses as their places in the table `push`. Raises InputError
-    for a period too short.
+    Raises InputError for a period too short.
     """
     values = {"moving": fields["nx"], "guards": 3, **fields}
     if 0.0 < values.get("period", 0.0) < LEAST_PERIOD:
@@ -135,24 +129,19 @@ def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) 
             f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
         )
     n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
-    slow, none, parts = int(values.get("n_slow", 0)), np.zeros(0), parts.copy()
+    slow, none = int(values.get("n_slow", 0)), np.zeros(0)
     values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(tables.get("phi", none))}
-    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches")}
-    values |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
-    floats = (tables.get(name, none) for name in TABLES[:-1])
-    blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
+    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches", "parts")}
+    blocks = [np.ravel(tables.get(name, none)).view(np.int64) for name in TABLES]
     width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
-    lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
+    lengths = [*map(len, blocks), *(width for _ in ROWS)]
     starts = np.cumsum([len(KINDS), *lengths])
     places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
-    parts[:, 1] = 8 * (places["push"] + parts[:, 1])
     cells = np.zeros(starts[-1], dtype=np.int64)
-    filled = np.concatenate([*blocks, parts.ravel()])
+    filled = np.concatenate(blocks)
     cells[len(KINDS) : len(KINDS) + len(filled)] = filled
     for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():
         cells[PLACES[name]] = 8 * start
-    numbers = np.arange(len(parts)) * PART + 1 + places["parts"]
-    pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
-    return CompiledRun(cells, pointers)
+    return CompiledRun(cells, np.array([PLACES[name] for name in places]))

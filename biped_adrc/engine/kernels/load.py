@@ -56,28 +56,30 @@ class Kernels(NamedTuple):
     stride: Loop
     samples: Loop
     looks: Loop
+    owner: object
+    """What keeps them in memory."""
 
 
-SIZES = Kernels(3, 8, 5)  # type: ignore[arg-type]
-"""How many arguments each of them has."""
+ARGUMENTS = {"stride": 3, "samples": 8, "looks": 5}
+"""How many each of them has."""
 _LOCK = Lock()
 
 
 def kernels() -> Kernels:
     """The loops; the first thread that asks loads them, or compiles them where they are not on disk."""
     with _LOCK:
-        return _loaded()[0]
+        return _loaded()
 
 
 @cache
-def _loaded() -> tuple[Kernels, object]:
-    """The loops, and what keeps them in memory."""
-    code = load_or_compile(loops(), Kernels._fields)
-    calls = (
-        CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
-        for name, size in SIZES._asdict().items()
-    )
-    return Kernels(*calls), code
+def _loaded() -> Kernels:
+    """As `kernels`."""
+    code = load_or_compile(loops(), [*ARGUMENTS])
+    calls = {
+        name: CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
+        for name, size in ARGUMENTS.items()
+    }
+    return Kernels(**calls, owner=code)
 
 
 def loops() -> str:

@@ -14,8 +14,8 @@ import math
 import numpy as np
 
 from biped_adrc.core.types import Array
-from biped_adrc.engine.kernels.call import call, floats_at, inner, shift, unit
-from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, PART, Run
+from biped_adrc.engine.kernels.call import call, inner, shift, unit
+from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, OUTSIDE, PART, Run
 from biped_adrc.hybrid.constants import *
 
 
@@ -63,7 +63,7 @@ def matrix(r: Run, level: int, which: int) -> Array:
 def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
     """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
 
-    By generated vector code: k and p are constants in it.
+    By generated code: k and p are constants in it.
     """
     call(r.matvec, M, shift(y, r.n_slow), shift(out, r.n_slow))
 
@@ -103,20 +103,24 @@ def slow(r: Run, t: float, x: Array) -> bool:
 
 
 @inner
-def disturb(r: Run, zeta: Array) -> None:
-    """zeta (n,) [N m]: the sum of the disturbance's parts at (t, step, t_start, q, v) in `inp`."""
-    for i in range(r.n):
-        zeta[i] = 0.0
-    for k in range(r.n_parts):
-        call(r.parts[PART * k], floats_at(r.parts[PART * k + 1]), r.inp, r.one)
-        for i in range(r.n):
-            zeta[i] += r.one[i]
-
-
-@inner
 def set_time(r: Run, t: float) -> None:
     """The first of the inputs: t [s], single support, its start [s]."""
     r.inp[0], r.inp[1], r.inp[2] = t, r.step, r.t_start
+
+
+@inner
+def disturb(r: Run, t: float) -> None:
+    """load: zeta (n,) [N m] and force from outside (2,) [N], the sum over the disturbance's terms at t [s] with
+    (q, v) in `inp`.
+    """
+    set_time(r, t)
+    size, K = r.n + 2, r.push
+    for i in range(size):
+        r.load[i] = 0.0
+    for k in range(r.n_parts):
+        call(r.parts[PART * k], K, r.inp, r.one)
+        add(r.load, 1.0, r.one, r.load, size)
+        K = shift(K, r.parts[PART * k + 1])
 
 
 @unit
@@ -127,12 +131,11 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
     what is held only the last p numbers are passed on, the torques on the joints.
     """
     nx, inp, moving = r.nx, r.inp, r.moving
-    set_time(r, min(t, r.limit))
     copy(x, shift(inp, 3), moving)
     if moving < nx:
         copy(shift(x, nx - r.p), shift(inp, 3 + nx - r.p), r.p)
-    disturb(r, r.zeta)
-    copy(r.zeta, shift(inp, 3 + nx), r.n)
+    disturb(r, min(t, r.limit))
+    copy(r.load, shift(inp, 3 + nx), r.n)
     call(r.flow, r.K, inp, dx)
     note(r, dx, dx[nx])
 
@@ -159,13 +162,12 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
     The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
     """
     inp = r.inp
-    set_time(r, min(t, r.limit))
     if r.n_parts > 0:
         call(r.back, r.K, y, r.out)
         copy(r.out, shift(inp, 3), 2 * r.n)
-    disturb(r, r.zeta)
+    disturb(r, min(t, r.limit))
     copy(y, shift(inp, 3), r.ny)
-    copy(r.zeta, shift(inp, 3 + r.ny), r.n)
+    copy(r.load, shift(inp, 3 + r.ny), r.n)
     call(r.remainder, r.K, inp, N)
     note(r, N, N[r.nN])
 
@@ -267,35 +269,22 @@ def lower(r: Run) -> None:
             r.drop += r.drops[2 * i + 1]
 
 
-@inner
-def node(r: Run, t: float, x: Array, dx: Array) -> bool:
-    """Keep (t, x, dx), x and dx (nx,), as the next row of `nodes`; False when there is no room."""
-    i, nx = r.count, r.nx
-    if i >= r.room:
-        return False
-    kept = shift(r.nodes, i * (1 + 2 * nx))
-    kept[0] = t
-    for j in range(nx):
-        kept[1 + j], kept[1 + nx + j] = x[j], dx[j]
-    r.count = i + 1
-    return True
-
-
 @unit
-def table_row(r: Run, t: float, x: Array) -> int:
-    """Keep what is read at t [s] in x (nx,) as the next column of `table`; 0 when there is no room, else 1."""
-    i, out = r.columns, r.out
-    if i >= r.most_columns:
-        return 0
-    copy(x, shift(r.inp, 3), r.nx)
-    from_outside(r, min(t, r.limit), shift(out, 2))
-    set_time(r, t)
-    call(r.look, r.K, r.inp, shift(out, 4))
-    out[0], out[1] = t, r.step
-    for j in range(r.height):
-        r.table[j * r.most_columns + i] = out[j]
-    r.columns = i + 1
-    return 1
+def node(r: Run, t: float, x: Array, dx: Array) -> None:
+    """Keep the next row of `nodes` at t [s]: of x and dx (nx,), or what `look` says."""
+    nx, row = r.nx, shift(r.nodes, r.count * r.width)
+    row[0] = t
+    if r.look == 0:
+        copy(x, shift(row, 1), nx)
+        copy(dx, shift(row, 1 + nx), nx)
+    else:
+        copy(x, shift(r.inp, 3), nx)
+        if r.pulled != 0:
+            disturb(r, min(t, r.limit))
+        set_time(r, t)
+        row[1], row[2], row[3] = r.step, r.load[r.n], r.load[r.n + 1]
+        call(r.look, r.K, r.inp, shift(row, 4))
+    r.count = min(r.count + 1, r.room - 1)
 
 
 # -- breaks ----------------------------------------------------------------------------------------
@@ -351,21 +340,6 @@ def next_break(r: Run) -> float:
     return first
 
 
-@inner
-def from_outside(r: Run, t: float, force: Array) -> None:
-    """force (2,) from outside on the robot as a whole [N] at t [s], with (q, v) in `inp`.
-
-    Only the parts of the disturbance that have a resultant are asked; pure torques have none.
-    """
-    force[0] = force[1] = 0.0
-    set_time(r, t)
-    for k in range(r.n_parts):
-        if r.parts[PART * k + 2] != 0:
-            call(r.parts[PART * k + 2], floats_at(r.parts[PART * k + 1]), r.inp, r.one)
-            force[0] += r.one[0]
-            force[1] += r.one[1]
-
-
 @unit
 def due(r: Run) -> int:
     """x0 (nx,) after what is due at t: a sample instant, with dx0 its slope; the torque that waited for a
@@ -398,12 +372,9 @@ def due(r: Run) -> int:
 @inner
 def measure(r: Run, x: Array) -> None:
     """The inputs of a function at a sample instant at t in x (nx,): (t, step, t_start, x, zeta, force)."""
-    n, nx, inp = r.n, r.nx, r.inp
-    copy(x, shift(inp, 3), nx)
-    from_outside(r, r.t, shift(inp, 3 + nx + n))
-    set_time(r, min(r.t, r.limit))
-    disturb(r, r.zeta)
-    copy(r.zeta, shift(inp, 3 + nx), n)
+    copy(x, shift(r.inp, 3), r.nx)
+    disturb(r, min(r.t, r.limit))
+    copy(r.load, shift(r.inp, 3 + r.nx), r.n + OUTSIDE)
 
 
 # -- a solver's steps, which are Python's ----------------------------------------------------------

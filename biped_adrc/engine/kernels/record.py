@@ -18,7 +18,7 @@ from biped_adrc.hybrid.constants import X_ROWS, Y_ROWS
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
 """Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
-PART = 3
+PART = 2
 """Numbers in `parts` for one."""
 WALK = 3
 """Numbers for one of many walks: addresses of its run, and of the torque and the force in it; 0 for no walk."""
@@ -57,7 +57,7 @@ class Run:
     matvec: int
     """E -> M E, with a matrix M (k, k) in the argument K."""
     look: int
-    """Address of what columns of `table` hold; 0 for none."""
+    """Address of what rows of `nodes` hold in place of states; 0 for none."""
     n: int
     """Coordinates."""
     nx: int
@@ -87,9 +87,9 @@ class Run:
     n_drops: int
     n_switches: int
     n_parts: int
-    """Parts of the disturbance."""
+    """Terms of the disturbance."""
     pulled: int
-    """1 where a part of it is a force from outside."""
+    """1 where one of them is a force from outside."""
     period: float
     """Of sample instants [s]; 0 for continuous time."""
     part: float
@@ -115,9 +115,10 @@ class Run:
     phi: Array
     """Matrices of ETD-RK4 (levels, 6, k, k)."""
     push: Array
-    """Numbers of the disturbance's parts."""
+    """Numbers of the disturbance, term after term."""
     parts: Ints
-    """Of each part: its torque's address, its numbers' address in `push`, its resultant's address or 0."""
+    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers it
+    has."""
     # -- what changes
     t: float
     """[s]"""
@@ -138,11 +139,9 @@ class Run:
     count: int
     """Nodes kept."""
     room: int
-    """Rows of `nodes`."""
-    columns: int
-    """Columns in `table`, how many there may be, and numbers in one."""
-    most_columns: int
-    height: int
+    """Rows of `nodes`, more than an arc can have."""
+    width: int
+    """Numbers in one of them."""
     sloped: int
     """1 where dx0 is the slope at x0 already."""
     lost: int
@@ -159,10 +158,8 @@ class Run:
     """End of the bracket of an event [s], and the event function there."""
     f_far: float
     nodes: Array
-    """Rows (t, x, x')."""
-    table: Array
-    """Columns (t, step, force from outside (2,), what `look` says) at each step and the end of each arc; at a
-    break just after it, under a force from outside just before it too."""
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end of
+    each arc, at a break just after it, under a force from outside just before it too."""
 
     if TYPE_CHECKING:
 
@@ -175,13 +172,12 @@ FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "mat
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
 ROWS = (
-    *("inp", "out", "zeta", "one"),
-    *("values", "after", "tried", "x_first", "values_first"),
+    *("inp", "out", "load", "one"),
+    *("values", "after", "tried"),
     *(*X_ROWS, *Y_ROWS),
 )
-"""Work vectors: inputs and outputs of a function, zeta and one part of it; event functions at the start of a
-step, at its end, and at a time tried in it; state and event functions before the march; those of
-`hybrid.constants`.
+"""Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
+at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`.
 """
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""

@@ -312,14 +312,16 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
     n, hand = code.walker.plant.n, code.walker.disturbance
     assert hand is not None
 
-    def places(term: int, name: str, size: int) -> list[int]:
-        first = code.plan.term(term) + list(paths(hand.terms[term])).index(f"{name}[0]")
+    names = list(paths(hand.terms))
+
+    def places(name: str, size: int) -> list[int]:
+        first = code.plan.place("push") + names.index(f"{name}[0]")
         return list(range(first, first + size))
 
     return {
-        "torque": places(0, "amplitude", n),
-        "force": places(1, "wave.amplitude", 2),
-        **{name: places(1, f"point.{name}", 1)[0] for name in ("re", "im", "turn")},
+        "torque": places("[0].amplitude", n),
+        "force": places("[1].wave.amplitude", 2),
+        **{name: places(f"[1].point.{name}", 1)[0] for name in ("re", "im", "turn")},
     }
 
 

@@ -22,12 +22,12 @@ from llvmlite import binding
 
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
 from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
+from biped_adrc.engine.program import push_code
 
 
 class WebWalker(NamedTuple):
@@ -97,10 +97,8 @@ def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
         cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
-        part = cells[one.plan.place("parts") + PART * k :][:PART]
-        push = laws.of(term_code(term, one.walker.plant.n))
-        part[0] = laws.number(f"{push}.torque")
-        part[2] = laws.number(f"{push}.resultant") if part[2] else 0
+        push = laws.of(push_code(term, one.walker.plant.n))
+        cells[one.plan.place("parts") + PART * k] = laws.number(f"{push}.push")
     return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.reading"))
 
 

@@ -1,0 +1,175 @@
+"""Generated code that Python calls: methods of parts, terms of a disturbance, signals at all nodes of a run.
+
+Signals are not stored with a run but computed again from the states, at tens of thousands of nodes: in machine
+code (`Equations.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
+a part has no compiled form. The disturbance zeta is an input of them, since it may run in Python.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from itertools import accumulate
+from operator import methodcaller
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.outer_loop import OuterLoop, tracked_point
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
+from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.engine.equations import SymbolicFunction
+from biped_adrc.engine.ir import generated
+from biped_adrc.engine.kernels.record import OUTSIDE
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.program import COMPILED, Program, push_code
+from biped_adrc.engine.structure import structure
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
+from biped_adrc.engine.tracer import Tracer, located, run
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.model.planar_robot import PlanarRobot
+
+Shape = tuple[int, ...]
+"""Shape of an array."""
+
+_C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+"""Called with the lock of Python held: to let go of it would cost as much as a call."""
+
+
+def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
+    """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
+    first = rows.shape[:-1]
+    pairs = zip(shapes, places_of(shapes), strict=True)
+    return [rows[..., at].reshape(first + shape) for shape, at in pairs]
+
+
+@lru_cache(maxsize=1024)
+def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
+    """Where numbers of arrays of these shapes lie one after the other."""
+    ends = tuple(accumulate(map(math.prod, shapes)))
+    return tuple(map(slice, (0, *ends), ends))
+
+
+class Call:
+    """One generated function with its own output array; not to be shared between threads."""
+
+    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
+        """K (size,): its parameters; inputs, outputs: how many numbers."""
+        self.owner, self.K = machine, K
+        self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
+        self._function = _C(machine.addresses[name])
+        self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
+
+    def __call__(self) -> Array:
+        """The outputs (outputs,) of what is in `inp`; a copy, read-only."""
+        self._function(*self._at)
+        out = self.out.copy()
+        out.setflags(write=False)  # once, for all the views that are handed out
+        return out
+
+    def rows(self, inp: Array) -> Array:
+        """The outputs (N, outputs) of all rows of inp (N, inputs)."""
+        inp, out = np.ascontiguousarray(inp), np.empty((len(inp), len(self.out)))
+        starts = inp.ctypes.data, out.ctypes.data
+        K, inputs, outputs = self.K.ctypes.data, inp.strides[0], out.strides[0]
+        for i in range(len(inp)):
+            self._function(K, starts[0] + i * inputs, starts[1] + i * outputs)
+        return out
+
+
+def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
+    """The functions of a disturbance's terms, (t, step, t_start, q, v) -> (zeta, force), for n coordinates.
+
+    Raises NotCompiled.
+    """
+    terms = () if disturbance is None else disturbance.terms
+    numbers = (np.array([*floats(term), 0.0]) for term in terms)
+    codes = (push_code(term, n) for term in terms)
+    return [
+        Call(*of, 3 + 2 * n, n + 2)
+        for of in zip(codes, ["push"] * len(terms), numbers, strict=True)
+    ]
+
+
+def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) -> Array:
+    """zeta (K, n) [N m] at K times [s], in rows (q, q', ..) of n coordinates."""
+    when = np.broadcast_to((mode.step, mode.start), (len(t), 2))
+    inp = np.column_stack((t, when, rows[:, : 2 * n]))
+    return sum((term.rows(inp)[:, :n] for term in terms), np.zeros((len(t), n)))
+
+
+def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:
+    """A method of a part in machine code, for arguments of the shapes of these: it gives what the method gives.
+
+    Raises NotCompiled, also where the method raises at the examples.
+    """
+    with located(getattr(part, method)):
+        result = getattr(part, method)(*examples)
+    many, sizes = isinstance(result, tuple), tuple(map(np.shape, examples))
+    shapes = tuple(map(np.shape, result)) if many else (np.shape(result),)
+    inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
+
+    def traced() -> SymbolicFunction:
+        (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
+        symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
+        law = methodcaller(method, *(inp.take(*size) for size in sizes))
+        out = run(Tracer(), law, symbols)
+        return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
+
+    code = generated((method, sizes, structure(part)), {"method": traced})
+    called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)
+    places = places_of(sizes)
+
+    def evaluated(*arguments: Array | float) -> Any:
+        for at, x in zip(places, arguments, strict=True):
+            called.inp[at] = x
+        parts = parts_of(called(), shapes)
+        return rebuilt(result, parts) if many else parts[0]
+
+    return evaluated
+
+
+def compiled_readings(
+    walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
+) -> InstantSignals | None:
+    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
+
+    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
+    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
+    left.
+    """
+    nx = trajectory.arcs[0].x.shape[1]
+    try:
+        program = Program.of(walker, walker.controller_size(nx), curve=reference)
+        if trajectory.settings.get("engine") != COMPILED:
+            _ = program.machine  # NotCompiled where the controller runs in Python
+        code, K = program.reading(signals_at), program.K
+    except (NotCompiled, ModelError):
+        return None
+    first = trajectory.arcs[0]
+    example = signals_at(
+        walker, first.t[0], first.x[0], first.mode, lambda s, m: tracked_point(reference, s, m)
+    )
+    shapes = tuple(np.shape(part) for part in example)
+    call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
+    out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
+    return InstantSignals(*parts_of(out, shapes))
+
+
+def _inputs(walker: Walker, arc: Arc) -> Array:
+    """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
+    n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
+    q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
+    try:
+        zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
+    except NotCompiled:
+        zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
+    head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)
+    return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
