@@ -8,9 +8,7 @@ from biped_adrc.core.errors import SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import regress_multipliers, return_map_samples
-from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import walk_scenario
 
 
 @pytest.fixture(scope="module")
