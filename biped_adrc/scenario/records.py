@@ -87,7 +87,7 @@ def named_part(
     """
     entry = find(kind, name)
     make = entry.load()
-    all_taken(place, own, {*takes(make), *fields})
+    all_taken(place, own, {**takes(make), **dict.fromkeys(fields)})
     values = {**known, **entry.defaults, **own}
     return construct(f"{kind} '{name}'", make, values, base, place)
 
