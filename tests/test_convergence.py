@@ -24,8 +24,8 @@ from biped_adrc.scenario.walk import (
     FINE_STEP,
     Part,
     execute_twice,
+    in_parts,
     refined,
-    walk_in_parts,
     walk_scenario,
 )
 
@@ -117,7 +117,7 @@ def test_a_walk_in_parts_is_the_walk(biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
     whole = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled").trajectory
     parts = tuple(Part(n, ba.RK4(1e-3)) for n in (1, 2, 1))
-    joined = walk_in_parts(walker, gait, gait.start(biped), 1, parts, "compiled").trajectory
+    joined = in_parts(walker, gait.start(biped), Mode(1), parts, "compiled")
     assert [arc.mode for arc in joined.arcs] == [arc.mode for arc in whole.arcs]
     for one, other in zip(joined.arcs, whole.arcs, strict=True):
         assert np.array_equal(one.x, other.x)

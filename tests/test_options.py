@@ -9,8 +9,8 @@ from __future__ import annotations
 import importlib
 import shlex
 from collections.abc import Callable
-from functools import reduce
 from inspect import signature
+from operator import attrgetter
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -56,49 +56,45 @@ class Command(NamedTuple):
     rows: dict[str, Row]
 
 
-def same(name: str) -> Callable[[Any], object]:
-    return lambda a: reduce(getattr, name.split("."), a)
-
-
 ROBOT_ROWS = {
-    "robot": Row("--robot compass", lambda a: a.biped.description.name, "compass"),
-    "preset": Row("--preset tac2003", same("biped.preset"), "tac2003"),
+    "robot": Row("--robot compass", attrgetter("biped.description.name"), "compass"),
+    "preset": Row("--preset tac2003", attrgetter("biped.preset"), "tac2003"),
 }
 SIMULATE = {
-    "scenario": Row("--scenario best.toml", same("s.controller.K_d"), 33.0),
-    "controller": Row("--controller npd", same("s.controller.name"), "NPD"),
-    "gait": Row("--gait recipe", same("s.gait.name"), "recipe"),
-    "impacts": Row("--impacts 5", same("s.run.impacts"), 5),
-    "period": Row("--period '2 ms'", same("s.hardware.period"), 0.002),
-    "torque_limit": Row("--torque-limit 80Nm", same("s.hardware.torque_limit"), 80.0),
-    "plant": Row("--plant mujoco", same("s.ground.plant"), "mujoco"),
-    "engine": Row("--engine pinocchio", same("s.run.engine"), "pinocchio"),
+    "scenario": Row("--scenario best.toml", attrgetter("s.controller.K_d"), 33.0),
+    "controller": Row("--controller npd", attrgetter("s.controller.name"), "NPD"),
+    "gait": Row("--gait recipe", attrgetter("s.gait.name"), "recipe"),
+    "impacts": Row("--impacts 5", attrgetter("s.run.impacts"), 5),
+    "period": Row("--period '2 ms'", attrgetter("s.hardware.period"), 0.002),
+    "torque_limit": Row("--torque-limit 80Nm", attrgetter("s.hardware.torque_limit"), 80.0),
+    "plant": Row("--plant mujoco", attrgetter("s.ground.plant"), "mujoco"),
+    "engine": Row("--engine pinocchio", attrgetter("s.run.engine"), "pinocchio"),
     "push": Row(
         "--push q1=5@3:0.1-0.2",
         lambda a: [p.in_words() for p in a.s.pushes],
         ["5 N m on q1 from 0.1 to 0.2 s in single support 3"],
     ),
-    "sets": Row("--set 'run.max_step_time=900 ms'", same("s.run.max_step_time"), 0.9),
-    "a record's name": Row("--set hardware=rabbit", same("s.hardware.profile"), "rabbit"),
+    "sets": Row("--set 'run.max_step_time=900 ms'", attrgetter("s.run.max_step_time"), 0.9),
+    "a record's name": Row("--set hardware=rabbit", attrgetter("s.hardware.profile"), "rabbit"),
     "poles": Row(
         "--set controller.observer.poles=-1,-2,-3",
-        same("s.controller.observer.poles"),
+        attrgetter("s.controller.observer.poles"),
         (-1.0, -2.0, -3.0),
     ),
-    "limits": Row("--set limits.friction=0.4", same("limits.friction"), 0.4),
-    "own": Row("--set controller.own=[1,2]", same("s.controller.own"), {"own": (1, 2)}),
-    "end_infeasible": Row("--end-infeasible", same("end_infeasible"), True),
-    "out": Row("-o own.csv", same("out"), Path("own.csv")),
-    "log": Row("--period 0.002 --log own", same("log"), Path("own.csv")),
+    "limits": Row("--set limits.friction=0.4", attrgetter("limits.friction"), 0.4),
+    "own": Row("--set controller.own=[1,2]", attrgetter("s.controller.own"), {"own": (1, 2)}),
+    "end_infeasible": Row("--end-infeasible", attrgetter("end_infeasible"), True),
+    "out": Row("-o own.csv", attrgetter("out"), Path("own.csv")),
+    "log": Row("--period 0.002 --log own", attrgetter("log"), Path("own.csv")),
 }
 POINCARE = {
-    "slope": Row("--set ground.slope=0.03", same("s.ground.slope"), 0.03),
-    "observer_states": Row("--no-observer-states", same("observer_states"), False),
+    "slope": Row("--set ground.slope=0.03", attrgetter("s.ground.slope"), 0.03),
+    "observer_states": Row("--no-observer-states", attrgetter("observer_states"), False),
 }  # fmt: skip
 DESIGN = {
-    "speed": Row("--speed 0.75", same("request.speed"), 0.75),
-    "curve": Row("--speed 0.5 --set curve=bspline", same("request.curve"), "bspline"),
-    "torque": Row("--speed 0.5 --set limits.torque=77", same("request.limits.torque"), 77.0),
+    "speed": Row("--speed 0.75", attrgetter("request.speed"), 0.75),
+    "curve": Row("--speed 0.5 --set curve=bspline", attrgetter("request.curve"), "bspline"),
+    "torque": Row("--speed 0.5 --set limits.torque=77", attrgetter("request.limits.torque"), 77.0),
 }
 
 
@@ -110,7 +106,7 @@ def poles_of(a: Any) -> list[int]:
 OBSERVER = {
     "bandwidth": Row("--bandwidth 99", poles_of, [-99] * 3),
     "order": Row("--bandwidth 99 --order 3", lambda a: len(a.observer.poles), 5),
-    "known": Row("--set hardware.delay_known=true", same("known"), True),
+    "known": Row("--set hardware.delay_known=true", attrgetter("known"), True),
 }  # fmt: skip
 STUDY_FILE = """
 name = "own"
@@ -120,19 +116,19 @@ hardware.period = [0.001, 0.002]
 """
 IMPORT = {
     **ROBOT_ROWS,
-    "file": Row("", same("gait"), Path("own.mat")),
-    "name": Row("--name coefficients=R.alpha", same("names"), {"coefficients": "R.alpha"}),
-    "slopes": Row("--no-slopes", same("slopes"), False),
+    "file": Row("", attrgetter("gait"), Path("own.mat")),
+    "name": Row("--name coefficients=R.alpha", attrgetter("names"), {"coefficients": "R.alpha"}),
+    "slopes": Row("--no-slopes", attrgetter("slopes"), False),
 }
 ZERO = {
-    "friction": Row("--set friction=0.44", same("limits.friction"), 0.44),
-    "slope": Row("--set slope=0.04", same("limits.slope"), 0.04),
+    "friction": Row("--set friction=0.44", attrgetter("limits.friction"), 0.44),
+    "slope": Row("--set slope=0.04", attrgetter("limits.slope"), 0.04),
 }  # fmt: skip
 
 
 STUDY = {
-    "workers": Row("--workers 3", same("workers"), 3),
-    "cluster": Row("--cluster tcp://host:1", same("cluster"), "tcp://host:1"),
+    "workers": Row("--workers 3", attrgetter("workers"), 3),
+    "cluster": Row("--cluster tcp://host:1", attrgetter("cluster"), "tcp://host:1"),
 }
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),

@@ -60,7 +60,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
     shutil.copy("keep.json", "published-identified.json")
     before = contents(folder)
-    walk = "biped_adrc.scenario.walk.walk_in_parts"
+    walk = "biped_adrc.scenario.walk.in_parts"
     monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
     with pytest.raises((InputError, OutputError)) as error:
         command(*line.split())

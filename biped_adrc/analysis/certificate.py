@@ -151,7 +151,7 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
         "friction": f"friction {x:.3g} > {k.friction:g} {over}",
         "torque": f"torque {x:.4g} N m > {k.torque:g}",
         "scuffing": f"the swing foot scuffs by {x:.2g} m",
-        "slip": f"a foot slips by {1e3 * x:.2g} mm > {1e3 * SLIP:g}",
+        "slip": f"a foot slips by {1e3 * x:.3g} mm > {1e3 * SLIP:g}",
         "stones": f"the foot lands {1e3 * x:.3g} mm beyond the edge of its stone",
         IMPULSE: f"the impulse at impact asks for friction {ratio_text(x)} > {k.friction:g}",
     }[name]

@@ -238,24 +238,10 @@ def adrc_push(r: Results) -> dict[str, Outcome]:
     return {"ADRC": r.pair("push")[1]}
 
 
-PAIRS = {
-    "matched": ("push", "sine"),
-    "sampled": ("1 kHz",),
-    "heavier": tuple(f"heavier, {kind}" for kind in KINDS),
-    "torso": ("torso",),
-}
-"""Walks under both controllers, by what is done to them."""
-
-
-def pairs(kind: str, r: Results) -> dict[str, tuple[Outcome, Outcome]]:
-    """Those of one kind."""
-    return {name: r.pair(name) for name in PAIRS[kind]}
-
-
 def walks(r: Results) -> dict[str, Outcome]:
-    """All of them, one by one."""
-    names = itertools.chain(*PAIRS.values())
-    return {f"{c}, {n}": o for n in names for c, o in zip(CONTROLLERS, r.pair(n), strict=True)}
+    """Walks under both controllers, one by one."""
+    every = r.pairs("").items()
+    return {f"{c}, {n}": o for n, pair in every for c, o in zip(CONTROLLERS, pair, strict=True)}
 
 
 def all_cycles(r: Results) -> dict[str, PoincareResult | str]:

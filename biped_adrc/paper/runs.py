@@ -33,6 +33,8 @@ from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
+BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.KINDS), "torso")
+"""Walks that are held against one another under both controllers: pushed, sampled, heavier than the model."""
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
 
@@ -311,6 +313,10 @@ class Results:
         every = {**self.run_twice, **self.claim_runs}
         npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
+
+    def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
+        """Pairs of `BOTH` whose names begin with one of these words."""
+        return {name: self.pair(name) for name in BOTH if name.startswith(words)}
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:
         """The results of a kind with all of these words in their names."""

@@ -283,7 +283,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
         return None
 
     make = find("plant", g.plant).load()
-    all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
+    all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
     options = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": plant_step(s)})

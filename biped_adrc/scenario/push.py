@@ -139,18 +139,13 @@ def parse_push(text: str) -> Push:
         values["onset"] = begin = quantity(start, "s")
         if stop:
             values["duration"] = float(Decimal(repr(quantity(stop, "s"))) - Decimal(repr(begin)))
-        torque = _torques(match["joints"])
+        torque = {
+            joint.strip(): quantity(value, "N m")
+            for joints, value in re.findall(r"([^=]+)=([^,]+),?", match["joints"])
+            for joint in joints.split(",")
+        }
         alike = set(torque.values())
         one = {"joints": ",".join(torque), "torque": alike.pop()}
         return Push(**values, **({"torque": torque} if alike else one))
     except ValueError as error:
         raise InputError(f"push '{text}': {error}; {_FORM}") from error
-
-
-def _torques(text: str) -> dict[str, float]:
-    """Torque [N m] by joint of "q1,q2=30,q5=20". Raises ValueError."""
-    torque: dict[str, float] = {}
-    for joints, value in re.findall(r"([^=]+)=([^,]+),?", text):
-        names = (joint.strip() for joint in joints.split(","))
-        torque |= dict.fromkeys(names, quantity(value, "N m"))
-    return torque

@@ -87,7 +87,7 @@ def named_part(
     """
     entry = find(kind, name)
     make = entry.load()
-    all_taken(place, own, {*takes(make), *fields})
+    all_taken(place, own, {**takes(make), **dict.fromkeys(fields)})
     values = {**known, **entry.defaults, **own}
     return construct(f"{kind} '{name}'", make, values, base, place)
 
@@ -299,13 +299,11 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
 @lru_cache
 def texts(cls: type[Record]) -> Mapping[str, str]:
     """The docstrings below the fields of a record, by name; pydantic would read all at every import."""
-    result: dict[str, str] = {}
-    for base in reversed(cls.__mro__):
-        if issubclass(base, Record):
-            for field, below in pairwise(_bodies(base.__module__)[base.__name__]):
-                if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr):
-                    result[ast.unparse(field.target)] = ast.literal_eval(below.value)
-    return result
+    return {
+        ast.unparse(field.target): ast.literal_eval(below.value)
+        for field, below in pairwise(_bodies(cls.__module__)[cls.__name__])
+        if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr)
+    }
 
 
 @lru_cache

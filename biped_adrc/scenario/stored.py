@@ -256,7 +256,11 @@ class Reader:
         match x:
             case {"part": int(i)}:
                 if i not in self._made:
-                    self._made[i] = self._new(self.records[i])
+                    home, values = self.records[i]["class"], self.records[i].get("values")
+                    if values is None:
+                        raise MissingPart(home)
+                    inner = {name: self.made(y) for name, y in values.items()}
+                    self._made[i] = _class(home)(**inner)
                 return self._made[i]
             case {"array": values, "shape": shape, "dtype": kind}:
                 return np.array(values, dtype=np.dtype(kind)).reshape(shape)
@@ -273,13 +277,6 @@ class Reader:
             case {"path": path}:
                 return Path(path)
         return x
-
-    def _new(self, record: PartRecord) -> object:
-        """The object of a record."""
-        home = record["class"]
-        if "values" not in record:
-            raise MissingPart(home)
-        return _class(home)(**{name: self.made(x) for name, x in record["values"].items()})
 
 
 def _class(home: str) -> Any:

@@ -249,11 +249,11 @@ def walk(
         loop = stepping_loop(walker, moved, engine, first_step)
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
-        result = Walk(walker, gait, run)
     else:
         own_part = None if method is None else (Part(impacts, method),)
         parts = own_part or default_parts(walker, impacts, first_step, engine)
-        result = walk_in_parts(walker, gait, start, first_step, parts, engine, progress)
+        run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
+    result = Walk(walker, gait, run)
     return result if within is None else result.until_infeasible(within)
 
 
@@ -276,9 +276,8 @@ def walk_scenario(
     """
     check_part(s, "what is to walk", Scenario)
     check_part(controller, "the controller of the walk", Controller, NoneType)
-    scene = RobotAndGait.of(s)
+    scene, mode = RobotAndGait.of(s), Mode(s.run.first_step)
     walker = build(s, scene)
-    kept = s if controller is None else None
     if controller is not None:
         walker = replace(walker, controller=controller)
     if scene.gait:
@@ -287,12 +286,11 @@ def walk_scenario(
         from biped_adrc.scenario.cycle import cycle_start
 
         begin = cycle_start(scene.biped, walker.slope)
-    first, engine = s.run.first_step, s.run.engine
     if (loop := soft_loop(s, walker)) is not None:
-        run = walk_on(loop, walker, begin, Mode(first), s.run.impacts, progress)
-        return Walk(walker, scene.gait, run, kept)
-    parts = parts_of(s, walker)
-    return walk_in_parts(walker, scene.gait, begin, first, parts, engine, progress, kept)
+        run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
+    else:
+        run = in_parts(walker, begin, mode, parts_of(s, walker), s.run.engine, progress)
+    return Walk(walker, scene.gait, run, s if controller is None else None)
 
 
 def execute_twice(s: Scenario) -> Outcome:
@@ -300,21 +298,19 @@ def execute_twice(s: Scenario) -> Outcome:
     return replace(walk_scenario(s).outcome, half=walk_scenario(halved(s)).outcome)
 
 
-def walk_in_parts(
+def in_parts(
     walker: Walker,
-    gait: Gait | None,
     start: tuple[Array, Array],
-    first_step: int,
+    mode: Mode,
     parts: Sequence[Part],
     engine: str,
     progress: Progress | None = None,
-    scenario: Scenario | None = None,
-) -> Walk:
-    """As `walk`, by several methods in turn; each part begins after the last impact of the one before.
+) -> Trajectory:
+    """The run from `start` by several methods in turn.
 
-    start: (q, v), each (n,) [rad, rad/s]. scenario: kept in the walk. Ends early with a fall. Raises InputError
-    for more than one part under a clock that does not restart at impact, since a part begins with a sample
-    instant.
+    Each part begins after the last impact of the one before. start: (q, v), each (n,) [rad, rad/s]. Ends early
+    with a fall. Raises InputError for more than one part under a clock that does not restart at impact, since a
+    part begins with a sample instant.
     """
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
@@ -322,10 +318,8 @@ def walk_in_parts(
             "SampledTime(..., restart=True)"
         )
     check_start(*start, walker)
-    mode = Mode(first_step)
     x = walker.initial_state(*start, mode)
-    runs = list(runs_in_parts(walker, x, mode, parts, progress, engine))
-    return Walk(walker, gait, _joined(runs), scenario)
+    return _joined(list(runs_in_parts(walker, x, mode, parts, progress, engine)))
 
 
 def runs_in_parts(
