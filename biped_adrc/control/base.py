@@ -78,6 +78,10 @@ def measured(m: Measurement) -> Estimate:
     return Estimate(m.q[:p], m.v[:p], m.terms.xi)
 
 
+OTHERS = "expected one such as NPDController or ADRCController"
+"""What to do about a controller that lacks something, where nothing else helps."""
+
+
 class Controller(Part):
     """Base of all controllers: write `output`, and the other methods that the controller needs.
 
@@ -102,10 +106,8 @@ class Controller(Part):
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
         if no subclass writes it.
         """
-        raise InputError(
-            f"{type(self).__name__} has no method output(s, m); write it: u (p,) [N m] from its state s and "
-            "the Measurement m"
-        )
+        how = "write it: u (p,) [N m] from its state s and the Measurement m"
+        self._has_no("method output(s, m)", how)
 
     def initial_state(self, m: Measurement) -> Array:
         """State s (size,) at the start of a run; empty (0,) for a controller without state."""
@@ -155,10 +157,8 @@ class Controller(Part):
         Raises InputError for a controller that has a state in continuous time and no discrete form.
         """
         if self._writes("flow") and not self._writes("predict"):
-            raise InputError(
-                f"{type(self).__name__} has no discrete form: give it a method sampled(period), "
-                "or use ContinuousTime()"
-            )
+            how = "give it a method sampled(period), or use ContinuousTime()"
+            self._has_no("discrete form", how)
         return self
 
     def continuous(self) -> Controller:
@@ -179,16 +179,12 @@ class Controller(Part):
 
     def _only_sampled(self) -> NoReturn:
         """Raise InputError: this controller works in sampled time only."""
-        raise InputError(
-            f"{type(self).__name__} works in sampled time only; give timing=SampledTime(period), or "
-            "hardware.period of a scenario"
-        )
+        how = "give timing=SampledTime(period), or hardware.period of a scenario"
+        self._has_no("form in continuous time", how)
 
-    def _has_no(self, what: str) -> NoReturn:
-        """Raise InputError: this controller lacks `what`."""
-        raise InputError(
-            f"{type(self).__name__} has no {what}; expected one such as NPDController or ADRCController"
-        )
+    def _has_no(self, what: str, how: str = OTHERS) -> NoReturn:
+        """Raise InputError: this controller lacks `what`; how: what to do."""
+        raise InputError(f"{type(self).__name__} has no {what}; {how}")
 
 
 def nested(controller: Controller | None) -> Iterator[Controller]:

@@ -79,8 +79,6 @@ class Predicted(Around):
 
         Raises InputError for a controller that was not made for sampled time.
         """
-        if self.period is None:
-            raise InputError("a prediction works at ticks; call sampled(period)")
 
         def acceleration(u: Array) -> Array:
             a = m.terms.kappa @ u + m.terms.xi

@@ -67,13 +67,12 @@ def check_place(path: Path) -> None:
     try:
         taken = path.exists() and not path.is_file()
         kind = "a folder" if path.is_dir() else "not a regular file"
-        link = path.readlink() if path.is_symlink() else None
+        if path.is_symlink():
+            taken, kind = True, f"a link to '{path.readlink()}'"
     except OSError as error:
         raise OutputError(
             f"cannot write '{path}': {error.strerror}; choose another name"
         ) from error
-    if link is not None:
-        raise OutputError(f"'{path}' is a link to '{link}', expected the name of a file to write")
     if taken:
         raise OutputError(f"'{path}' is {kind}, expected the name of a file to write")
 

@@ -93,13 +93,8 @@ def check_ends(max_step_time: float, fall_height: float, speed: float, torque: f
     counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0. speed, torque [1]: multiples
     of the robot's limits beyond which a run ends; infinite for none.
     """
-    if not (max_step_time > 0.0 and fall_height < 1.0):
+    if not (max_step_time > 0.0 and fall_height < 1.0 and speed > 0.0 and torque > 0.0):
         raise InputError(
-            f"max_step_time is {max_step_time} s and fall_height {fall_height}, expected a positive time and a "
-            "share of the height, below 1"
-        )
-    if not (speed > 0.0 and torque > 0.0):
-        raise InputError(
-            f"runaway_speed is {speed} and runaway_torque {torque}, expected positive multiples of the robot's "
-            "limits, infinite for none"
+            f"max_step_time is {max_step_time} s, fall_height {fall_height}, runaway_speed is {speed} and "
+            f"runaway_torque {torque}, expected a share below 1 of the height, and else positive numbers"
         )

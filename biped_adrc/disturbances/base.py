@@ -158,13 +158,11 @@ class Windowed(Disturbance):
 
     def __post_init__(self) -> None:
         amplitude = numbers(self.amplitude, "torque amplitude")
-        if amplitude.ndim != 1 or not np.all(np.isfinite(amplitude)):
+        finite = amplitude.ndim == 1 and np.all(np.isfinite([*amplitude, self.start]))
+        if not (finite and 0.0 <= self.start < self.stop):
             raise InputError(
-                f"torque amplitude is {amplitude}, expected one finite number [N m] per coordinate"
-            )
-        if not (math.isfinite(self.start) and self.start >= 0 and self.stop > self.start):
-            raise InputError(
-                f"torque window is [{self.start}, {self.stop}] s, expected 0 <= start < stop"
+                f"torque amplitude is {amplitude} over [{self.start}, {self.stop}] s, expected one finite "
+                "number [N m] per coordinate, and 0 <= start < stop"
             )
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)

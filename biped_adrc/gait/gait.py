@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import CONTROL, data_folder, output_path, reading, write_json
+from biped_adrc.core.files import CONTROL, data_folder, output_path, plain, reading, write_json
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -168,24 +168,15 @@ class Gait(Shown):
         """Write the gait as a JSON file. Raises InputError for a name that does not end
         in .json, and OutputError.
         """
-        c = self.constraint
+        c, own = self.constraint, ("name", "robot", "preset", "provenance", "period", "slope")
         record = {
             "format": FORMAT,
-            "name": self.name,
-            "robot": self.robot,
-            "preset": self.preset,
             "units": "rad, rad/s, s",
-            "provenance": dict(self.provenance),
-            "period": self.period,
-            "slope": self.slope,
-            "q_minus": self.q_minus.tolist(),
-            "v_minus": self.v_minus.tolist(),
-            "phase": c.phase.tolist(),
-            "theta_plus": c.theta_plus,
-            "theta_minus": c.theta_minus,
             "curve": type(c.curve).__name__.lower(),
-            "coefficients": c.curve.coefficients.tolist(),
         }
+        record |= {key: plain(getattr(self, key)) for key in (*own, "q_minus", "v_minus")}
+        record |= {key: plain(getattr(c, key)) for key in ("phase", "theta_plus", "theta_minus")}
+        record["coefficients"] = plain(c.curve.coefficients)
         write_json(record, output_path(path, (".json",)))
 
 

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked, PositiveFloat, PositiveFloats, PositiveInt, numbers
+from biped_adrc.core.checks import Checked, PositiveFloat, PositiveFloats, PositiveInt, Range
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
@@ -36,6 +36,9 @@ def check_slope(slope: float) -> None:
     """Raise InputError unless the slope [rad] is less than a right angle either way."""
     if not abs(slope) < 0.5 * math.pi:
         raise InputError(f"the slope is {slope} rad, expected less than a right angle")
+
+
+RISING = Range("0 < first <= second < 1", lambda d: len(d) == 2 and 0.0 < d[0] <= d[1] < 1.0)
 
 
 @dataclass(frozen=True)
@@ -63,20 +66,12 @@ class SoftGround(Checked, Shown):
     """Time constant T [s]; MuJoCo takes two of its steps for any that is shorter."""
     damping_ratio: PositiveFloat = 1.0
     """Damping ratio zeta [1]."""
-    impedance: tuple[float, float] = (0.95, 0.99)
+    impedance: Annotated[tuple[float, float], RISING] = (0.95, 0.99)
     """Impedance d(r) at the surface and from 1 mm on [1]; 1 would leave no slack at all."""
     impratio: PositiveFloat = 20.0
     """Impedance of friction over that of the normal force [1]."""
     foot_radius: PositiveFloat = 1e-3
     """Radius of the feet [m]; a foot rolls on by the radius times the angle that its leg turns."""
-
-    def __post_init__(self) -> None:
-        result = numbers(self.impedance, "the impedance of the ground")
-        if result.shape != (2,) or not 0.0 < result[0] <= result[1] < 1.0:
-            raise InputError(
-                f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
-            )
-        object.__setattr__(self, "impedance", tuple(result.tolist()))  # a list could be changed
 
     def stiffness(self, mass: float) -> tuple[float, float]:
         """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.

@@ -94,20 +94,17 @@ def check_numbers(biped: Biped) -> None:
         with np.errstate(all="ignore"):
             D, Omega = biped.inertia(q), biped.bias(q, v)
             least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (-1.0, 0.0)
-            if not most * np.finfo(float).eps <= ACCURACY * least:
-                raise ModelError(
-                    f"{where}: D_s has eigenvalues from {least:.2g} to {most:.2g} kg m^2, expected positive "
-                    "ones with a ratio that double precision can hold; look for a body that nothing moves, and "
-                    "for masses, inertias and lengths that are far apart"
-                )
+            fits = most * np.finfo(float).eps <= ACCURACY * least
             try:
-                finite = bool(np.all(np.isfinite(np.concatenate((Omega, *biped.impact(q, v))))))
+                fits = fits and np.all(np.isfinite(np.concatenate((Omega, *biped.impact(q, v)))))
             except SingularError:
-                finite = False
-        if not finite:
+                fits = False
+        if not fits:
             raise ModelError(
-                f"{where}: Omega or the impact (7) is not finite at random angles; look for a foot that no "
-                "joint moves, and for masses and lengths that are too large or far apart"
+                f"{where}: D_s has eigenvalues from {least:.2g} to {most:.2g} kg m^2, expected positive ones "
+                "with a ratio that double precision can hold, and Omega and the impact (7) finite; look for a "
+                "body that nothing moves, a foot that no joint moves, and for masses, inertias and lengths "
+                "that are too large or far apart"
             )
 
 

@@ -28,7 +28,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -116,30 +116,30 @@ class Observer(Part):
 
         Raises InputError for an observer that was made for sampled time.
         """
-        raise InputError(f"{type(self).__name__} works in sampled time only; give a SampledTime")
+        self._only("works in sampled time only; give a SampledTime")
 
     def correct(self, z: Array, y: Array) -> Array:
         """In sampled time: z (size,) corrected by the measurement y (p,) of the sample instant.
 
         Raises InputError for an observer in continuous time, as `predict` does.
         """
-        raise self._continuous()
+        self._only("works in continuous time; call sampled(period)")
 
     def predict(self, z: Array, input: Array) -> Array:
         """In sampled time: z (size,) one period later under a constant input (p,)."""
-        raise self._continuous()
+        self._only("works in continuous time; call sampled(period)")
 
     def sampled(self, period: float) -> Observer:
         """The discrete form for ticks every `period` [s]. Raises InputError where there is none."""
-        raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
+        self._only("has no discrete form; use ContinuousTime()")
 
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics, for the exponential method; None where there are none."""
         return None
 
-    def _continuous(self) -> InputError:
-        """The InputError of a method that needs `sampled(period)` first."""
-        return InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
+    def _only(self, sentence: str) -> NoReturn:
+        """Raise the InputError of a method that this observer has not."""
+        raise InputError(f"{type(self).__name__} {sentence}")
 
 
 MOST_POLES = 20
@@ -165,12 +165,12 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
     if len(numbers) < 2:
         raise InputError(f"{what} needs at least 2 poles, found {len(numbers)}")
     for pole in numbers:
-        if not np.isfinite(pole) or pole.real >= 0:
+        paired = numbers.count(pole) == numbers.count(pole.conjugate())
+        if not (np.isfinite(pole) and pole.real < 0.0 and paired):
             raise InputError(
-                f"observer pole {_show(pole)} rad/s is not stable; every real part must be < 0"
+                f"observer pole {_show(pole)} rad/s is not stable, or has no conjugate beside it; every real "
+                "part must be < 0"
             )
-        if numbers.count(pole) != numbers.count(pole.conjugate()):
-            raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
         check_chain(len(numbers), abs(pole), what)
     return numbers
 
@@ -197,11 +197,10 @@ def check_chain(order: int, scale: float, what: str) -> None:
     """Raise InputError for more than MOST_POLES states per joint, or a bandwidth [rad/s]
     beyond SLOWEST to FASTEST.
     """
-    if order > MOST_POLES:
-        raise InputError(f"{what} has {order} poles, expected at most {MOST_POLES}")
-    if not SLOWEST <= scale <= FASTEST:
+    if order > MOST_POLES or not SLOWEST <= scale <= FASTEST:
         raise InputError(
-            f"{what} has a bandwidth of {scale:g} rad/s, expected {SLOWEST:g} to {FASTEST:g} rad/s"
+            f"{what} has {order} poles and a bandwidth of {scale:g} rad/s, expected at most {MOST_POLES}, and "
+            f"{SLOWEST:g} to {FASTEST:g} rad/s"
         )
 
 

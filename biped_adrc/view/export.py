@@ -32,12 +32,11 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     """
     clip = Clip() if clip is None else clip
     suffix = output_path(path, SUFFIXES).suffix.lower()
-    if suffix != ".gif" and (clip.apart or clip.slower != 1.0):
+    of_gif, of_page = clip.apart or clip.slower != 1.0, clip.view != "side"
+    if (of_gif and suffix != ".gif") or (of_page and suffix != ".html"):
         raise InputError(
-            f"'{path}' is no moving picture, and apart and slower are of one; write a .gif"
+            f"'{path}' has apart, slower or view; apart and slower are of a .gif, and view of a .html"
         )
-    if suffix != ".html" and clip.view != "side":
-        raise InputError(f"'{path}' is seen from the side; view '{clip.view}' is of a page (.html)")
     if suffix == ".html":
         write_text(path, animation_html(walks, clip))
     elif suffix == ".gif":

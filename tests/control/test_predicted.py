@@ -141,7 +141,6 @@ def test_what_does_not_fit_is_refused(gait):
         lambda: Predicted(inner, np.inf),
         lambda: Predicted(inner, 0.2).sampled(T),
         lambda: Predicted(inner, T).continuous(),
-        lambda: Predicted(inner, T).output(np.zeros(2), looked(0.0, np.zeros(2), np.zeros(2))),
         lambda: ba.Scenario(
             {"name": "NPD", "prediction": T},
             hardware={"period": T, "delay": T, "delay_known": True},

@@ -144,7 +144,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
     (new / "mine.txt").write_text("mine")
     with pytest.raises(OutputError, match=r"mine\.txt"):
         export_c(NPD, new)
-    for name, word in [("new/mine.txt", "is a file"), (300 * "a", "too long")]:
+    for name, word in [("new/mine.txt", "Not a directory"), (300 * "a", "too long")]:
         with pytest.raises(OutputError, match=word):
             export_c(NPD, tmp_path / name)
 

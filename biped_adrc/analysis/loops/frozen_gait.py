@@ -151,14 +151,10 @@ def linear_twin(walker: Walker) -> Walker:
 
     Raises InputError for a walker in continuous time, or one that detects touchdowns.
     """
-    if not isinstance(walker.timing, SampledTime):
+    if not isinstance(walker.timing, SampledTime) or walker.touchdown is not None:
         raise InputError(
-            f"the sampled loop of a walker was asked for, found {walker.timing}; give "
-            "timing=SampledTime(period)"
-        )
-    if walker.touchdown is not None:
-        raise InputError(
-            "the walker has to notice touchdowns, which is no linear part; expected touchdown=None"
+            f"the sampled loop of a walker was asked for, found {walker.timing} and touchdown="
+            f"{walker.touchdown}; expected SampledTime(period), and None, since to notice is no linear part"
         )
     return replace(
         walker,

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any, NamedTuple
@@ -95,9 +96,13 @@ class WalkerLoops:
 
     def __getitem__(self, at: Any) -> WalkerLoops:
         """Select loops by indices or slices along (phases, robots)."""
+        return self._each(lambda x: x[at])
+
+    def _each(self, f: Callable[[Array], Array]) -> WalkerLoops:
+        """The loops whose matrices are f of these."""
         axes = self.B.shape[:-2]
-        tick = (np.broadcast_to(x, (*axes, *x.shape[-2:]))[at] for x in self.tick)
-        return replace(self, tick=TickMatrices(*tick), A=self.A[at], B=self.B[at])
+        tick = (f(np.broadcast_to(x, (*axes, *x.shape[-2:]))) for x in self.tick)
+        return replace(self, tick=TickMatrices(*tick), A=f(self.A), B=f(self.B))
 
     def matrices(self, unknown: float = 0.0) -> LoopMatrices:
         """Matrices of one period with an unknown delay [s] in all motors."""
@@ -159,7 +164,8 @@ class WalkerLoops:
         """
         if not np.all(self.growth() < 0.0):
             return 0.0
-        left = self._in_a_row()
+        count = math.prod(self.B.shape[:-2])
+        left = self._each(lambda x: x.reshape(count, *x.shape[-2:]))
         growth, least = np.linalg.norm(left.B, axis=(-2, -1)), most
         while np.any(growth >= 0.0):
             worst = int(np.argmax(growth))
@@ -167,13 +173,6 @@ class WalkerLoops:
             left = left[(growth >= 0.0) & (np.arange(len(growth)) != worst)]
             growth = left.growth(least)
         return least
-
-    def _in_a_row(self) -> WalkerLoops:
-        """The same loops along one leading axis."""
-        axes = self.B.shape[:-2]
-        tick = (np.broadcast_to(x, (*axes, *x.shape[-2:])) for x in self.tick)
-        A, B, *rest = (x.reshape(math.prod(axes), *x.shape[-2:]) for x in (self.A, self.B, *tick))
-        return replace(self, tick=TickMatrices(*rest), A=A, B=B)
 
     def _first_unstable(self, most: float, upwards: bool) -> float:
         """Of one loop the smallest unknown delay [s] with which a mode grows, at most `most` [s].

@@ -39,13 +39,12 @@ class Computer:
     walker: Walker
 
     def __post_init__(self) -> None:
-        if not isinstance(self.walker.timing, SampledTime):
+        timing, p = self.walker.timing, self.walker.plant.p
+        if not isinstance(timing, SampledTime) or p == 0:
             raise InputError(
-                f"a robot's computer acts at sample instants, found {type(self.walker.timing).__name__}; "
-                "give the scenario a period, such as period = '1 ms', or hardware"
+                f"a computer sends torques to motors at sample instants, found {type(timing).__name__} and {p} "
+                "motors; give the scenario a period, such as period = '1 ms', or hardware"
             )
-        if self.walker.plant.p == 0:
-            raise InputError("the robot has no motors, so there is no torque to compute")
         _ = self.walker.law  # raises where the controller has no form for sample instants
 
     @property

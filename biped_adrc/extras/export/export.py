@@ -212,8 +212,6 @@ def write_folder(folder: Path, source: Source) -> None:
     try:
         result = sorted(folder.iterdir()) if folder.exists() else []
         others = [x.name for x in result if x.name not in built and not _same(x, files)]
-    except NotADirectoryError:
-        raise OutputError(f"'{folder}' is a file, expected the name of a folder") from None
     except OSError as error:
         sentence = f"cannot write to '{folder}': {error.strerror}; choose another name"
         raise OutputError(sentence) from error

@@ -77,12 +77,9 @@ def source_of(
     Raises InputError for a prefix or a type that is none, NaN among the numbers, or a
     method that cannot be traced.
     """
-    if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix):
-        raise InputError(
-            f"the prefix is {prefix!r}, expected small letters, digits and _, such as 'controller'"
-        )
-    if prefix in TAKEN:
-        raise InputError(f"the prefix '{prefix}' is taken: {TAKEN[prefix]}; choose another one")
+    if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix) or prefix in TAKEN:
+        why = TAKEN.get(prefix, "it has to be of small letters, digits and _, such as 'controller'")
+        raise InputError(f"the prefix is {prefix!r}: {why}; choose another one")
     if real not in REALS:
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
     try:

@@ -190,15 +190,8 @@ class ReplayRow(NamedTuple):
     """Largest difference of the controller's torque and the log's [N m]."""
 
 
-HEADER = (
-    "step",
-    "samples",
-    "beyond model [N m]",
-    "in contact [N m]",
-    "residual [rad]",
-    "u apart [N m]",
-    "peak [N m]",
-)
+NUMBERS = "beyond model [N m]", "in contact [N m]", "residual [rad]", "u apart [N m]", "peak [N m]"
+HEADER = ("step", "samples", *NUMBERS)
 """Names of the columns of a `ReplayRow`."""
 
 

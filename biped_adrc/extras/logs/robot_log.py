@@ -177,16 +177,12 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             f"{names[k + 1]} of the log has t = {t[k + 1]:.9g} s, {result} the row before, expected times that "
             "grow; leave doubled rows out"
         )
-    if np.count_nonzero(same) < 2:
-        raise InputError(
-            f"the log has {len(t)} rows, expected at least three of one single support, "
-            "from which its period follows"
-        )
-    period = float(np.median(ways[same]))
+    period = float(np.median(ways[same])) if np.count_nonzero(same) > 1 else math.nan
     if not SHORTEST_PERIOD <= period <= LONGEST_PERIOD:
         raise InputError(
-            f"the rows of the log are {period:g} s apart, expected {SHORTEST_PERIOD} to {LONGEST_PERIOD} s; if "
-            "its times are in another unit, say so in the name of the column, as 't [ms]'"
+            f"the log has {len(t)} rows that are {period:g} s apart, expected three of one single support or "
+            f"more, {SHORTEST_PERIOD} to {LONGEST_PERIOD} s apart; if its times are in another unit, say so in "
+            "the name of the column, as 't [ms]'"
         )
     late = ways > (1.0 + GAP) * period
     for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:

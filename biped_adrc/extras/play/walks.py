@@ -74,11 +74,10 @@ class PageWalk:
         Raises InputError, with the name, for a walk that a page cannot show.
         """
         plant, fine = s.ground.plant, s.run.fine
-        if plant != RIGID:
-            raise InputError(f"the walk '{name}' is on plant '{plant}'; a page takes '{RIGID}'")
-        if fine is not None:
+        if plant != RIGID or fine is not None:
             raise InputError(
-                f"the walk '{name}' has run.fine = {fine:g} s; leave it out: a page takes steps of one length"
+                f"the walk '{name}' is on plant '{plant}' with run.fine = {fine}; a page takes '{RIGID}' and "
+                "steps of one length"
             )
         rubbed = s.replace({"hardware.friction": True, "errors.friction": 0.0})
         if scene is None:

@@ -133,15 +133,11 @@ def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
 
     Raises ModelError that names what is wrong.
     """
-    where = f"URDF '{body.tree.source}'"
-    if unknown := [foot for foot in feet if foot not in body.tree.links]:
+    known = len(feet) == 2 and set(feet) <= set(body.tree.links)
+    if not known or _chain(body, feet[0]) == _chain(body, feet[1]):
         raise ModelError(
-            f"{where}: there is no link {unknown} to be a foot; the ends of the tree are {_leaves(body)}"
-        )
-    if len(feet) != 2 or _chain(body, feet[0]) == _chain(body, feet[1]):
-        raise ModelError(
-            f"{where}: feet {list(feet)}, expected two links that a joint moves against each other, the stance "
-            "foot first; give them by feet=(...) or --feet"
+            f"URDF '{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
+            f"other, the stance foot first, by feet=(...) or --feet; the ends of the tree are {_leaves(body)}"
         )
     for foot in feet:
         _check_foot(body.tree, foot)
