@@ -84,18 +84,9 @@ class CompiledWalker:
             T, motors = walker.timing.period, walker.held.motors
             part = motors.fraction * T if walker.held.sizes.waiting else 0.0
             fields |= {"period": T, "restart": walker.timing.restart, "part": part}
-        fields |= {
-            "t_first": t_first,
-            "n": n,
-            "nx": nx,
-            "p": p,
-            "n_slow": nx - k * p,
-            "k": k,
-            "moving": nx if flows else 2 * n,
-            "pulled": push.pulls,
-            "least_step": LEAST_STEP,
-            "farthest": bounds.farthest,
-        }
+        fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
+        fields |= {"t_first": t_first, "pulled": push.pulls}
+        fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         fields |= {name: program.address(name) for name in FUNCTIONS}

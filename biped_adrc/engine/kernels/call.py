@@ -90,28 +90,16 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
 @intrinsic
 def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
     """Pointer to entry i of what `pointer` points to."""
-
-    def codegen(
-        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
-    ) -> ir.Value:
-        return builder.gep(arguments[0], [arguments[1]])
-
-    return pointer(pointer, types.int64), codegen
+    signature = pointer(pointer, types.int64)
+    return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 
 
 def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
     """An intrinsic from an address (int64) to a pointer to numbers of this type."""
+    pointer, signature = kind.as_pointer(), types.CPointer(number)(types.int64)
 
     def at(typingctx: object, address: Type) -> Generated:
-        def codegen(
-            context: Context,
-            builder: ir.IRBuilder,
-            signature: Signature,
-            arguments: list[ir.Value],
-        ) -> ir.Value:
-            return builder.inttoptr(arguments[0], kind.as_pointer())
-
-        return types.CPointer(number)(types.int64), codegen
+        return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
 
     return intrinsic(at)
 
@@ -150,11 +138,9 @@ def _read(
     return builder.inttoptr(value, number.as_pointer())
 
 
-def _write(
-    context: Context, builder: ir.IRBuilder, signature: Signature, arguments: Any, name: str
-) -> None:
+def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name: str) -> None:
     """r.name = value"""
-    builder.store(arguments[1], _cell(builder, arguments[0], name))
+    builder.store(x[1], _cell(builder, x[0], name))
 
 
 _infer: Any = infer_getattr
