@@ -16,7 +16,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -223,32 +223,18 @@ def _strides(
     if read:
         run.keep(compiled.walker.max_step_time, impacts, read, 3 * compiled.walker.plant.p + 4)
     status, strikes = run.stride(impacts)
-    return BatchWalk(
-        status,
-        "",
-        strikes[:, 0].copy(),
-        strikes[:, 1 : 1 + nx].copy(),
-        run.x.copy(),
-        run["t"],
-        COMPILED,
-        mode.start,
-        np.ascontiguousarray(run.rows().T) if read else None,
-    )
+    times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
+    table = np.ascontiguousarray(run.rows().T) if read else None
+    return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)
 
 
 def left_by(case: Case, run: Trajectory) -> BatchWalk:
     """What the run of a case leaves, and the run itself where it is recorded."""
-    return BatchWalk(
-        run.status,
-        run.detail,
-        np.array([event.t for event in run.events(FOOT_STRIKE)]),
-        run.before(FOOT_STRIKE).reshape(-1, len(run.final_state)),
-        run.final_state,
-        run.t_end,
-        run.settings["engine"],
-        case.mode.start,
-        trajectory=None if case.curve is None else run,
-    )
+    x, engine = run.final_state, run.settings["engine"]
+    times = np.array([event.t for event in run.events(FOOT_STRIKE)])
+    before, start = run.before(FOOT_STRIKE).reshape(-1, len(x)), case.mode.start
+    walk = BatchWalk(run.status, run.detail, times, before, x, run.t_end, engine, start)
+    return walk if case.curve is None else replace(walk, trajectory=run)
 
 
 def strides(

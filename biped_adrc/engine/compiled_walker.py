@@ -17,7 +17,6 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
@@ -176,5 +175,5 @@ class PythonTicks:
 
     def impact(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
         """An impact: (x+, 1) of (t, step, x), x+ (nx,); t [s], step that of the single support that begins."""
-        after = Mode(int(inp[1]), float(inp[0]))
-        return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)
+        t, step = inp[:2].tolist()
+        return np.append(self.walker.impact(t, inp[2:].copy(), Mode(int(step) - 1))[0], 1.0)
