@@ -85,12 +85,7 @@ class Unchangeable(list[Any]):
     __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
 
 
-BUILTINS: Mapping[str, Callable[..., object]] = {
-    "float": Float,
-    "abs": np.abs,
-    "min": minimum,
-    "max": maximum,
-}
+BUILTINS: Mapping[str, Any] = {"float": Float, "abs": np.abs, "min": minimum, "max": maximum}
 """What functions find under these names in place of Python's: no float(), and no choice by a number."""
 
 
@@ -114,7 +109,6 @@ class Tracer:
             "maximum": elementwise(maximum),
             "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
             "where": elementwise(where),
-            "abs": np.abs,
             "float64": Float,
             "random": random,
         }

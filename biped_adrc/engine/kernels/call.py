@@ -12,7 +12,7 @@ Array), so nothing is compiled for types seen at run time.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 from llvmlite import ir
@@ -143,9 +143,6 @@ def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name
     builder.store(x[1], _cell(builder, x[0], name))
 
 
-_infer: Any = infer_getattr
-_getattr: Any = lower_getattr_generic
-_setattr: Any = lower_setattr_generic
-_infer(_Fields)
-_getattr(types.CPointer)(_read)
-_setattr(types.CPointer)(_write)
+cast(Any, infer_getattr)(_Fields)
+cast(Any, lower_getattr_generic)(types.CPointer)(_read)
+cast(Any, lower_setattr_generic)(types.CPointer)(_write)
