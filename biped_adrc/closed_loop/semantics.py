@@ -40,14 +40,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.types import Array, frozen, relabelled
 from biped_adrc.hardware.motors import Line
-from biped_adrc.hardware.sample_hold import (
-    Held,
-    HeldParts,
-    lagged,
-    motor_torque,
-    read,
-    written,
-)
+from biped_adrc.hardware.sample_hold import Held, HeldParts, lagged, motor_torque, read, written
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
 from biped_adrc.model.reduction import Reduction, unknown_force
 

@@ -168,7 +168,7 @@ class SteppingLoop(ClosedLoop[Any]):
         n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
         row = record.rows[-1] if record.rows else self.row(x)
         u.setflags(write=False)
-        load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
+        load = None if self.disturbance is None else self.load(0.5 * (t + until), row, mode)
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, mode)
         row, q = after, after[:n]
@@ -185,10 +185,6 @@ class SteppingLoop(ClosedLoop[Any]):
         n = self.plant.n
         zeta = self.external(t, frozen(row[:n]), frozen(row[n : 2 * n]), mode)
         return frozen(Load(zeta, self.resultant(t, mode)))
-
-    def push(self, t: float, row: Array, mode: Mode) -> Load | None:
-        """As `load`; None may stand for nothing."""
-        return self.load(t, row, mode)
 
     @cached_property
     def pushed_in_python(self) -> bool:

@@ -16,13 +16,13 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.core.checks import check_fields
+from biped_adrc.core.checks import PositiveInt, check_fields
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
@@ -39,8 +39,8 @@ from biped_adrc.hybrid.trajectory import Trajectory
 
 AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""
-MOST_IMPACTS = 1_000_000
-"""Of one walk, whose states at all impacts are kept in memory."""
+AT_ONCE = 25
+"""Impacts for whose nodes there is room at the same time."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
 
@@ -63,7 +63,7 @@ class Case(Shown):
     """Start (n,) [rad/s]."""
     method: OneStepMethod
     """One-step method."""
-    impacts: int = 25
+    impacts: PositiveInt = 25
     """End after so many."""
     mode: Mode = Mode()  # noqa: RUF009
     """Single support in which it starts."""
@@ -73,8 +73,6 @@ class Case(Shown):
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
         check_fields(self)
-        if self.impacts > MOST_IMPACTS:
-            raise InputError(f"impacts is {self.impacts}, expected at most {MOST_IMPACTS}")
 
     @property
     def t_end(self) -> float:
@@ -189,8 +187,6 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
     """As `run_case`. What has no compiled form is run here and now, in Python."""
     x = case.walker.initial_state(case.q, case.v, case.mode)
-    if case.impacts < 1:
-        raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
     case.options.check(x)
     walker, size = case.walker, case.walker.controller_size(x)
     try:
@@ -221,34 +217,25 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        run.keep(compiled.walker.max_step_time, impacts, read, 3 * compiled.walker.plant.p + 4)
-    status, strikes = run.stride(impacts)
-    return BatchWalk(
-        status,
-        "",
-        strikes[:, 0].copy(),
-        strikes[:, 1 : 1 + nx].copy(),
-        run.x.copy(),
-        run["t"],
-        COMPILED,
-        mode.start,
-        np.ascontiguousarray(run.rows().T) if read else None,
-    )
+        longest, size = compiled.walker.max_step_time, 3 * compiled.walker.plant.p + 4
+        run.keep(longest, min(impacts, AT_ONCE), read, size)
+    status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
+    while left > 0 and status is Status.COMPLETED:
+        status, part = run.stride(min(left, AT_ONCE) if read else left)
+        parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
+    strikes = np.vstack(parts)
+    times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
+    table = np.ascontiguousarray(np.vstack(rows).T) if read else None
+    return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)
 
 
 def left_by(case: Case, run: Trajectory) -> BatchWalk:
     """What the run of a case leaves, and the run itself where it is recorded."""
-    return BatchWalk(
-        run.status,
-        run.detail,
-        np.array([event.t for event in run.events(FOOT_STRIKE)]),
-        run.before(FOOT_STRIKE).reshape(-1, len(run.final_state)),
-        run.final_state,
-        run.t_end,
-        run.settings["engine"],
-        case.mode.start,
-        trajectory=None if case.curve is None else run,
-    )
+    x, engine = run.final_state, run.settings["engine"]
+    times = np.array([event.t for event in run.events(FOOT_STRIKE)])
+    before, start = run.before(FOOT_STRIKE).reshape(-1, len(x)), case.mode.start
+    walk = BatchWalk(run.status, run.detail, times, before, x, run.t_end, engine, start)
+    return walk if case.curve is None else replace(walk, trajectory=run)
 
 
 def strides(

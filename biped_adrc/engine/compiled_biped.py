@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from types import new_class
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -55,23 +55,19 @@ class CompiledBiped(Biped):
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
-        terms: Reduction = self._called("reduction", q, v)
-        return terms
+        return cast(Reduction, self._called("reduction", q, v))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
-        terms: BodyTerms = self._called("body_terms", q, v)
-        return terms
+        return cast(BodyTerms, self._called("body_terms", q, v))
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction included."""
-        a: Array = self._called("acceleration", q, v, force)
-        return a
+        return cast(Array, self._called("acceleration", q, v, force))
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
-        F: Array = self._called("ground_reaction", q, v, a)
-        return F
+        return cast(Array, self._called("ground_reaction", q, v, a))
 
 
 @once_each

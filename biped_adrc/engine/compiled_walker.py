@@ -17,7 +17,6 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
@@ -84,18 +83,9 @@ class CompiledWalker:
             T, motors = walker.timing.period, walker.held.motors
             part = motors.fraction * T if walker.held.sizes.waiting else 0.0
             fields |= {"period": T, "restart": walker.timing.restart, "part": part}
-        fields |= {
-            "t_first": t_first,
-            "n": n,
-            "nx": nx,
-            "p": p,
-            "n_slow": nx - k * p,
-            "k": k,
-            "moving": nx if flows else 2 * n,
-            "pulled": push.pulls,
-            "least_step": LEAST_STEP,
-            "farthest": bounds.farthest,
-        }
+        fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
+        fields |= {"t_first": t_first, "pulled": push.pulls}
+        fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         fields |= {name: program.address(name) for name in FUNCTIONS}
@@ -185,5 +175,5 @@ class PythonTicks:
 
     def impact(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
         """An impact: (x+, 1) of (t, step, x), x+ (nx,); t [s], step that of the single support that begins."""
-        after = Mode(int(inp[1]), float(inp[0]))
-        return np.append(semantics.strike(self.walker, after.start, inp[2:].copy(), after), 1.0)
+        t, step = inp[:2].tolist()
+        return np.append(self.walker.impact(t, inp[2:].copy(), Mode(int(step) - 1))[0], 1.0)

@@ -32,7 +32,7 @@ from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.calls import Call, pushes, zeta_rows
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.kernels.record import OUTSIDE
@@ -111,22 +111,19 @@ class CompiledLoop(SteppingLoop):
             return out[:-1]
         return super().tick(t, x, mode)
 
-    def push(self, t: float, row: Array, mode: Mode) -> Load | None:
-        """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
-        are not finite.
-        """
+    def load(self, t: float, row: Array, mode: Mode) -> Load:
+        """As `SteppingLoop.load`; Python says what is wrong with numbers that are not finite."""
         if self.pushes is None:
-            return super().push(t, row, mode)
+            return super().load(t, row, mode)
         n = self.plant.n
         result = np.zeros(n + 2)
         for term in self.pushes:
             inp = term.inp
             inp[0], inp[1], inp[2], inp[3:] = t, mode.step, mode.start, row[: 2 * n]
             result += term()
-        size = result.dot(result)
-        if not math.isfinite(size):
-            return super().push(t, row, mode)
-        return Load(result[:-2], result[-2:]) if size > 0.0 else None
+        if not math.isfinite(result.dot(result)):
+            return super().load(t, row, mode)
+        return frozen(Load(result[:n], result[n:]))
 
     @cached_property
     def pushed_in_python(self) -> bool:

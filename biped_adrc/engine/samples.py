@@ -39,7 +39,6 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, link_point
@@ -140,8 +139,6 @@ class PythonWalk:
     """One walk by `flow_arc`. Sample instants of a clock that does not restart are counted from 0 s."""
 
     loop: ClosedLoop[Any]
-    system: HybridSystem
-    """The loop as the simulator runs it."""
     method: OneStepMethod
     """For a system that does not move by itself."""
     places: tuple[tuple[Array, slice], ...]
@@ -163,17 +160,17 @@ class PythonWalk:
         cls, loop: ClosedLoop[Any], outside: Array, method: OneStepMethod, x: Array, mode: Mode
     ) -> Self:
         """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
-        p, system, places = loop.plant.p, cast(HybridSystem, loop), [(outside, slice(None))]
+        p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
-            system = loop = compiled_plant(loop)
+            loop = compiled_plant(loop)
         elif isinstance(loop, CompiledLoop):
-            system, _ = compiled, _ = loop.prepared(loop.controller_size(x))
-            if compiled.program is not None:
-                at = torque_place(compiled.program.numbers)
-                places.append((compiled.program.K[at : at + p], slice(p)))
-            if compiled.pushes is not None:
-                places.append((compiled.pushes[-1].K[:2], slice(p, None)))
-        return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
+            loop, _ = loop.prepared(loop.controller_size(x))
+            if loop.program is not None:
+                at = torque_place(loop.program.numbers)
+                places.append((loop.program.K[at : at + p], slice(p)))
+            if loop.pushes is not None:
+                places.append((loop.pushes[-1].K[:2], slice(p, None)))
+        return cls(loop, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property
     def at(self) -> At:
@@ -198,7 +195,7 @@ class PythonWalk:
             until = next_tick(walk.t, start, timing.period)
             at = (walk.t, walk.x, walk.mode, walk.fired, walk.began)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-                flown = finite(flow_arc(self.system, self.method, RunOptions(until, 0.0), *at))
+                flown = finite(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
                 raise RaisedError(flown.detail)
             event, arcs = flown.arc.event, (*walk.arcs, flown.arc)

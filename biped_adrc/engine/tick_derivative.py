@@ -48,25 +48,20 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
         function = _function(walker.controller_size(nx), numbers)
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)
-    return _Evaluated(function, np.array([*floats(numbers), 0.0]), nx)
+    inputs = np.array([*floats(numbers), 0.0]), np.zeros(function.size1_in(1))
+    after, columns = np.zeros(nx), np.zeros((nx, nx))
+    buffer, evaluate = function.buffer()  # CasADi knows the arrays by address
+    for i, array in enumerate(inputs):
+        buffer.set_arg(i, array.data)  # type: ignore[call-arg]
+    for i, array in enumerate((after, columns)):
+        buffer.set_res(i, array.data)  # type: ignore[call-arg]
 
+    def ticked(t: float, x: Array, mode: Mode, _: object = buffer) -> tuple[Array, Array]:
+        inputs[1][: 3 + len(x)] = t, mode.step, mode.start, *x
+        evaluate()
+        return _finite(after.copy(), columns.T.copy())
 
-class _Evaluated:
-    """A function with its numbers K and the memory in which it is evaluated, which CasADi knows by address."""
-
-    def __init__(self, function: ca.Function, K: Array, nx: int) -> None:
-        self.K, self.inp = K, np.zeros(function.size1_in(1))
-        self.after, self.columns = np.zeros(nx), np.zeros((nx, nx))
-        self.buffer, self.evaluate = function.buffer()
-        for i, array in enumerate((self.K, self.inp)):
-            self.buffer.set_arg(i, array.data)  # type: ignore[call-arg]
-        for i, result in enumerate((self.after, self.columns)):
-            self.buffer.set_res(i, result.data)  # type: ignore[call-arg]
-
-    def __call__(self, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-        self.inp[: 3 + len(x)] = t, mode.step, mode.start, *x
-        self.evaluate()
-        return _finite(self.after.copy(), self.columns.T.copy())
+    return ticked
 
 
 _FUNCTIONS: dict[Hashable, ca.Function] = {}

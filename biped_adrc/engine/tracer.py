@@ -48,17 +48,6 @@ from biped_adrc.engine.symbols import (
 )
 
 
-class _Substitute:
-    """A module some of whose functions are replaced; every other name is the module's own."""
-
-    def __init__(self, module: types.ModuleType, replaced: Mapping[str, object]):
-        self._module = module
-        self.__dict__.update(replaced)
-
-    def __getattr__(self, name: str) -> object:
-        return getattr(self._module, name)
-
-
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
     return lambda shape, dtype=Float, **_: np.full(shape, value, dtype=dtype)
@@ -68,6 +57,8 @@ ENGINE = "biped_adrc.engine"
 """Its own functions and classes work on symbols as they are."""
 NO_METHODS = (ENGINE, "biped_adrc.core.checks", "biped_adrc.core.shown")
 """Modules of classes that have no methods to be copied."""
+OF_NUMBERS = (np, np.linalg, math)
+"""Libraries some of whose functions are replaced."""
 COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
 
@@ -94,12 +85,7 @@ class Unchangeable(list[Any]):
     __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
 
 
-BUILTINS: Mapping[str, Callable[..., object]] = {
-    "float": Float,
-    "abs": np.abs,
-    "min": minimum,
-    "max": maximum,
-}
+BUILTINS: Mapping[str, Any] = {"float": Float, "abs": np.abs, "min": minimum, "max": maximum}
 """What functions find under these names in place of Python's: no float(), and no choice by a number."""
 
 
@@ -123,16 +109,14 @@ class Tracer:
             "maximum": elementwise(maximum),
             "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
             "where": elementwise(where),
-            "abs": np.abs,
             "float64": Float,
             "random": random,
-            "linalg": _Substitute(np.linalg, {"solve": self.solver}),
         }
         scalars |= {name.replace("arc", "a"): function for name, function in scalars.items()}
-        modules = (np, numpy), (math, {k: f for k, f in scalars.items() if hasattr(math, k)})
         pairs = [
-            *((module, _Substitute(module, twins)) for module, twins in modules),
-            *((getattr(module, name), f) for module, twins in modules for name, f in twins.items()),
+            *((getattr(np, name), twin) for name, twin in numpy.items()),
+            *((getattr(math, name), f) for name, f in scalars.items() if hasattr(math, name)),
+            (np.linalg.solve, self.solver),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
             (checks.returned, lambda found, *_, **__: found),
@@ -199,7 +183,7 @@ class Tracer:
             return frozen(value.view())
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
-        if isinstance(value, types.ModuleType) and not is_library(value):
+        if isinstance(value, types.ModuleType) and (value in OF_NUMBERS or not is_library(value)):
             return _Named(self, value)
         if not (isinstance(value, Part) or is_part(value)) or type(value).__module__.startswith(
             ENGINE
@@ -221,11 +205,9 @@ class Tracer:
         if known or cls.__module__.startswith(NO_METHODS):
             return cls
         if cls not in self._twins:
-            bases = [self.twin(base) for base in cls.__bases__]
-            twins = [
-                twin for twin, base in zip(bases, cls.__bases__, strict=True) if twin is not base
-            ]
-            subclass = types.new_class(cls.__name__, (*twins, cls))
+            twins = map(self.twin, cls.__bases__)
+            bases = (twin for twin in twins if twin not in cls.__bases__)
+            subclass = types.new_class(cls.__name__, (*bases, cls))
             subclass.__module__, subclass.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = self._twins[subclass] = subclass
             own = changes(cls.__module__, getattr(home, "__file__", None))
@@ -251,7 +233,7 @@ class Tracer:
 
 
 class _Named:
-    """A module of the user's or of this package: what a function names in it is for symbols."""
+    """A module of numbers, of the user's or of this package: what a function names in it is for symbols."""
 
     def __init__(self, trace: Tracer, module: types.ModuleType):
         self._trace, self._module = trace, module

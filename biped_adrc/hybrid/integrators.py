@@ -16,12 +16,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.errors import (
-    NotFiniteError,
-    RanAwayError,
-    SingularError,
-    check_positive,
-)
+from biped_adrc.core.errors import NotFiniteError, RanAwayError, SingularError, check_positive
 from biped_adrc.core.types import Array
 
 Flow = Callable[[float, Array], Array]

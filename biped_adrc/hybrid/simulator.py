@@ -93,11 +93,7 @@ class FlownArc(NamedTuple):
 
 
 def simulate(
-    system: HybridSystem,
-    x0: Array,
-    mode: Mode,
-    method: OneStepMethod,
-    **options: Any,
+    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
     """Run `system` from (t0, x0, mode), x0 (nx,).
 

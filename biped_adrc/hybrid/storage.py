@@ -158,10 +158,7 @@ def reading_run(path: Path | str) -> Iterator[None]:
 
 
 def _arc(
-    data: Mapping[str, Stored],
-    i: int,
-    event: Mapping[str, Any] | None,
-    mode: Callable[..., object],
+    data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
 ) -> Arc:
     """Arc i of the arrays in a file, with its event as noted in the JSON."""
     result = None

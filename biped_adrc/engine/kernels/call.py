@@ -12,7 +12,7 @@ Array), so nothing is compiled for types seen at run time.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 from llvmlite import ir
@@ -90,28 +90,16 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
 @intrinsic
 def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
     """Pointer to entry i of what `pointer` points to."""
-
-    def codegen(
-        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
-    ) -> ir.Value:
-        return builder.gep(arguments[0], [arguments[1]])
-
-    return pointer(pointer, types.int64), codegen
+    signature = pointer(pointer, types.int64)
+    return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 
 
 def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
     """An intrinsic from an address (int64) to a pointer to numbers of this type."""
+    pointer, signature = kind.as_pointer(), types.CPointer(number)(types.int64)
 
     def at(typingctx: object, address: Type) -> Generated:
-        def codegen(
-            context: Context,
-            builder: ir.IRBuilder,
-            signature: Signature,
-            arguments: list[ir.Value],
-        ) -> ir.Value:
-            return builder.inttoptr(arguments[0], kind.as_pointer())
-
-        return types.CPointer(number)(types.int64), codegen
+        return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
 
     return intrinsic(at)
 
@@ -150,16 +138,11 @@ def _read(
     return builder.inttoptr(value, number.as_pointer())
 
 
-def _write(
-    context: Context, builder: ir.IRBuilder, signature: Signature, arguments: Any, name: str
-) -> None:
+def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name: str) -> None:
     """r.name = value"""
-    builder.store(arguments[1], _cell(builder, arguments[0], name))
+    builder.store(x[1], _cell(builder, x[0], name))
 
 
-_infer: Any = infer_getattr
-_getattr: Any = lower_getattr_generic
-_setattr: Any = lower_setattr_generic
-_infer(_Fields)
-_getattr(types.CPointer)(_read)
-_setattr(types.CPointer)(_write)
+cast(Any, infer_getattr)(_Fields)
+cast(Any, lower_getattr_generic)(types.CPointer)(_read)
+cast(Any, lower_setattr_generic)(types.CPointer)(_write)

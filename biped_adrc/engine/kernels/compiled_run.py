@@ -129,8 +129,8 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
             f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
         )
     n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
-    slow, none = int(values.get("n_slow", 0)), np.zeros(0)
-    values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(tables.get("phi", none))}
+    slow, none = nx - k * p, np.zeros(0)
+    values |= {"n_slow": slow, "ny": nx, "nN": slow + p, "levels": len(tables.get("phi", none))}
     values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches", "parts")}
     blocks = [np.ravel(tables.get(name, none)).view(np.int64) for name in TABLES]
     width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE

@@ -171,11 +171,7 @@ FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "mat
 """Addresses of the walker's functions."""
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
-ROWS = (
-    *("inp", "out", "load", "one"),
-    *("values", "after", "tried"),
-    *(*X_ROWS, *Y_ROWS),
-)
+ROWS = (*("inp", "out", "load", "one"), *("values", "after", "tried"), *(*X_ROWS, *Y_ROWS))
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
 at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`.
 """
