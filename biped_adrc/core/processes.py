@@ -30,8 +30,8 @@ TaskProgress = Callable[[int, int, str], None]
 MOST_WORKERS = 1024
 """Largest number of workers on one machine; more are a mistake, which would take its memory."""
 KEPT = 3 * 2**23
-"""Bytes that a worker takes and gives back at first: glibc then keeps twice as many of those it frees, and their
-pages are not made anew for each chunk of walks."""
+"""Bytes that a worker takes and gives back at first: glibc then keeps twice as many of those it frees, so that
+a chunk of walks need not ask for its pages anew."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: the working directory is not put first on the path."""
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
