@@ -15,7 +15,7 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.passive import Passive
+from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped

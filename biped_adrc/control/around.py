@@ -1,8 +1,8 @@
 """Wrappers: controllers around any controller, which call the one inside (`inner`).
 
 A subclass writes the methods that differ. It names no class of controllers, so that every one that compiles
-still does. `friction_feedforward` and `predicted` act all the time, as does an additional torque a, such as a
-learner's, beside the torque u_i of the controller inside:
+still does. `friction_feedforward` and `delayed.Predicted` act all the time, as does an additional torque a,
+such as a learner's, beside the torque u_i of the controller inside:
 
     u = u_i + a
 

@@ -11,11 +11,16 @@ instant, and the observer inside gets that torque and no other, so it does not w
 
 A controller is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
 machine code (`biped_adrc.core.part`).
+
+`Passive` sends no torque: u = 0, for passive walkers and for the robot's own motion.
+The compass gait down a slope needs nothing more (McGeer, Int. J. Robotics Research 9(2), 1990). Tests use it
+where no controller may interfere, such as for the conservation of energy between impacts.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, NoReturn
 
 import numpy as np
@@ -180,7 +185,7 @@ class Controller(Part):
     def _only_sampled(self) -> NoReturn:
         """Raise InputError: this controller works in sampled time only."""
         how = "give timing=SampledTime(period), or hardware.period of a scenario"
-        self._has_no("form in continuous time", how)
+        self._has_no("form but one in sampled time only", how)
 
     def _has_no(self, what: str, how: str = OTHERS) -> NoReturn:
         """Raise InputError: this controller lacks `what`; how: what to do."""
@@ -223,3 +228,16 @@ def _is_own(part: Part) -> bool:
     """Whether the class of a part, or of a part in it, is a user's."""
     inside = (x for x in vars(part).values() if isinstance(x, Part))
     return not type(part).__module__.startswith("biped_adrc.") or any(map(_is_own, inside))
+
+
+@dataclass(frozen=True)
+class Passive(Controller):
+    """A controller with u = 0 (p,) [N m].
+
+    >>> walk = ba.walk_scenario(ba.Scenario("passive", robot="compass", run={"impacts": 2}))
+    >>> walk.impacts
+    2
+    """
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return np.zeros(m.terms.kappa.shape[0])

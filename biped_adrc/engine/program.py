@@ -17,8 +17,8 @@ import numpy as np
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import ErrorForm, Walker
+from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by
-from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance

@@ -21,7 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.passive import Passive
+from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen

@@ -22,7 +22,7 @@ from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import SETTLES, Cycle
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
-from biped_adrc.control.passive import Passive
+from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.published import passive_cycle

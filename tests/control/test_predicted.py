@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 import biped_adrc as ba
 from biped_adrc.control.around import Hold
 from biped_adrc.control.base import Measurement
+from biped_adrc.control.delayed import Predicted
 from biped_adrc.control.friction_feedforward import FrictionFeedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.predicted import Predicted
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.motors import whole_and_part

@@ -8,7 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.passive import Passive
+from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.compiled_biped import CompiledBiped

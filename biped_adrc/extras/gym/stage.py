@@ -31,8 +31,7 @@ from numpy.typing import NDArray
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import labelled, noticed, parts
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import Measurement
-from biped_adrc.control.passive import Passive
+from biped_adrc.control.base import Measurement, Passive
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
