@@ -30,6 +30,8 @@ from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 
+NO_PUSH = Sum()
+
 
 @dataclass(frozen=True)
 class CompiledWalker:
@@ -73,7 +75,7 @@ class CompiledWalker:
             raise no_coordinates()
         program = Program.of(walker, size, split, reference, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
-        push = Sum() if walker.disturbance is None else walker.disturbance
+        push = walker.disturbance or NO_PUSH
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
