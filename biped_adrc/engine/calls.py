@@ -90,12 +90,8 @@ def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
     Raises NotCompiled.
     """
     terms = () if disturbance is None else disturbance.terms
-    numbers = (np.array([*floats(term), 0.0]) for term in terms)
-    codes = (push_code(term, n) for term in terms)
-    return [
-        Call(*of, 3 + 2 * n, n + 2)
-        for of in zip(codes, ["push"] * len(terms), numbers, strict=True)
-    ]
+    sizes = 3 + 2 * n, n + 2
+    return [Call(push_code(x, n), "push", np.array([*floats(x), 0.0]), *sizes) for x in terms]
 
 
 def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) -> Array:

@@ -17,7 +17,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Sum
@@ -29,6 +29,8 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
+
+NO_PUSH = Sum()
 
 
 @dataclass(frozen=True)
@@ -63,15 +65,22 @@ class CompiledWalker:
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
-        split, fields, tables = _method(walker, method)
+        if not isinstance(method, RK4 | Exponential):
+            raise NotCompiled(
+                f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
+            )
+        etd = isinstance(method, Exponential)
+        split = walker.split_form() if etd else None
+        if etd and split is None:
+            raise no_coordinates()
         program = Program.of(walker, size, split, reference, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
-        push = Sum() if walker.disturbance is None else walker.disturbance
+        push = walker.disturbance or NO_PUSH
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
-        tables |= {
+        tables = {
             "K": program.K,
             "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
@@ -79,10 +88,14 @@ class CompiledWalker:
             "push": np.array(floats(push.terms)),
             "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
+        if split is not None:
+            tables["phi"] = phi_levels(method.h, split.A)
+        fields = dict[str, float]()
         if isinstance(walker.timing, SampledTime) and walker.held is not None:
             T, motors = walker.timing.period, walker.held.motors
             part = motors.fraction * T if walker.held.sizes.waiting else 0.0
             fields |= {"period": T, "restart": walker.timing.restart, "part": part}
+        fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
         fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
         fields |= {"t_first": t_first, "pulled": push.pulls}
         fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
@@ -93,27 +106,6 @@ class CompiledWalker:
         if ticks is not None:
             fields |= ticks.addresses
         return cls(walker, program, plan(tables, fields), ticks)
-
-
-def _method(
-    walker: Walker, method: OneStepMethod
-) -> tuple[ErrorForm | None, dict[str, float], dict[str, Array]]:
-    """The coordinates that a method needs, if any; its fields and tables of a run.
-
-    Raises NotCompiled for all but RK4 and Exponential, and for a class of the user's own that steps otherwise;
-    InputError for coordinates that the walker does not have.
-    """
-    if isinstance(method, RK4):
-        return None, {"kind": constants.RK4, "h": method.h}, {}
-    if not isinstance(method, Exponential):
-        raise NotCompiled(
-            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
-        )
-    split = walker.split_form()
-    if split is None:
-        raise no_coordinates()
-    fields = {"kind": constants.ETD, "h": method.h}
-    return split, fields, {"phi": phi_levels(method.h, split.A)}
 
 
 _FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)

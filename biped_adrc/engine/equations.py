@@ -5,7 +5,6 @@
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
     reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
-    sample    (t, step, t_start, x, ..) -> x                  as tick, of a plant that moves by itself
     push      (t, step, t_start, q, v) -> zeta, force         of the disturbance, with numbers of its own
     to, back, remainder                                       coordinates of the exponential method
 
@@ -96,7 +95,7 @@ class SymbolicLoop(NamedTuple):
     zeta: Array
     force: Array
     """From outside on the robot as a whole."""
-    moves: bool = False
+    moves: bool
     """Whether the plant moves by itself: then `force` are the forces on its feet [N]."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
@@ -195,6 +194,8 @@ class WalkerNumbers(NamedTuple):
     """Coordinates of the exponential method."""
     curve: Reference | OuterLoop | None = None
     """What readings refer to; no other function has it."""
+    moves: bool = False
+    """Whether the plant moves by itself, and has sample instants alone."""
 
     def nx(self, size: int) -> int:
         """Numbers in a state: 2 n, `size` of the controller, and what is held."""
@@ -239,6 +240,8 @@ class Equations:
     @staticmethod
     def names(numbers: WalkerNumbers) -> list[str]:
         """Names of the functions that this walker has; each is a method of this class."""
+        if numbers.moves:
+            return ["tick"]
         split = [] if numbers.split is None else ["to", "back", "remainder"]
         return ["flow", "impact", "events", *(["tick"] if numbers.held else []), *split]
 
@@ -259,6 +262,7 @@ class Equations:
             torques=[],
             zeta=zeta,
             force=force,
+            moves=K.moves,
         )
 
     def at(self) -> SymbolicInstant:
@@ -280,19 +284,16 @@ class Equations:
         return self.function(at.inp, at.does(semantics.flow), at.lost)
 
     def tick(self) -> SymbolicFunction:
-        """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
+        """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque.
+
+        Without q'' for a plant that moves by itself, whose `force` is on the feet.
+        """
         at, n = self.at(), self.numbers.plant.n
         x = at.does(semantics.tick)
+        if self.numbers.moves:
+            return self.function(at.inp, x, at.lost)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.function(at.inp, x, at.lost, a)
-
-    def sample(self) -> SymbolicFunction:
-        """Of a plant that moves by itself: x (nx,) after a sample instant, and the least pivot. `force` is that
-        on the feet.
-        """
-        at = self.at()
-        at = at._replace(loop=at.loop._replace(moves=True))
-        return self.function(at.inp, at.does(semantics.tick), at.lost)
 
     def reading(self, read: Reading) -> SymbolicFunction:
         """The parts of what `read` says, one after the other."""

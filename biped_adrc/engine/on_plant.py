@@ -77,7 +77,7 @@ class CompiledLoop(SteppingLoop):
             values["pushes"] = pushes(self.disturbance, self.plant.n)
         try:
             values["program"] = Program.of_loop(self, size)
-            values["program"].functions(["sample"])
+            _ = values["program"].machine
         except NotCompiled as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
@@ -89,10 +89,10 @@ class CompiledLoop(SteppingLoop):
 
     @cached_property
     def sample(self) -> Call:
-        """The function `sample` of the program, with room for what it is given."""
+        """The function `tick` of the program, with room for what it is given."""
         assert self.program is not None
-        code, nx = self.program.functions(["sample"]), self.program.nx
-        return Call(code, "sample", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
+        code, nx = self.program.machine, self.program.nx
+        return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) after the sample instant at t [s]; Python says what is wrong with numbers that are not

@@ -9,7 +9,7 @@ compiled.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -79,7 +79,7 @@ class Program:
         if not isinstance(loop.model, Biped):
             raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
         try:
-            return cls(size, controller_numbers(robot_of(loop.model), loop))
+            return cls(size, controller_numbers(robot_of(loop.model), loop)._replace(moves=True))
         except ModelError as reason:
             raise NotCompiled(str(reason)) from reason
 
@@ -106,16 +106,12 @@ class Program:
 
     @cached_property
     def machine(self) -> LoadedCode:
-        """Its functions in memory, compiled when they are asked for. Raises NotCompiled as `functions`."""
-        return self.functions(Equations.names(self.numbers))
-
-    def functions(self, names: Sequence[str]) -> LoadedCode:
-        """Functions of `Equations` in memory.
+        """Its functions in memory, compiled when they are asked for.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
-        functions = {name: partial(self._traced, name) for name in names}
-        return generated(self.key, functions)
+        names = Equations.names(self.numbers)
+        return generated(self.key, {name: partial(self._traced, name) for name in names})
 
     def reading(self, read: Reading) -> LoadedCode:
         """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""

@@ -324,10 +324,11 @@ def symbols_of(example: T) -> tuple[ca.SX, T]:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    parts = (
-        x.ravel().tolist() if isinstance(x, np.ndarray) else (float(x),) for _, x in leaves(tree)
-    )
-    return list(chain.from_iterable(parts))
+    if isinstance(tree, float | np.floating):
+        return [float(tree)]
+    if isinstance(tree, np.ndarray):
+        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
 
 
 def paths(tree: object) -> list[str]:

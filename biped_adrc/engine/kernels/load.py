@@ -17,13 +17,12 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Callable
 from ctypes import CFUNCTYPE, c_int64, c_void_p
 from functools import cache
 from pathlib import Path
 from threading import Lock
-from types import ModuleType
-from typing import Any, NamedTuple
+from types import ModuleType, SimpleNamespace
+from typing import Any
 
 from llvmlite import binding
 
@@ -46,40 +45,28 @@ _LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
 ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
-Loop = Callable[..., int]
-"""Takes whole numbers and addresses, and lets other threads of Python run."""
-
-
-class Kernels(NamedTuple):
-    """The units of `kernels.arc` that Python calls."""
-
-    stride: Loop
-    samples: Loop
-    looks: Loop
-    owner: object
-    """What keeps them in memory."""
-
-
 ARGUMENTS = {"stride": 3, "samples": 8, "looks": 5}
-"""How many each of them has."""
+"""The units of `kernels.arc` that Python calls; how many whole numbers and addresses each takes."""
 _LOCK = Lock()
 
 
-def kernels() -> Kernels:
-    """The loops; the first thread that asks loads them, or compiles them where they are not on disk."""
+def kernels() -> Any:
+    """The loops by name, during which other threads of Python run; the first thread that asks loads them, or
+    compiles them where they are not on disk.
+    """
     with _LOCK:
         return _loaded()
 
 
 @cache
-def _loaded() -> Kernels:
-    """As `kernels`."""
+def _loaded() -> SimpleNamespace:
+    """As `kernels`; `owner` keeps them in memory."""
     code = load_or_compile(loops(), [*ARGUMENTS])
     calls = {
         name: CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
         for name, size in ARGUMENTS.items()
     }
-    return Kernels(**calls, owner=code)
+    return SimpleNamespace(owner=code, **calls)
 
 
 def loops() -> str:

@@ -108,12 +108,9 @@ def set_time(r: Run, t: float) -> None:
     r.inp[0], r.inp[1], r.inp[2] = t, r.step, r.t_start
 
 
-@inner
-def disturb(r: Run, t: float) -> None:
-    """load: zeta (n,) [N m] and force from outside (2,) [N], the sum over the disturbance's terms at t [s] with
-    (q, v) in `inp`.
-    """
-    set_time(r, t)
+@unit
+def load_of(r: Run) -> None:
+    """As `disturb`, at the time in `inp`."""
     size, K = r.n + 2, r.push
     for i in range(size):
         r.load[i] = 0.0
@@ -121,6 +118,16 @@ def disturb(r: Run, t: float) -> None:
         call(r.parts[PART * k], K, r.inp, r.one)
         add(r.load, 1.0, r.one, r.load, size)
         K = shift(K, r.parts[PART * k + 1])
+
+
+@inner
+def disturb(r: Run, t: float) -> None:
+    """load: zeta (n,) [N m] and force from outside (2,) [N], the sum over the disturbance's terms at t [s] with
+    (q, v) in `inp`.
+    """
+    set_time(r, t)
+    if r.n_parts > 0:
+        load_of(r)
 
 
 @unit
