@@ -18,7 +18,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.other_gains import HighGainObserver
+from biped_adrc.observers.high_gain_kalman import HighGainObserver
 
 from .off_orbit import off_orbit, output_acceleration
 
