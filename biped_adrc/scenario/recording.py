@@ -196,9 +196,9 @@ class Walk(Shown):
         return ground["friction"], ground_axes(self.walker.slope)
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
-        """The certificates for other limits, or with forces averaged over another window [s].
+        """The certificates for other limits.
 
-        None for a soft walk: what an impact in no time would need does not apply there.
+        There are no certificates of a soft walk: what an impact in no time would need does not apply there.
         """
         if self.soft:
             return ()
