@@ -199,9 +199,13 @@ def supports(
     worst = {name: np.zeros(len(first)) for name in REASONS}
     worst["normal_force"] += np.inf
     worst["friction"] -= np.inf
+    edges = np.arange(len(first) + 1)
     for name, (_, of, x) in series(walker, n, k, impacts, after).items():
+        at = np.searchsorted(of, edges)
+        some = at[:-1] < at[1:]
         with np.errstate(invalid="ignore"):  # NaN stays, and is judged
-            (np.minimum if name == "normal_force" else np.maximum).at(worst[name], of, x)
+            extreme = np.minimum if name == "normal_force" else np.maximum
+            worst[name][some] = extreme.reduceat(x, at[:-1][some])
     never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)  # has a mean force pushed
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
     worst["slip"] += 0.0 if slips is None else slips

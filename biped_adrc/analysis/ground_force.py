@@ -104,7 +104,8 @@ def mean_forces(walker: Walker, n: Nodes, window: float) -> MeanForces:
         pieces = np.diff(t)[:, np.newaxis] * (n.outside[1:] + n.outside[:-1]) / 2.0
         whole = whole - np.vstack((np.zeros(2), np.cumsum(pieces, axis=0)))
     begins = t[ends] - long
-    i = np.clip(np.searchsorted(t, begins, side="right") - 1, first[of], last[of] - 1)
+    i = np.searchsorted(t, begins, side="right") - 1
+    i = np.minimum(np.maximum(i, first[of]), last[of] - 1)
     h = t[i + 1] - t[i]
     share = np.clip((begins - t[i]) / np.where(h > 0.0, h, 1.0), 0.0, 1.0)
     F_x, F_z = ((w[ends] - w[i] - share * (w[i + 1] - w[i])) / long for w in whole.T)
