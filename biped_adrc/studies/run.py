@@ -167,8 +167,8 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
         "rms_error": _rms(n.error, held),
         "peak_torque": _largest(n.u),
         "rms_torque": _rms(n.u, held),
-        "work": float(held @ np.sum(np.abs(work), axis=1)),
-        "net_work": float(held @ np.sum(work, axis=1)),
+        "work": float(np.sum(held * np.sum(np.abs(work), axis=1))),
+        "net_work": float(np.sum(held * np.sum(work, axis=1))),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
@@ -213,7 +213,11 @@ def _largest(x: Array) -> float:
 def _rms(x: Array, weights: Array) -> float:
     """Root of the mean square of x (K, p) over columns and all nodes but the last, by weights (K - 1,)."""
     total = float(np.sum(weights)) * x.shape[1]
-    return math.sqrt(float(weights @ np.sum(x[:-1] ** 2, axis=1)) / total) if total > 0.0 else 0.0
+    return (
+        math.sqrt(float(np.sum(weights * np.sum(x[:-1] ** 2, axis=1))) / total)
+        if total > 0.0
+        else 0.0
+    )
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
