@@ -12,7 +12,7 @@ from scipy.integrate import LSODA
 import biped_adrc as ba
 from biped_adrc.analysis.signals import integrate, largest
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.engine.run import COMPILED
+from biped_adrc.engine.program import COMPILED
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
 from biped_adrc.paper.two_steps import (
     AGREE,

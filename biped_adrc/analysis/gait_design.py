@@ -32,7 +32,8 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
-from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits

@@ -28,7 +28,8 @@ from biped_adrc.core.errors import InputError, ModelError, SimulationError
 from biped_adrc.core.linear import solve
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
-from biped_adrc.engine.run import COMPILED, PINOCCHIO, check_engine
+from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.run import PINOCCHIO, check_engine
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status

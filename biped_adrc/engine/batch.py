@@ -28,7 +28,8 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.run import COMPILED, run_made, simulate_by
+from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.run import simulate_by, simulate_compiled
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
@@ -202,7 +203,9 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
     if not walker.sampled or walker.touchdown is not None:
-        return lambda: left_by(case, run_made(compiled, x, case.mode, case.method, case.options))
+        return lambda: left_by(
+            case, simulate_compiled(compiled, x, case.mode, case.method, case.options)
+        )
     read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
 

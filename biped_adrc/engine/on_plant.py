@@ -36,8 +36,7 @@ from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.calls import Call, pushes, zeta_rows
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.program import Program
-from biped_adrc.engine.run import COMPILED
+from biped_adrc.engine.program import COMPILED, Program
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.biped import Biped
 

@@ -26,7 +26,7 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.program import COMPILED as COMPILED
+from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -92,20 +92,20 @@ def run_compiled(
     size = walker.controller_size(x0)
     try:
         compiled = CompiledWalker.of(walker, method, size, options.t0)
-        made = run_made(compiled, x0, mode, method, options)
-        return replace(made, detail=detail_of(walker, method, made))
+        run = simulate_compiled(compiled, x0, mode, method, options)
+        return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
         why = f"{reason}; it runs in Python on the compiled plant"
-    walker, run = compiled_plant(walker), None
+    walker, result = compiled_plant(walker), None
     if walker.sampled:
         with suppress(NotCompiled):
             compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
-            run = run_made(compiled, x0, mode, method, options)
-    run = run or simulator.run(walker, x0, mode, method, options)
-    return replace(run, settings={**run.settings, "engine": COMPILED_PLANT, "why": why})
+            result = simulate_compiled(compiled, x0, mode, method, options)
+    result = result or simulator.run(walker, x0, mode, method, options)
+    return replace(result, settings={**result.settings, "engine": COMPILED_PLANT, "why": why})
 
 
-def run_made(
+def simulate_compiled(
     compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""

@@ -25,7 +25,8 @@ from biped_adrc.closed_loop.walker import Mode as StepMode
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array
-from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4

@@ -38,7 +38,7 @@ from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
-from biped_adrc.engine.run import COMPILED
+from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference

@@ -35,7 +35,8 @@ from biped_adrc.core.checks import check_part, handing_out, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import stepping_loop
-from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff

@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.engine.batch import Case
-from biped_adrc.engine.run import COMPILED
+from biped_adrc.engine.program import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
