@@ -43,7 +43,7 @@ from biped_adrc.hybrid.status import Status
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate, Support
     from biped_adrc.analysis.soft_steps import SoftStep
-    from biped_adrc.model.robots.robot_toml import Limits
+    from biped_adrc.model.robots.limits import Limits
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
 

@@ -44,7 +44,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import course_remarks, edge_remarks, step_remarks
 
 if TYPE_CHECKING:
