@@ -140,9 +140,10 @@ class Walk(Shown):
     def note(self) -> str:
         """One line on what walked: controller, gait, robot and preset; without motors robot and slope [rad]."""
         plant, gait = self.walker.plant, self.gait
+        robot = f"{plant.description.name} {plant.preset}"
         if gait is None:
-            return f"{plant.description.name} {plant.preset} without motors, slope {self.walker.slope:g} rad"
-        return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
+            return f"{robot} without motors, slope {self.walker.slope:g} rad"
+        return f"{self.controller_name} on gait '{gait.name}', {robot}"
 
     @cached_property
     def signals(self) -> Signals:
@@ -277,8 +278,12 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        made = self.walker, self.trajectory
-        return (*edge_remarks(*made), *step_remarks(*made), *course_remarks(*made))
+        made, gait = (self.walker, self.trajectory), self.gait
+        result = (*edge_remarks(*made), *step_remarks(*made), *course_remarks(*made))
+        own = gait and f"{gait.robot} {gait.preset}"
+        if gait is None or self.note.endswith(f", {own}"):
+            return result
+        return (*result, f"gait '{gait.name}' was made for {own}")
 
     @property
     def controller_name(self) -> str:
