@@ -208,9 +208,8 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
 
 def _read(function: SymbolicFunction) -> set[int]:
     """Indices of the inputs that a function reads."""
-    f = straight_line(function)
-    inputs = (i for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_INPUT)
-    return {at[1] for at in map(f.instruction_input, inputs) if at[0] == 1}
+    line = straight_line(function)
+    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == 1}
 
 
 def _named(
