@@ -26,9 +26,8 @@ from biped_adrc.core.checks import PositiveInt, check_fields
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import simulate_by, simulate_compiled
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference

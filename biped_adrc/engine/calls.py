@@ -1,7 +1,7 @@
 """Generated code that Python calls: methods of parts, terms of a disturbance, signals at all nodes of a run.
 
 Signals are not stored with a run but computed again from the states, at tens of thousands of nodes: in machine
-code (`Equations.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
+code (`Program.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
 a part has no compiled form. The disturbance zeta is an input of them, since it may run in Python.
 """
 

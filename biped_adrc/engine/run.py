@@ -6,7 +6,7 @@ fits:
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
 - compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
-  (`engine.compiled_walker`);
+  (`engine.program`);
 - compiled plant otherwise: the loop of `hybrid.simulator` on compiled dynamics;
 - Pinocchio, for a robot that is no planar tree.
 
@@ -25,8 +25,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod

@@ -28,10 +28,10 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import Reading, WalkerNumbers
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.on_plant import CompiledLoop
+from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference

@@ -72,7 +72,7 @@ def _function(size: int, numbers: WalkerNumbers) -> ca.Function:
     """(K, inp) -> (x+, J) for `size` numbers in s; the values of `numbers` do not matter."""
     key, nx = (size, structure(numbers)), numbers.nx(size)
     if key not in _FUNCTIONS:
-        tick = Equations.of(size, numbers).tick()
+        tick = Equations(size, numbers).tick()
         after = ca.densify(tick.out[:nx])
         J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + nx])
         _FUNCTIONS[key] = ca.Function("tick", [tick.K, tick.inp], [after, J], {"cse": True})

@@ -1,6 +1,6 @@
 """A compiled run in memory: its block of cells by name, and what the codes that it ends with mean.
 
-`engine.compiled_walker` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
+`engine.program` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
 plan is a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of the
 block.
 
