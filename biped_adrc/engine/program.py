@@ -214,7 +214,8 @@ class CompiledWalker:
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
-        flows = walker.held is None or relaxing  # the torque of the motors, then all does
+        # the torque of the motors, then all does; q'' at a sample instant comes from machine code alone
+        flows = walker.held is None or relaxing or in_python
         tables = {
             "K": program.K,
             "fastest": bounds.fastest,
@@ -237,7 +238,7 @@ class CompiledWalker:
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         fields |= {name: program.address(name) for name in FUNCTIONS}
-        ticks = PythonTicks(walker, nx, program.address("flow")) if in_python else None
+        ticks = PythonTicks(walker, nx) if in_python else None
         if ticks is not None:
             fields |= ticks.addresses
         return cls(walker, program, plan(tables, fields), ticks)
@@ -254,53 +255,35 @@ def _numbers_at(address: int, size: int) -> Array:
 
 
 class PythonTicks:
-    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states.
+    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states; without q''.
 
-    flow: address of the walker's flow. What a method raises is kept as `error`; the march ends as NOT_FINITE.
+    What a method raises is kept as `error`; the march ends as NOT_FINITE.
     """
 
-    def __init__(self, walker: Walker, nx: int, flow: int):
-        self.walker, self.n, self.nx = walker, walker.plant.n, nx
-        self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
+    def __init__(self, walker: Walker, nx: int):
+        self.nx = nx
         self.error: BaseException | None = None
-        sizes = {"tick": (3 + nx + self.n, nx + 1 + self.n), "impact": (2 + nx, nx + 1)}
-        self.functions = {
-            name: _FUNCTION(partial(self._called, getattr(self, name), *size))
-            for name, size in sizes.items()
-        }
+
+        def tick(t: float, step: float, start: float, *x: float) -> Array:
+            return walker.tick(t, np.array(x), Mode(int(step), start))
+
+        def impact(t: float, step: float, *x: float) -> Array:
+            return walker.impact(t, np.array(x[:nx]), Mode(int(step) - 1))[0]
+
+        self.functions = [_FUNCTION(partial(self._called, method)) for method in (tick, impact)]
 
     @property
     def addresses(self) -> dict[str, int]:
         """Of both functions, by name."""
-        return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
+        at = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
+        return dict(zip(("tick", "impact"), at, strict=True))
 
-    def _called(
-        self, method: Callable[..., Array], read: int, written: int, K: int, inp: int, out: int
-    ) -> None:
-        """Evaluate a method with the addresses K, inp, out: `read` numbers (double) at inp, `written` at out.
-
-        NaN where it raises.
+    def _called(self, method: Callable[..., Array], K: int, inp: int, out: int) -> None:
+        """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
+        raises.
         """
-        result = _numbers_at(out, written)
+        result = _numbers_at(out, self.nx + 1)
         try:
-            result[:] = method(_numbers_at(inp, read), result, lambda: self.flow(K, inp, out))
+            result[:] = *method(*_numbers_at(inp, 3 + self.nx).tolist()), 1.0
         except BaseException as error:  # goes on where the march was called
             self.error, result[:] = error, math.nan
-
-    def tick(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
-        """A sample instant: (x, 1, q'') of (t, step, t_start, x, ..).
-
-        t [s], the number of the single support, its start [s], x (nx,); then x (nx,) after the sample instant,
-        1 for the least pivot, so that no matrix is singular, and q'' (n,) [rad/s^2] under the new torque.
-        flow: computes the slope into out, at what is in inp.
-        """
-        t, step, start = inp[:3].tolist()
-        here = slice(3, 3 + self.nx)
-        x = inp[here] = self.walker.tick(t, inp[here].copy(), Mode(int(step), start))
-        flow()
-        return np.concatenate((x, (1.0,), out[self.n : 2 * self.n]))
-
-    def impact(self, inp: Array, out: Array, flow: Callable[[], None]) -> Array:
-        """An impact: (x+, 1) of (t, step, x), x+ (nx,); t [s], step that of the single support that begins."""
-        t, step = inp[:2].tolist()
-        return np.append(self.walker.impact(t, inp[2:].copy(), Mode(int(step) - 1))[0], 1.0)

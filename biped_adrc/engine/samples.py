@@ -79,9 +79,6 @@ class CompiledWalk:
     """Where it is; moved by the kernel `samples`. Its nodes are those of this single support, as
     `engine.batch.BatchWalk.table`; none where it is not judged."""
 
-    places: tuple[int, int]
-    """Cells of the torque and the force from outside, the last term of the disturbance."""
-
     @classmethod
     def of(
         cls,
@@ -102,10 +99,9 @@ class CompiledWalk:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look, 3 * walker.plant.p + 4)
         assert walker.disturbance is not None
-        torque = run.place("K") + torque_place(compiled.program.numbers)
-        return cls(
-            compiled, run, (torque, run.place("push") + len(floats(walker.disturbance.terms[:-1])))
-        )
+        run["torque"] = run["K"] + 8 * torque_place(compiled.program.numbers)
+        run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
+        return cls(compiled, run)
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, nodes of the single support in which it is stay there."""
@@ -113,11 +109,6 @@ class CompiledWalk:
         stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
         run.nodes[: len(stay)], run["count"] = stay, len(stay)
         return np.ascontiguousarray(rows.T)
-
-    @property
-    def addresses(self) -> list[int]:
-        """In the order of `kernels.record.WALK`."""
-        return [self.run.address + 8 * cell for cell in (0, *self.places)]
 
     @property
     def at(self) -> At:

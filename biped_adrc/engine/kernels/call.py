@@ -94,20 +94,12 @@ def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
     return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 
 
-def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
-    """An intrinsic from an address (int64) to a pointer to numbers of this type."""
-    pointer, signature = kind.as_pointer(), types.CPointer(number)(types.int64)
-
-    def at(typingctx: object, address: Type) -> Generated:
-        return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
-
-    return intrinsic(at)
-
-
-floats_at = _pointer_at(types.float64, ir.DoubleType())
-"""Pointer to the float64 at an address."""
-ints_at = _pointer_at(types.int64, ir.IntType(64))
-"""Pointer to the int64 at an address."""
+@intrinsic
+def run_at(typingctx: object, address: Type) -> Generated:
+    """The run at an address."""
+    pointer = ir.IntType(64).as_pointer()
+    signature = _CELLS(types.int64)
+    return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
 
 
 # -- fields of a run -------------------------------------------------------------------------------

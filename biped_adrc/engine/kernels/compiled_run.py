@@ -132,6 +132,7 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     lengths = [*map(len, blocks), *(width for _ in ROWS)]
     starts = np.cumsum([len(KINDS), *lengths])
     places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
+    places |= {"torque": places["K"], "force": places["push"]}
     cells = np.zeros(starts[-1], dtype=np.int64)
     filled = np.concatenate(blocks)
     cells[len(KINDS) : len(KINDS) + len(filled)] = filled

@@ -45,7 +45,7 @@ _LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
 ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
-ARGUMENTS = {"stride": 3, "samples": 8, "looks": 5}
+ARGUMENTS = {"stride": 3, "samples": 7, "looks": 5}
 """The units of `kernels.arc` that Python calls; how many whole numbers and addresses each takes."""
 _LOCK = Lock()
 

@@ -250,24 +250,6 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
 
 @inner
-def jump(r: Run, x: Array, out: Array) -> int:
-    """out (nx,) = x+ at the impact in x (nx,); a status.
-
-    On success step, t_start and t_arc become those of the single support that begins; on failure they stay.
-    """
-    r.inp[0], r.inp[1] = r.t, r.step + 1.0
-    copy(x, shift(r.inp, 2), r.nx)
-    call(r.impact, r.K, r.inp, out)
-    if out[r.nx] == 0.0:
-        return SINGULAR
-    if not finite(out, r.nx):
-        return NOT_FINITE
-    r.step += 1.0
-    r.t_start = r.t_arc = r.t
-    return 0
-
-
-@inner
 def lower(r: Run) -> None:
     """drop: how far the steps of the ground lower the ground [m] on which this single support ends."""
     r.drop = 0.0
