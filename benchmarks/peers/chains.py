@@ -18,7 +18,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.calls import CompiledBiped
 from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.biped import Biped

@@ -26,9 +26,8 @@ from biped_adrc.core.checks import PositiveInt, check_fields
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.program import COMPILED, CompiledWalker
-from biped_adrc.engine.run import simulate_by, simulate_compiled
+from biped_adrc.engine.run import STORE, simulate_by, simulate_compiled
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
@@ -41,8 +40,6 @@ AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""
 AT_ONCE = 25
 """Impacts for whose nodes there is room at the same time."""
-STORE = 1_000_000
-"""Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +149,6 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     Whoever stops asking (closes the generator) cancels what has not begun.
     """
     waiting: deque[Future[BatchWalk]] = deque()
-    kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
             for case in cases:
@@ -253,6 +249,5 @@ def strides(
     def one(start: tuple[Array, Mode]) -> BatchWalk:
         return _strides(compiled, *start, start[1].start + t_end, 1)
 
-    kernels()
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         return list(pool.map(one, starts))

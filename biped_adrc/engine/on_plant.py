@@ -33,8 +33,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.calls import Call, pushes, zeta_rows
-from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
+from biped_adrc.engine.calls import Call, CompiledBiped, compiled_references, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import COMPILED, Program
 from biped_adrc.engine.symbols import NotCompiled

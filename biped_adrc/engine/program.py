@@ -270,13 +270,9 @@ class PythonTicks:
         def impact(t: float, step: float, *x: float) -> Array:
             return walker.impact(t, np.array(x[:nx]), Mode(int(step) - 1))[0]
 
-        self.functions = [_FUNCTION(partial(self._called, method)) for method in (tick, impact)]
-
-    @property
-    def addresses(self) -> dict[str, int]:
-        """Of both functions, by name."""
+        self.functions = [_FUNCTION(partial(self._called, f)) for f in (tick, impact)]
         at = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
-        return dict(zip(("tick", "impact"), at, strict=True))
+        self.addresses = dict(zip(("tick", "impact"), at, strict=True))
 
     def _called(self, method: Callable[..., Array], K: int, inp: int, out: int) -> None:
         """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it

@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
+from biped_adrc.engine.calls import CompiledBiped, compiled_references
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator

@@ -139,8 +139,6 @@ class PythonWalk:
     x: Array
     """State (nx,) before the sample instant at t."""
     mode: Mode
-    began: float
-    """Where the clock of sample instants began that restarts at impacts [s]."""
     fired: str | None = None
     """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
@@ -161,7 +159,7 @@ class PythonWalk:
                 places.append((loop.program.K[at : at + p], slice(p)))
             if loop.pushes is not None:
                 places.append((loop.pushes[-1].K[:2], slice(p, None)))
-        return cls(loop, method, tuple(places), mode.start, x, mode, mode.start)
+        return cls(loop, method, tuple(places), mode.start, x, mode)
 
     @property
     def at(self) -> At:
@@ -182,9 +180,9 @@ class PythonWalk:
             place[:] = inputs[part]
         walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
         while True:
-            start = walk.began if timing.restart else 0.0
+            start = walk.mode.start if timing.restart else 0.0
             until = next_tick(walk.t, start, timing.period)
-            at = (walk.t, walk.x, walk.mode, walk.fired, walk.began)
+            at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
@@ -197,7 +195,7 @@ class PythonWalk:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
                 return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
             t, (x, mode) = event.t, flown.outcome
-            walk = replace(walk, t=t, x=x, mode=mode, began=t, fired=event.guard, arcs=arcs)
+            walk = replace(walk, t=t, x=x, mode=mode, fired=event.guard, arcs=arcs)
             if timing.restart or t >= until:
                 return walk, flown.status, over
 

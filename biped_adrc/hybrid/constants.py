@@ -34,6 +34,6 @@ Y_ROWS = (
     *("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try"),
     *("N0", "N1", "N_a", "N_b", "N_c", "N_sub"),
 )
-"""Arrays (ny,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
+"""Arrays (nx,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
 of sub-steps, and of one that is tried.
 """

@@ -81,8 +81,8 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     half, half_phi = matrix(r, level, HALF), matrix(r, level, HALF_PHI)
     middle, a, b, nw = matrix(r, level, MIDDLE), r.y_a, r.y_b, r.n_slow
     matvec(r, half, y, r.e_half)
-    copy(r.e_half, a, r.ny)
-    copy(r.e_half, b, r.ny)
+    copy(r.e_half, a, r.nx)
+    copy(r.e_half, b, r.nx)
     add(y, 0.5 * h, N, a, nw)
     apply_input(r, half_phi, 1.0, N, a)
     remainder(r, t + 0.5 * h, a, r.N_a)
@@ -112,7 +112,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
     """
     levels, count, now = r.levels, 0, t
     y, N, trial, x = r.y_sub, r.N_sub, r.y_try, r.x_b
-    copy(r.y0, y, r.ny)
+    copy(r.y0, y, r.nx)
     copy(r.N0, N, r.nN)
     finest = r.h * 0.5 ** (levels - 1)
     for level in range(1, levels):
@@ -128,7 +128,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
                 tb, fb = end, r.tried[guard]
                 continue
         count, now = further, end
-        copy(trial, y, r.ny)
+        copy(trial, y, r.nx)
         remainder(r, now, y, N)
     join(r, y, x)
     flow(r, now, x, r.dx_b)
@@ -376,7 +376,7 @@ def pass_on(r: Run) -> None:
     copy(r.x1, r.x0, r.moving)
     copy(r.dx1, r.dx0, r.moving)
     if r.kind == ETD:
-        copy(r.y1, r.y0, r.ny)
+        copy(r.y1, r.y0, r.nx)
         copy(r.N1, r.N0, r.nN)
 
 

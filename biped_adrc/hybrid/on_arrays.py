@@ -127,7 +127,7 @@ class Run:
         self.x0[:] = x
         self.kind, self.h, self.lags, self.lag_speed = SOLVER, math.inf, 0, 0.0
         self.steps: Iterator[Step] = iter(())
-        self.ny = self.nN = self.n_slow = self.levels = 0
+        self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
         if isinstance(method, ClassicalRungeKutta):
             self._set_rk4(method)
@@ -147,9 +147,9 @@ class Run:
         self.kind, self.h, self.form, self.E_shape = ETD, method.h, form, E.shape
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
-        self.ny = self.nN = len(w) + E.size
+        self.nN = self.nx
         for name in Y_ROWS:
-            setattr(self, name, np.zeros(self.ny))
+            setattr(self, name, np.zeros(self.nx))
 
     def parts(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, c) of y, as copies."""

@@ -11,7 +11,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.calls import CompiledBiped
 from biped_adrc.engine.program import Program
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names

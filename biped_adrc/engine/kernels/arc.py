@@ -119,8 +119,8 @@ def samples(
     or with the walk.
 
     walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N].
-    codes (count,) become those of `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it, as they were where a walk has
-    ended. impacts (count,) are those made.
+    codes (count,) become those of `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it,
+    as they were where a walk has ended. impacts (count,) are those made.
     """
     over = 0
     for i in range(count):

@@ -34,6 +34,7 @@ Generated = tuple[Signature, Callable[..., ir.Value]]
 Context = Any
 """numba.core.base.BaseContext, whose methods have no annotations."""
 njit: Any = numba.njit
+intrinsic: Callable[[Callable[..., Generated]], Callable[..., Any]] = extending.intrinsic
 types: Any = numba.types
 
 UNITS: dict[str, tuple[str, Signature, Callable[..., object]]] = {}
@@ -48,12 +49,6 @@ _TYPES = {
     "Array": types.CPointer(types.float64),
 }
 """numba's types by annotation; a run and vectors are pointers."""
-
-
-def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
-    """numba's decorator for a function that is written in LLVM's instructions."""
-    decorator: Any = extending.intrinsic
-    return decorator(function)
 
 
 def inner(function: _Function) -> _Function:

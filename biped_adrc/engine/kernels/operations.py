@@ -173,8 +173,8 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
         call(r.back, r.K, y, r.out)
         copy(r.out, shift(inp, 3), 2 * r.n)
     disturb(r, min(t, r.limit))
-    copy(y, shift(inp, 3), r.ny)
-    copy(r.load, shift(inp, 3 + r.ny), r.n)
+    copy(y, shift(inp, 3), r.nx)
+    copy(r.load, shift(inp, 3 + r.nx), r.n)
     call(r.remainder, r.K, inp, N)
     note(r, N, N[r.nN])
 

@@ -68,8 +68,6 @@ class Run:
     """Numbers in w, for ETD-RK4."""
     k: int
     """Rows of E (k, p)."""
-    ny: int
-    """Numbers in y = (w, E)."""
     nN: int
     """Numbers in the remainder (N_w, row 1 of N_E)."""
     levels: int
