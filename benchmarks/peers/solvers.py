@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, intrinsic
-from biped_adrc.engine.program import Program
+from biped_adrc.engine.program import Program, numbers_of
 
 RTOL, ATOL, MOST_STEPS = 1e-6, 1e-9, 100_000
 BDF, NORMAL = 2, 1
@@ -40,7 +40,7 @@ Solve = Callable[[Flow, Array, Array], Array]
 
 def program_of(walker: Walker) -> Program:
     """The machine code of a walker in continuous time."""
-    return Program.of(walker, walker.controller.observer.order * walker.plant.p)
+    return Program(walker.controller.observer.order * walker.plant.p, numbers_of(walker))
 
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:

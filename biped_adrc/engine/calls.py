@@ -35,7 +35,7 @@ from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import COMPILED, Program, push_code
+from biped_adrc.engine.program import COMPILED, Program, numbers_of, push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
@@ -230,7 +230,7 @@ def compiled_readings(
     """
     nx = trajectory.arcs[0].x.shape[1]
     try:
-        program = Program.of(walker, walker.controller_size(nx), curve=reference)
+        program = Program(walker.controller_size(nx), numbers_of(walker, curve=reference))
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
         code, K = program.reading(signals_at), program.K

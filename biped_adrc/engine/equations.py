@@ -45,6 +45,7 @@ from biped_adrc.engine.symbols import (
     NotCompiled,
     Scalar,
     Vector,
+    chosen,
     column,
     maximum,
     minimum,
@@ -61,12 +62,6 @@ T = TypeVar("T")
 
 Reading = Callable[..., tuple[Array, ...]]
 """read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
-
-
-def on_symbols(trace: Tracer, controller: Controller) -> ControlLaw:
-    """The methods of a controller on symbols."""
-    twin = trace.on_symbols(controller)
-    return ControlLaw(*(partial(run, trace, getattr(twin, name)) for name in ControlLaw._fields))
 
 
 class SymbolicLoop(NamedTuple):
@@ -118,10 +113,8 @@ class SymbolicLoop(NamedTuple):
 
     def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
         """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
-        after = self.calls.jump(s, m, self.swap)
-        return np.array(
-            [where(fires > 0.5, a, b) for a, b in zip(after, s, strict=True)], dtype=object
-        )
+        after: Array = chosen(fires > 0.5, self.calls.jump(s, m, self.swap), s)
+        return after
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Array, mode: Mode
@@ -249,7 +242,8 @@ class Equations:
         """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
         (_, K), trace = self.symbols, Tracer()
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
-        calls, held = on_symbols(trace, K.controller), trace.on_symbols(K.held) if K.held else None
+        law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
+        calls = ControlLaw(*(partial(run, trace, getattr(law, x)) for x in ControlLaw._fields))
         return SymbolicLoop(plant, model, K, trace, calls, held, [], zeta, force)
 
     def at(self) -> SymbolicInstant:

@@ -35,9 +35,10 @@ from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.calls import Call, CompiledBiped, compiled_references, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.program import COMPILED, Program
+from biped_adrc.engine.program import COMPILED, Program, controller_numbers
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar_robot import robot_of
 
 
 def stepping_loop(
@@ -74,9 +75,12 @@ class CompiledLoop(SteppingLoop):
         with suppress(NotCompiled):
             values["pushes"] = pushes(self.disturbance, self.plant.n)
         try:
-            values["program"] = Program.of_loop(self, size)
+            if not isinstance(self.model, Biped):
+                raise NotCompiled(f"the model is a {type(self.model).__name__}, expected a Biped")
+            numbers = controller_numbers(robot_of(self.model), self)._replace(moves=True)
+            values["program"] = Program(size, numbers)
             _ = values["program"].machine
-        except NotCompiled as reason:
+        except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
             values["controller"] = compiled_references(self.controller, self.plant.n)

@@ -25,7 +25,6 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by
-from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum
@@ -42,7 +41,6 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
-from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 COMPILED = "compiled"
@@ -51,44 +49,10 @@ COMPILED = "compiled"
 
 @dataclass(frozen=True)
 class Program(Equations):
-    """Functions by name, compiled, and the numbers they are called with."""
+    """Functions by name, compiled, and the numbers they are called with.
 
-    @classmethod
-    def of(
-        cls,
-        walker: Walker,
-        size: int,
-        split: ErrorForm | None = None,
-        curve: Reference | OuterLoop | None = None,
-        plant_alone: bool = False,
-    ) -> Program:
-        """The program of a walker whose controller has `size` states.
-
-        split: coordinates of the exponential method. curve: what readings refer to. plant_alone: without
-        controller, sensors and touchdown detector, for sample instants in Python. Takes the controller in its
-        time base, the data of plant and model, and puts all floats into K in the order of `WalkerNumbers`.
-        Raises NotCompiled for a part whose content cannot be compared, or ModelError for a robot that is no
-        planar tree.
-        """
-        numbers = numbers_of(walker)._replace(
-            split=split, curve=None if curve is None else tracked_by(walker.law, curve)
-        )
-        if plant_alone:
-            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
-            numbers = numbers._replace(controller=Passive(), held=held)
-        return cls(size, numbers)
-
-    @classmethod
-    def of_loop(cls, loop: SteppingLoop, size: int) -> Program:
-        """The program of sample instants around another plant. Raises NotCompiled also for a model that is no
-        planar tree.
-        """
-        if not isinstance(loop.model, Biped):
-            raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
-        try:
-            return cls(size, controller_numbers(robot_of(loop.model), loop)._replace(moves=True))
-        except ModelError as reason:
-            raise NotCompiled(str(reason)) from reason
+    Raises NotCompiled for a part whose content cannot be compared, when it is asked for.
+    """
 
     @cached_property
     def K(self) -> Array:
@@ -133,10 +97,13 @@ class Program(Equations):
         return code.addresses.get(name, 0)
 
 
-def numbers_of(walker: Walker) -> WalkerNumbers:
+def numbers_of(
+    walker: Walker, split: ErrorForm | None = None, curve: Reference | OuterLoop | None = None
+) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
-    Raises ModelError for a robot that is no planar tree.
+    split: coordinates of the exponential method. curve: what readings refer to. Raises ModelError for a robot
+    that is no planar tree.
     """
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),
@@ -144,6 +111,8 @@ def numbers_of(walker: Walker) -> WalkerNumbers:
         lowest_hip=float(walker.lowest_hip),
         longest=float(walker.max_step_time),
         impact_gain=walker.gain,
+        split=split,
+        curve=None if curve is None else tracked_by(walker.law, curve),
     )
 
 
@@ -208,7 +177,11 @@ class CompiledWalker:
         split = walker.split_form() if etd else None
         if etd and split is None:
             raise no_coordinates()
-        program = Program.of(walker, size, split, reference, in_python)
+        numbers = numbers_of(walker, split, reference)
+        if in_python:
+            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
+            numbers = numbers._replace(controller=Passive(), held=held)
+        program = Program(size, numbers)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
         push = walker.disturbance or NO_PUSH
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]

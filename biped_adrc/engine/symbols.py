@@ -232,7 +232,7 @@ class Solver:
             for i in range(j + 1, n):
                 one, other = rows[j, j:].copy(), rows[i, j:].copy()
                 swap = abs(Scalar(expression(other[0]))) > abs(Scalar(expression(one[0])))
-                rows[j, j:], rows[i, j:] = _chosen(swap, other, one), _chosen(swap, one, other)
+                rows[j, j:], rows[i, j:] = chosen(swap, other, one), chosen(swap, one, other)
             self.pivots.append(abs(rows[j, j]))
             inverse.append(1.0 / rows[j, j])
             for i in range(j + 1, n):
@@ -252,7 +252,8 @@ class Solver:
         return least
 
 
-_chosen: Callable[..., Any] = elementwise(where)
+chosen: Callable[..., Any] = elementwise(where)
+"""`where`, entry by entry."""
 
 
 def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:

@@ -12,7 +12,7 @@ from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.calls import CompiledBiped
-from biped_adrc.engine.program import Program
+from biped_adrc.engine.program import Program, numbers_of
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
@@ -46,7 +46,7 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
     code, n = CompiledBiped.of(biped), biped.n
-    program = Program.of(Walker(biped, Passive()), 0)
+    program = Program(0, numbers_of(Walker(biped, Passive())))
     random = np.random.default_rng(12)
     for _ in range(COUNT):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -99,13 +99,15 @@ def test_a_plant_that_is_not_the_model(gait, timing):
 
 def test_one_compilation_serves_every_number(biped, gait):
     """Robots, gains, gaits and limits change K alone."""
-    first = Program.of(Walker(biped, ba.NPDController(gait.constraint)), 0)
+    first = Program(0, numbers_of(Walker(biped, ba.NPDController(gait.constraint))))
     bare = ba.Biped.load("rabbit", "tac2003").with_errors(mass={"torso": 1.3})
     other = ba.NPDController(gait.constraint, ba.Gains(100.0, 20.0))
-    second = Program.of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0), 0)
+    second = Program(
+        0, numbers_of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0))
+    )
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
-    third = Program.of(Walker(bare, other), 0)
+    third = Program(0, numbers_of(Walker(bare, other)))
     assert third.numbers.plant.n == 5
 
 
