@@ -151,7 +151,7 @@ class Tracer:
             own = changes(f.__module__, f.__globals__.get("__file__"))
             if own and catches(f.__code__):
                 copy = _refused(f.__code__)
-            self._copies[f] = self._copies[copy] = copy
+            self._copies[f] = copy
             for name in names_of(f.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
