@@ -72,15 +72,13 @@ class Case(Shown):
         check_fields(self)
 
     @property
-    def t_end(self) -> float:
-        """Latest end of the walk [s]: every single support as long as it may be."""
-        return self.mode.start + self.impacts * self.walker.max_step_time
-
-    @property
     def options(self) -> RunOptions:
-        """Of its run arc by arc; without a curve the ends of the arcs alone are kept."""
+        """Of its run arc by arc: every single support as long as it may be; without a curve the ends of the arcs
+        alone are kept.
+        """
+        t_end = self.mode.start + self.impacts * self.walker.max_step_time
         strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
-        return RunOptions(self.t_end, self.mode.start, strikes, store_every=every)
+        return RunOptions(t_end, self.mode.start, strikes, store_every=every)
 
 
 @dataclass(frozen=True)
@@ -182,27 +180,28 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
     """As `run_case`. What has no compiled form is run here and now, in Python."""
-    x = case.walker.initial_state(case.q, case.v, case.mode)
-    case.options.check(x)
-    walker, size = case.walker, case.walker.controller_size(x)
+    walker, options = case.walker, case.options
+    x = walker.initial_state(case.q, case.v, case.mode)
+    options.check(x)
+    size = walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
     except (NotCompiled, ModelError):
         try:
-            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(case.options))
+            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))
         except NotFiniteError:
             raise
         except InputError as error:  # what a user's code gives later on than at the start
             raise RaisedError(str(error)) from error
         return lambda: left_by(case, run)
-    if case.curve is None:
-        return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
-    if not walker.sampled or walker.touchdown is not None:
+    read, table = 0, case.curve is not None
+    if table and (not walker.sampled or walker.touchdown is not None):
         return lambda: left_by(
-            case, simulate_compiled(compiled, x, case.mode, case.method, case.options)
+            case, simulate_compiled(compiled, x, case.mode, case.method, options)
         )
-    read = compiled.program.reading(step_reading).addresses["reading"]
-    return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
+    if table:
+        read = compiled.program.reading(step_reading).addresses["reading"]
+    return lambda: _strides(compiled, x, case.mode, options.t_end, case.impacts, read)
 
 
 def _strides(

@@ -145,15 +145,10 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
 
-    Make it with `of`; robot: what the code is made from and called with.
+    Make it with `compiled_biped`; robot: what the code is made from and called with.
     """
 
     robot: PlanarRobot | None = None
-
-    @classmethod
-    def of(cls, biped: Biped) -> CompiledBiped:
-        """With the formulas of a robot. Raises ModelError for one that is no planar tree."""
-        return _compiled(biped)
 
     @cached_property
     def _made(self) -> dict[str, Callable[..., Any]]:
@@ -186,8 +181,10 @@ class CompiledBiped(Biped):
 
 
 @once_each
-def _compiled(biped: Biped) -> CompiledBiped:
-    """As `CompiledBiped.of`, remembered for the last robots."""
+def compiled_biped(biped: Biped) -> CompiledBiped:
+    """A robot with its formulas in machine code, remembered for the last robots. Raises ModelError for one that
+    is no planar tree.
+    """
     given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
     return CompiledBiped(**given, robot=robot_of(biped))
 

@@ -33,7 +33,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.calls import Call, CompiledBiped, compiled_references, pushes, zeta_rows
+from biped_adrc.engine.calls import Call, compiled_biped, compiled_references, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import COMPILED, Program, controller_numbers
 from biped_adrc.engine.symbols import NotCompiled
@@ -86,7 +86,7 @@ class CompiledLoop(SteppingLoop):
             values["controller"] = compiled_references(self.controller, self.plant.n)
             if isinstance(self.model, Biped):
                 with suppress(ModelError):  # of a robot that is no planar tree
-                    values["model"] = CompiledBiped.of(self.model)
+                    values["model"] = compiled_biped(self.model)
         return replace(self, **values), engine
 
     @cached_property

@@ -194,11 +194,10 @@ class CompiledWalker:
             "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
+            "phi": np.zeros(0) if split is None else phi_levels(method.h, split.A),
             "push": np.array(floats(push.terms)),
             "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
-        if split is not None:
-            tables["phi"] = phi_levels(method.h, split.A)
         fields = dict[str, float]()
         if isinstance(walker.timing, SampledTime) and walker.held is not None:
             T, motors = walker.timing.period, walker.held.motors

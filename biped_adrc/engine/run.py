@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.calls import CompiledBiped, compiled_references
+from biped_adrc.engine.calls import compiled_biped, compiled_references
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
@@ -166,6 +166,6 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
 def compiled_plant(walker: Walker) -> Walker:
     """The walker with compiled dynamics and references. Raises ModelError."""
     controller = compiled_references(walker.controller, walker.plant.n)
-    model = None if walker.model is None else CompiledBiped.of(walker.model)
-    plant = CompiledBiped.of(walker.plant)
+    model = None if walker.model is None else compiled_biped(walker.model)
+    plant = compiled_biped(walker.plant)
     return replace(walker, plant=plant, model=model, controller=controller)

@@ -104,7 +104,7 @@ def test_every_run_of_a_batch_is_the_single_run(mixed):
             x0,
             mode,
             case.method,
-            t_end=case.t_end,
+            t_end=case.options.t_end,
             t0=mode.start,
             impacts=case.impacts,
         )

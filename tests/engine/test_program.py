@@ -11,7 +11,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.engine.calls import CompiledBiped
+from biped_adrc.engine.calls import compiled_biped
 from biped_adrc.engine.program import Program, numbers_of
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
@@ -30,7 +30,7 @@ def close(found, expected):
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_terms_of_every_robot_are_pinocchio_s(robot):
     biped = ba.Biped.load(robot)
-    code = CompiledBiped.of(biped)
+    code = compiled_biped(biped)
     random = np.random.default_rng(5)
     for _ in range(500):
         q, v, a = random.normal(0.0, 3.0, (3, biped.n))
@@ -45,7 +45,7 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 @pytest.mark.parametrize("robot", ["rabbit", "three_link"])
 def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
-    code, n = CompiledBiped.of(biped), biped.n
+    code, n = compiled_biped(biped), biped.n
     program = Program(0, numbers_of(Walker(biped, Passive())))
     random = np.random.default_rng(12)
     for _ in range(COUNT):

@@ -111,21 +111,17 @@ class CompiledRun:
 
 
 def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
-    """Lay out a run: tables and fields by their names in `record.Run`; those left out are empty and 0."""
+    """Lay out a run: tables and fields by their names in `record.Run`; fields left out are 0."""
     n, nx, p, k = (int(fields[name]) for name in ("n", "nx", "p", "k"))
-    slow, none = nx - k * p, np.zeros(0)
-    values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p}
-    values["levels"] = len(tables.get("phi", none))
-    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches", "parts")}
-    blocks = [np.ravel(tables.get(name, none)).view(np.int64) for name in TABLES]
-    width = 3 + nx + max(n, 2) + OUTSIDE
-    lengths = [*map(len, blocks), *(width for _ in ROWS)]
-    starts = np.cumsum([len(KINDS), *lengths])
-    places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
+    width, slow = 3 + nx + max(n, 2) + OUTSIDE, nx - k * p
+    values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
+    values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
+    parts = [np.zeros(len(KINDS)), *(np.ravel(tables[name]) for name in TABLES)]
+    parts += [np.zeros(width) for _ in ROWS]
+    ends = np.cumsum([len(part) for part in parts]).tolist()
+    places = dict(zip((*TABLES, *ROWS), ends[:-1], strict=True))
     places |= {"torque": places["K"], "force": places["push"]}
-    cells = np.zeros(starts[-1], dtype=np.int64)
-    filled = np.concatenate(blocks)
-    cells[len(KINDS) : len(KINDS) + len(filled)] = filled
+    cells = np.concatenate(parts).view(np.int64)
     for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():
