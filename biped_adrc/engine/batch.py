@@ -73,9 +73,7 @@ class Case(Shown):
 
     @property
     def options(self) -> RunOptions:
-        """Of its run arc by arc: every single support as long as it may be; without a curve the ends of the arcs
-        alone are kept.
-        """
+        """Of its run: single supports as long as they may be; without a curve the ends of arcs alone."""
         t_end = self.mode.start + self.impacts * self.walker.max_step_time
         strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
         return RunOptions(t_end, self.mode.start, strikes, store_every=every)

@@ -35,8 +35,8 @@ from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc

@@ -84,13 +84,13 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
 def sample(r: Run) -> int:
     """From a sample instant to the next one, or to the end of the walk; a code, 0 for COMPLETED."""
     for _ in range(MOST_ARCS):
-        r.t_end = next_tick(r, r.t, clock_start(r))
+        r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
         if code == STRUCK:
             code = land(r)
         if code != COMPLETED:
             return code
-        if is_tick(r, r.t, clock_start(r)):
+        if at_tick(r.t, clock_start(r), r.period):
             return COMPLETED
     return EVENT_LIMIT
 

@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, inner, shift, unit
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, OUTSIDE, PART, Run
@@ -277,23 +275,7 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- breaks ----------------------------------------------------------------------------------------
-@inner
-def is_tick(r: Run, t: float, start: float) -> bool:
-    """Whether t [s] is exactly a sample instant of the clock that began at `start` [s].
-
-    Sample instants are always computed as start + k T, so equality is exact.
-    """
-    k = np.floor((t - start) / r.period + 0.5)
-    return t == start + k * r.period
-
-
-@inner
-def next_tick(r: Run, t: float, start: float) -> float:
-    """The first sample instant after t [s] of the clock that began at `start` [s]."""
-    k = np.floor((t - start) / r.period)
-    while start + k * r.period <= t:
-        k += 1.0
-    return start + k * r.period
+at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 
 @inner
@@ -323,9 +305,9 @@ def next_break(r: Run) -> float:
     """The first switching time or sample instant after t [s], at most t_end."""
     first = next_switch(r, r.t, r.t_end)
     if r.period > 0.0:
-        first = min(first, next_tick(r, r.t, clock_start(r)))
+        first = min(first, after_tick(r.t, clock_start(r), r.period))
     if r.part > 0.0:
-        first = min(first, next_tick(r, r.t, clock_start(r) + r.part))
+        first = min(first, after_tick(r.t, clock_start(r) + r.part, r.period))
     return first
 
 
@@ -338,7 +320,7 @@ def due(r: Run) -> int:
     evaluation of the flow.
     """
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
-    if r.period > 0.0 and is_tick(r, r.t, clock_start(r)):
+    if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
         measure(r, x)
         call(r.tick, r.K, r.inp, out)
         note(r, out, out[nx])
@@ -352,7 +334,7 @@ def due(r: Run) -> int:
         r.sloped = 1 if r.moving == 2 * n else 0
     if r.part > 0.0:
         begin = clock_start(r) + r.part
-        if r.t >= begin and is_tick(r, r.t, begin):
+        if r.t >= begin and at_tick(r.t, begin, r.period):
             for i in range(r.p):
                 x[nx - r.p + i] = x[nx - 2 * r.p + i]
     return 0
