@@ -66,7 +66,7 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
             result.append(Operation(code, (of[0], o[1])))
         elif code in PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
             number = f.instruction_constant(i) if code == ca.OP_CONST else 0.0
-            one = _choice(result, Operation(code, of, number))
+            one = _choice(result, of) if code == ca.OP_ADD else Operation(code, of, number)
             work[o[0]] = places.setdefault(one, len(result))
             if work[o[0]] == len(result):
                 result.append(one)
@@ -77,17 +77,17 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
     return result
 
 
-def _choice(line: list[Operation], one: Operation) -> Operation:
-    """An operation on values of a line, as CHOICE where it adds two choices of which exactly one is made.
+def _choice(line: list[Operation], of: tuple[int, ...]) -> Operation:
+    """The sum of two values of a line, as CHOICE where they are two choices of which exactly one is made.
 
     CasADi writes if_else(condition, a, b) as such a sum; as one choice it costs less.
     """
-    pair = [line[k] for k in one.of] if one.code == ca.OP_ADD else []
-    if pair and all(x.code == ca.OP_IF_ELSE_ZERO for x in pair):
-        (condition, a), (against, b) = (x.of for x in pair)
+    one, other = (line[k] for k in of)
+    if one.code == other.code == ca.OP_IF_ELSE_ZERO:
+        (condition, a), (against, b) = one.of, other.of
         if line[against] == Operation(ca.OP_NOT, (condition,)):
             return Operation(CHOICE, (condition, a, b))
-    return one
+    return Operation(ca.OP_ADD, of)
 
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}

@@ -321,7 +321,7 @@ def nodes(r: Run, t0: float, t1: float) -> None:
 
 
 @inner
-def begin(r: Run, t: float, h: float, t_next: float) -> None:
+def begin(r: Run, t: float, h: float) -> None:
     """What the first step after a break at t [s], h [s] long, starts from beside x0: dx0, for ETD-RK4 y0 and
     N0.
 
@@ -334,8 +334,6 @@ def begin(r: Run, t: float, h: float, t_next: float) -> None:
         lagging(r, t, r.x0, h, r.dx0)
     elif (r.kind != ETD or r.every > 0) and r.sloped == 0:
         flow(r, t, r.x0, r.dx0)
-    if r.kind == SOLVER:
-        solver_starts(r, t, t_next)
     r.sloped = 0
 
 
@@ -408,12 +406,12 @@ def through(r: Run, t_next: float) -> int:
     skipped, steps, code = 0, 0, 0
     r.limit = left(t_next)
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
-    begin(r, t, r.h if count > 1.0 else t_next - t, t_next)
+    begin(r, t, r.h if count > 1.0 else t_next - t)
     keep(r, t, r.x0, r.dx0)
     while t < t_next:
         steps += 1
         if r.kind == SOLVER:
-            t1 = solve(r)
+            t1 = solve(r, t_next)
         else:
             t1 = t0 + steps * r.h if steps < count else t_next
             code = fixed(r, t, t1, int(steps >= count))

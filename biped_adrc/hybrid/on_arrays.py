@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -114,7 +114,7 @@ class Run:
         self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
         self.x0[:] = x
         self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
-        self.steps: Iterator[Step] = iter(())
+        self.t_next, self.steps = math.nan, iter(tuple[Step, ...]())
         self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
         if isinstance(method, ClassicalRungeKutta):
@@ -288,21 +288,18 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- a solver's steps ------------------------------------------------------------------------------
-def solver_starts(r: Run, t: float, t_next: float) -> None:
-    """The solver begins at (t, x0), to go to t_next [s] at most."""
-    assert isinstance(r.method, Solver)
-
-    def f(t: float, x: Array) -> Array:
-        return r.system.flow(min(t, r.limit), x, r.mode)
-
-    r.steps = iter(r.method.steps(f, t, r.x0.copy(), t_next))
-
-
-def solve(r: Run) -> float:
-    """x1, dx1 (nx,) after the solver's next step; its end [s].
+def solve(r: Run, t_next: float) -> float:
+    """x1, dx1 (nx,) after the solver's next step towards t_next [s]; its end [s]. A new t_next starts it at x0.
 
     Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
     """
+    if r.t_next != t_next:
+        assert isinstance(r.method, Solver)
+
+        def f(t: float, x: Array) -> Array:
+            return r.system.flow(min(t, r.limit), x, r.mode)
+
+        r.t_next, r.steps = t_next, iter(r.method.steps(f, r.t, r.x0.copy(), t_next))
     r.step = step = next(r.steps)
     r.x1[:], r.dx1[:] = step.x, step.dx
     if not finite(r.x1, r.nx):

@@ -350,12 +350,7 @@ def measure(r: Run, x: Array) -> None:
 
 # -- a solver's steps, which are Python's ----------------------------------------------------------
 @inner
-def solver_starts(r: Run, t: float, t_next: float) -> None:
-    """No solver runs here."""
-
-
-@inner
-def solve(r: Run) -> float:
+def solve(r: Run, t_next: float) -> float:
     """No step: the march then ends as STEP_FAILED."""
     return r.t
 

@@ -117,12 +117,12 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
             value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)
             texts[i] = f"const {'double' if wide else 'real'} {value.name} = {text};"
         values.append(value)
-    needed = behind(line, {x.of[0] for x in line if x.code == ca.OP_OUTPUT}) & texts.keys()
+    needed = ancestors(line, {x.of[0] for x in line if x.code == ca.OP_OUTPUT}) & texts.keys()
     kept = (text for i, text in texts.items() if i in needed)
     return Written((*kept, *stores), len(needed), len(needed & doubles))
 
 
-def behind(line: Sequence[Operation], places: set[int]) -> set[int]:
+def ancestors(line: Sequence[Operation], places: set[int]) -> set[int]:
     """The places of these values and of all that they are made of."""
     result = set(places)
     for i in reversed(range(len(line))):
@@ -149,7 +149,9 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
             degree.append(_degree(code, sides))
             if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
                 differences.add(i)
-    return {i for i in behind(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)}
+    return {
+        i for i in ancestors(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)
+    }
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
