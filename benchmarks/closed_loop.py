@@ -25,8 +25,8 @@ from scipy.interpolate import CubicHermiteSpline
 import biped_adrc as ba
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
+from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 

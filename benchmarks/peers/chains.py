@@ -18,8 +18,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.calls import compiled_biped
+from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown
@@ -98,7 +98,7 @@ class CompiledChain(Chain):
 
     def __init__(self, biped: Biped) -> None:
         super().__init__(biped)
-        self.code = CompiledBiped.of(biped)
+        self.code = compiled_biped(biped)
         self.walker = Walker(
             biped, Passive(), fall_height=-FAR, max_step_time=FAR, ground_steps=(StepDown(1, FAR),)
         )

@@ -23,8 +23,8 @@ from scipy.integrate import solve_ivp
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.kernels.call import call, floats_at
-from biped_adrc.engine.program import Program
+from biped_adrc.engine.kernels.call import call, intrinsic
+from biped_adrc.engine.program import Program, numbers_of
 
 RTOL, ATOL, MOST_STEPS = 1e-6, 1e-9, 100_000
 BDF, NORMAL = 2, 1
@@ -40,7 +40,7 @@ Solve = Callable[[Flow, Array, Array], Array]
 
 def program_of(walker: Walker) -> Program:
     """The machine code of a walker in continuous time."""
-    return Program.of(walker, walker.controller.observer.order * walker.plant.p)
+    return Program(walker.controller.observer.order * walker.plant.p, numbers_of(walker))
 
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:
@@ -105,6 +105,17 @@ def _libraries() -> list[Any]:
             raise ModuleNotFoundError(f"no libsundials_{name} in '{folder}'")
         found.append(ctypes.CDLL(str(paths[0]), mode=ctypes.RTLD_GLOBAL))
     return found
+
+
+@intrinsic
+def floats_at(typingctx, address):  # type: ignore[no-untyped-def]
+    """Pointer to the float64 at an address."""
+    signature = types.CPointer(types.float64)(types.int64)
+
+    def codegen(context, builder, signature, x):  # type: ignore[no-untyped-def]
+        return builder.inttoptr(x[0], context.get_value_type(signature.return_type))
+
+    return signature, codegen
 
 
 def _callback(program: Program) -> Any:

@@ -18,7 +18,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,16 +27,14 @@ from biped_adrc.core.errors import InputError, ModelError, SimulationError
 from biped_adrc.core.linear import solve
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
-from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import PINOCCHIO, check_engine
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
-
-if TYPE_CHECKING:
-    from biped_adrc.engine.compiled_walker import CompiledWalker
 
 MOST_ITERATIONS = 12
 """Largest number of iterations of Newton's method on P(s) - s."""
@@ -163,9 +160,6 @@ class ReturnMap(Shown):
         """The compiled walker whose state has `states` numbers, or None where there is no compiled form."""
         if self.engine != COMPILED:
             return None
-        from biped_adrc.engine.compiled_walker import CompiledWalker
-        from biped_adrc.engine.symbols import NotCompiled
-
         size = self.walker.controller_size(states)
         try:
             return CompiledWalker.of(self.walker, self.method, size)

@@ -26,10 +26,8 @@ from biped_adrc.core.checks import PositiveInt, check_fields
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.program import COMPILED
-from biped_adrc.engine.run import simulate_by, simulate_compiled
+from biped_adrc.engine.program import COMPILED, CompiledWalker
+from biped_adrc.engine.run import STORE, simulate_by, simulate_compiled
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
@@ -42,8 +40,6 @@ AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""
 AT_ONCE = 25
 """Impacts for whose nodes there is room at the same time."""
-STORE = 1_000_000
-"""Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
 
 
 @dataclass(frozen=True)
@@ -76,15 +72,11 @@ class Case(Shown):
         check_fields(self)
 
     @property
-    def t_end(self) -> float:
-        """Latest end of the walk [s]: every single support as long as it may be."""
-        return self.mode.start + self.impacts * self.walker.max_step_time
-
-    @property
     def options(self) -> RunOptions:
-        """Of its run arc by arc; without a curve the ends of the arcs alone are kept."""
+        """Of its run: single supports as long as they may be; without a curve the ends of arcs alone."""
+        t_end = self.mode.start + self.impacts * self.walker.max_step_time
         strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
-        return RunOptions(self.t_end, self.mode.start, strikes, store_every=every)
+        return RunOptions(t_end, self.mode.start, strikes, store_every=every)
 
 
 @dataclass(frozen=True)
@@ -153,7 +145,6 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     Whoever stops asking (closes the generator) cancels what has not begun.
     """
     waiting: deque[Future[BatchWalk]] = deque()
-    kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
             for case in cases:
@@ -187,27 +178,28 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
     """As `run_case`. What has no compiled form is run here and now, in Python."""
-    x = case.walker.initial_state(case.q, case.v, case.mode)
-    case.options.check(x)
-    walker, size = case.walker, case.walker.controller_size(x)
+    walker, options = case.walker, case.options
+    x = walker.initial_state(case.q, case.v, case.mode)
+    options.check(x)
+    size = walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
     except (NotCompiled, ModelError):
         try:
-            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(case.options))
+            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))
         except NotFiniteError:
             raise
         except InputError as error:  # what a user's code gives later on than at the start
             raise RaisedError(str(error)) from error
         return lambda: left_by(case, run)
-    if case.curve is None:
-        return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
-    if not walker.sampled or walker.touchdown is not None:
+    read, table = 0, case.curve is not None
+    if table and (not walker.sampled or walker.touchdown is not None):
         return lambda: left_by(
-            case, simulate_compiled(compiled, x, case.mode, case.method, case.options)
+            case, simulate_compiled(compiled, x, case.mode, case.method, options)
         )
-    read = compiled.program.reading(step_reading).addresses["reading"]
-    return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
+    if table:
+        read = compiled.program.reading(step_reading).addresses["reading"]
+    return lambda: _strides(compiled, x, case.mode, options.t_end, case.impacts, read)
 
 
 def _strides(
@@ -254,6 +246,5 @@ def strides(
     def one(start: tuple[Array, Mode]) -> BatchWalk:
         return _strides(compiled, *start, start[1].start + t_end, 1)
 
-    kernels()
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         return list(pool.map(one, starts))

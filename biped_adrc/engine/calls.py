@@ -1,7 +1,11 @@
 """Generated code that Python calls: methods of parts, terms of a disturbance, signals at all nodes of a run.
 
+For controllers that run in Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine
+code that are asked for at every instant, traced from `model.planar_robot`; kinematics, contact and all else
+stay Pinocchio's. `compiled_references` does the same for the references of a controller.
+
 Signals are not stored with a run but computed again from the states, at tens of thousands of nodes: in machine
-code (`Equations.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
+code (`Program.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
 a part has no compiled form. The disturbance zeta is an input of them, since it may run in Python.
 """
 
@@ -10,10 +14,12 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property, lru_cache
 from itertools import accumulate
 from operator import methodcaller
-from typing import Any
+from types import new_class
+from typing import Any, cast
 
 import numpy as np
 
@@ -22,19 +28,22 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.errors import ModelError
+from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import COMPILED, Program, push_code
+from biped_adrc.engine.program import COMPILED, Program, numbers_of, push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.planar_robot import PlanarRobot
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
+from biped_adrc.model.reduction import BodyTerms, Reduction
 
 Shape = tuple[int, ...]
 """Shape of an array."""
@@ -132,6 +141,81 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     return evaluated
 
 
+@dataclass(frozen=True)
+class CompiledBiped(Biped):
+    """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
+
+    Make it with `compiled_biped`; robot: what the code is made from and called with.
+    """
+
+    robot: PlanarRobot | None = None
+
+    @cached_property
+    def _made(self) -> dict[str, Callable[..., Any]]:
+        """Methods of `robot` in machine code, each made when it is called first."""
+        return {}
+
+    def _called(self, method: str, *arguments: Array) -> Any:
+        """What a method gives at q and v, each (n,), and more."""
+        arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
+        if method not in self._made:
+            zeros = map(np.zeros_like, arguments)
+            self._made[method] = in_code(self.robot, method, *zeros)
+        return self._made[method](*arguments)
+
+    def reduction(self, q: Array, v: Array) -> Reduction:
+        """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
+        return cast(Reduction, self._called("reduction", q, v))
+
+    def body_terms(self, q: Array, v: Array) -> BodyTerms:
+        """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
+        return cast(BodyTerms, self._called("body_terms", q, v))
+
+    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
+        """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction included."""
+        return cast(Array, self._called("acceleration", q, v, force))
+
+    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
+        """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
+        return cast(Array, self._called("ground_reaction", q, v, a))
+
+
+@once_each
+def compiled_biped(biped: Biped) -> CompiledBiped:
+    """A robot with its formulas in machine code, remembered for the last robots. Raises ModelError for one that
+    is no planar tree.
+    """
+    given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
+    return CompiledBiped(**given, robot=robot_of(biped))
+
+
+def compiled_references(part: object, n: int) -> Any:
+    """A controller, or a part of one, with the references in its fields compiled, for n coordinates.
+
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. What cannot be compiled
+    stays as it is.
+    """
+    if isinstance(part, Reference):
+        return _in_code(part, n)
+    if not is_dataclass(part) or isinstance(part, type | Biped):
+        return part
+    values = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
+    parts = {name: compiled_references(value, n) for name, value in values.items()}
+    changed = {name: value for name, value in parts.items() if value is not values[name]}
+    return replace(part, **changed) if changed else part
+
+
+def _in_code(reference: Reference, n: int) -> Reference:
+    """The reference, still of its class, called in machine code; itself where it cannot be compiled."""
+    try:
+        point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
+    except NotCompiled:
+        return reference
+    kind = new_class(type(reference).__name__, (type(reference),))
+    setattr(kind, "__call__", staticmethod(point))  # noqa: B010
+    return with_content(reference, content(reference), kind)
+
+
 def compiled_readings(
     walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
 ) -> InstantSignals | None:
@@ -143,7 +227,7 @@ def compiled_readings(
     """
     nx = trajectory.arcs[0].x.shape[1]
     try:
-        program = Program.of(walker, walker.controller_size(nx), curve=reference)
+        program = Program(walker.controller_size(nx), numbers_of(walker, curve=reference))
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
         code, K = program.reading(signals_at), program.K

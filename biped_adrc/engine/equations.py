@@ -25,7 +25,7 @@ import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from operator import methodcaller
 from typing import NamedTuple, TypeVar
 
@@ -45,6 +45,7 @@ from biped_adrc.engine.symbols import (
     NotCompiled,
     Scalar,
     Vector,
+    chosen,
     column,
     maximum,
     minimum,
@@ -63,12 +64,6 @@ Reading = Callable[..., tuple[Array, ...]]
 """read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
 
 
-def on_symbols(trace: Tracer, controller: Controller) -> ControlLaw:
-    """The methods of a controller on symbols."""
-    twin = trace.on_symbols(controller)
-    return ControlLaw(*(partial(run, trace, getattr(twin, name)) for name in ControlLaw._fields))
-
-
 class SymbolicLoop(NamedTuple):
     """A `protocols.Loop` of symbols; zeta (n,) [N m] and `force` (2,) [N] are inputs."""
 
@@ -76,27 +71,34 @@ class SymbolicLoop(NamedTuple):
     """The robot that moves, on symbols."""
     nominal: PlanarRobot
     """The controller's model, on symbols; the same ones where it is the plant."""
-    exact: bool
-    """Whether the controller's model is the plant."""
+    numbers: WalkerNumbers
+    """All of them, on symbols."""
+    trace: Tracer
+    """Makes copies of functions for symbols, and keeps the pivots."""
     calls: ControlLaw
     """The controller's methods in its time base."""
     held: HeldParts | None
     """Parameters of what is held between sample instants, None in continuous time."""
-    swap: Indices
-    """Relabelling of the actuated joints (p,), numbers of the structure."""
-    gain: Array
-    """Relative errors of v+ (n,) [1], or empty."""
-    limit: float
-    """Torque limit [N m]."""
-    strongest: float
-    """Torque beyond which the run ends [N m]."""
     torques: list[Scalar]
     """All torques so far that must not be beyond it."""
     zeta: Array
     force: Array
     """From outside on the robot as a whole."""
-    moves: bool
-    """Whether the plant moves by itself: then `force` are the forces on its feet [N]."""
+
+    @property
+    def exact(self) -> bool:
+        """Whether the controller's model is the plant."""
+        return self.numbers.model is None and not self.plant.friction
+
+    @property
+    def swap(self) -> Indices:
+        """Relabelling of the actuated joints (p,), numbers of the structure."""
+        return self.plant.swap
+
+    @property
+    def gain(self) -> Array:
+        """Relative errors of v+ (n,) [1], or empty."""
+        return self.numbers.impact_gain
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no method asks
@@ -106,20 +108,19 @@ class SymbolicLoop(NamedTuple):
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the limit, which may be infinite."""
-        return np.array([minimum(maximum(x, -self.limit), self.limit) for x in u], dtype=object)
+        limit = self.numbers.torque_limit
+        return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
 
     def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
         """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
-        after = self.calls.jump(s, m, self.swap)
-        return np.array(
-            [where(fires > 0.5, a, b) for a, b in zip(after, s, strict=True)], dtype=object
-        )
+        after: Array = chosen(fires > 0.5, self.calls.jump(s, m, self.swap), s)
+        return after
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Array, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N]."""
-        if self.moves:
+        """Vertical forces of the ground on both feet [N]: `force` where the plant moves by itself."""
+        if self.numbers.moves:
             return self.force[0], self.force[1]
         return semantics.on_stance_foot(self, self.force, t, q, v, tail, mode)
 
@@ -128,12 +129,14 @@ class SymbolicLoop(NamedTuple):
         self.torques.extend(u)
         return u
 
-    def lost(self, least: Scalar) -> Scalar:
+    @property
+    def lost(self) -> Scalar:
         """What a function adds to its result: the least pivot; -1 where a finite torque is beyond the bound."""
+        least = self.trace.solver.least
         if not self.torques:
             return least
         u = functools.reduce(maximum, map(abs, self.torques))
-        return where((u > self.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
+        return where((u > self.numbers.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The symbols of zeta (n,) [N m]."""
@@ -145,8 +148,6 @@ class SymbolicInstant(NamedTuple):
 
     inp: Vector
     """All inputs, as one vector."""
-    trace: Tracer
-    """Makes copies of functions for symbols, and keeps the pivots."""
     loop: SymbolicLoop
     t: float
     x: Array
@@ -154,14 +155,9 @@ class SymbolicInstant(NamedTuple):
     mode: Mode
     """Single support and its start, symbols too."""
 
-    @property
-    def lost(self) -> Scalar:
-        """What a function adds to its result, see `SymbolicLoop.lost`."""
-        return self.loop.lost(self.trace.solver.least)
-
     def does(self, function: Callable[..., T], *more: object) -> T:
         """What a function of `semantics`, or one with the same first arguments, gives here."""
-        return self.trace(function)(self.loop, self.t, self.x, self.mode, *more)
+        return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
 NONE = np.zeros(0)
@@ -217,71 +213,54 @@ class SymbolicFunction(NamedTuple):
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of one structure, each traced when it is asked for.
-
-    K is CasADi's column of the symbols in `numbers`.
-    """
+    """The functions of one structure, each traced when it is asked for."""
 
     size: int
     """Numbers in the controller's state."""
-    K: ca.SX
     numbers: WalkerNumbers
+    """The numbers by name."""
 
-    @classmethod
-    def of(cls, size: int, example: WalkerNumbers) -> Equations:
-        """With symbols for the floats of an example, whose values do not matter."""
-        return cls(size, *symbols_of(example))
+    @cached_property
+    def symbols(self) -> tuple[ca.SX, WalkerNumbers]:
+        """CasADi's column of symbols for the floats of `numbers`, and these in their places."""
+        return symbols_of(self.numbers)
 
     @property
     def nx(self) -> int:
         """Numbers in a state."""
         return self.numbers.nx(self.size)
 
-    @staticmethod
-    def names(numbers: WalkerNumbers) -> list[str]:
+    @property
+    def names(self) -> list[str]:
         """Names of the functions that this walker has; each is a method of this class."""
-        if numbers.moves:
+        if self.numbers.moves:
             return ["tick"]
-        split = [] if numbers.split is None else ["to", "back", "remainder"]
-        return ["flow", "impact", "events", *(["tick"] if numbers.held else []), *split]
+        split = [] if self.numbers.split is None else ["to", "back", "remainder"]
+        return ["flow", "impact", "events", *(["tick"] if self.numbers.held else []), *split]
 
-    def loop(self, trace: Tracer, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
+    def loop(self, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
-        K = self.numbers
+        (_, K), trace = self.symbols, Tracer()
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
-        return SymbolicLoop(
-            plant=plant,
-            nominal=model,
-            exact=K.model is None and not K.plant.friction,
-            calls=on_symbols(trace, K.controller),
-            held=trace.on_symbols(K.held) if K.held else None,
-            swap=K.plant.swap,
-            gain=K.impact_gain,
-            limit=K.torque_limit,
-            strongest=K.strongest,
-            torques=[],
-            zeta=zeta,
-            force=force,
-            moves=K.moves,
-        )
+        law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
+        calls = ControlLaw(*(partial(run, trace, getattr(law, x)) for x in ControlLaw._fields))
+        return SymbolicLoop(plant, model, K, trace, calls, held, [], zeta, force)
 
     def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
-        n, trace = self.numbers.plant.n, Tracer()
+        n = self.numbers.plant.n
         inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
-        return SymbolicInstant(
-            inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
-        )
+        return SymbolicInstant(inp, self.loop(inp.take(n), inp.take(OUTSIDE)), t, x, mode)
 
     def function(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
         """The function of these inputs, its parts one after the other."""
-        return SymbolicFunction(self.K, inp.symbol, column(*parts))
+        return SymbolicFunction(self.symbols[0], inp.symbol, column(*parts))
 
     def flow(self) -> SymbolicFunction:
         """x' (nx,) between events, and the least pivot."""
         at = self.at()
-        return self.function(at.inp, at.does(semantics.flow), at.lost)
+        return self.function(at.inp, at.does(semantics.flow), at.loop.lost)
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque.
@@ -291,16 +270,16 @@ class Equations:
         at, n = self.at(), self.numbers.plant.n
         x = at.does(semantics.tick)
         if self.numbers.moves:
-            return self.function(at.inp, x, at.lost)
+            return self.function(at.inp, x, at.loop.lost)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.function(at.inp, x, at.lost, a)
+        return self.function(at.inp, x, at.loop.lost, a)
 
-    def reading(self, read: Reading) -> SymbolicFunction:
+    def view(self, read: Reading) -> SymbolicFunction:
         """The parts of what `read` says, one after the other."""
         at = self.at()
 
         def tracked(s: Array, m: Measurement) -> ReferencePoint:
-            return run(at.trace, tracked_point, self.numbers.curve, s, m)
+            return run(at.loop.trace, tracked_point, self.symbols[1].curve, s, m)
 
         return self.function(at.inp, *at.does(read, tracked))
 
@@ -308,19 +287,19 @@ class Equations:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
         """
-        inp, trace = Vector("inp", 2 + self.nx), Tracer()
+        inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
-        x = trace(semantics.strike)(self.loop(trace), t, x, Mode(step, t))
+        x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
         if len(x) != self.nx:  # all other methods are called once at the start of a run
             name = type(self.numbers.controller).__name__
             raise Located(f"{name}.jump gives a state of another size than initial_state")
-        return self.function(inp, x, trace.solver.least)
+        return self.function(inp, x, loop.lost)
 
     def events(self) -> SymbolicFunction:
         """The three event functions: clearance [m], hip margin [m], time left [s]; then x of the
         swing foot [m].
         """
-        K, plant = self.numbers, self.loop(Tracer()).plant
+        K, plant = self.symbols[1], self.loop().plant
         inp = Vector("inp", 3 + plant.n)
         t, start, drop, q = inp.take(), inp.take(), inp.take(), inp.take(plant.n)
         foot = plant.swing_foot(q)
@@ -330,7 +309,7 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The coordinates of the exponential method on symbols."""
-        form: ErrorForm = trace.on_symbols(self.numbers.split)
+        form: ErrorForm = trace.on_symbols(self.symbols[1].split)
         return form
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
@@ -355,9 +334,9 @@ class Equations:
         """N_w, row 1 of N_E, and the least pivot, at y = (w, E) in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
-        form = self._split(at.trace)
-        N = at.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
-        return self.function(at.inp, *N, at.lost)
+        form = self._split(at.loop.trace)
+        N = at.loop.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
+        return self.function(at.inp, *N, at.loop.lost)
 
 
 def matvec(k: int, p: int) -> SymbolicFunction:

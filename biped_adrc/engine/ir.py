@@ -1,13 +1,12 @@
-"""The instructions of a CasADi function, one after the other, written as text in any language.
+"""The operations of a CasADi function, one after the other, written as text in any language.
 
-CasADi lists the instructions of an expression in order, common subexpressions taken out; each
-becomes a line or two. Nothing is re-ordered by value, so every language computes the same numbers.
-A language is a table of patterns by operation (here and in `extras.export.c_text`) and a `Writer` that
-says how values get their names, and how numbers are read and stored.
+CasADi lists the instructions of an expression in order, common subexpressions taken out; `straight_line` gives
+each value a place of its own, and a language has a pattern for each operation (here and in
+`extras.export.c_text`). Nothing is re-ordered by value, so every language computes the same numbers.
 
-    pattern     one text, or several lines in a row
+    pattern     one line, or several in a row
     {a} {b}     the operands;  {c} the third one, of CHOICE
-    {0} {1}     the values of the lines before, in a pattern of several
+    {0} {1}     the values of the lines before it in the pattern
 
 LLVM's language is here, for `void f(double* K, double* inp, double* out)`: second stage of the compiler,
 between `engine.symbols` and `engine.machine`. No operations are fused into multiply-adds, so the numbers are
@@ -17,8 +16,8 @@ the same whatever function is compiled beside.
 from __future__ import annotations
 
 import struct
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Mapping
+from typing import NamedTuple
 
 import casadi as ca
 
@@ -29,8 +28,8 @@ from biped_adrc.engine.symbols import NotCompiled
 
 CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
-Patterns = Mapping[int, str | tuple[str, ...]]
-"""Lines by operation; those of a tuple stand one after the other."""
+Patterns = Mapping[int, str]
+"""Lines by operation."""
 FUNCTIONS: dict[int, str] = {
     getattr(ca, f"OP_{name.upper()}"): name
     for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
@@ -38,105 +37,57 @@ FUNCTIONS: dict[int, str] = {
 """Operations that are functions of the C library, by their names there."""
 
 
-def straight_line(function: SymbolicFunction) -> ca.Function:
-    """The function as CasADi's list of instructions, each value computed once (CasADi's cse)."""
-    return ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
+class Operation(NamedTuple):
+    """One value of a function, or one of its outputs."""
+
+    code: int
+    """CasADi's, or CHOICE."""
+    of: tuple[int, ...]
+    """Places of its operands, operations before it. Of an input: 0 for K or 1 for inp, and the index there; of
+    an output: the place of its value, and its index."""
+    number: float = 0.0
+    """Of a constant."""
 
 
-class Writer(ABC):
-    """The lines of one function while it is written.
+def straight_line(function: SymbolicFunction) -> list[Operation]:
+    """The operations of a function in order, each value computed once (CasADi's cse) and each input read once.
 
-    work: names of the values that CasADi's registers hold. loaded: names of entries of K and inp,
-    each read once. Outputs are stored last, since they may lie where an input is.
+    Raises NotCompiled for an operation without a pattern.
     """
-
-    patterns: Patterns
-    language: str
-    """For the message about an operation that has no pattern."""
-
-    def __init__(self) -> None:
-        """Nothing written yet."""
-        self.lines: list[str] = []
-        self.stores: list[str] = []
-        self.work: dict[int, str] = {}
-        self.loaded: dict[tuple[int, int], str] = {}
-        self.negated: dict[str, str] = {}
-        """By the name of a NOT, what it is of."""
-        self.chosen: dict[str, tuple[str, str]] = {}
-        """By the name of a choice against zero, its condition and its value."""
-
-    @abstractmethod
-    def literal(self, x: float) -> str:
-        """A number with all its bits."""
-
-    @abstractmethod
-    def read(self, block: int, index: int) -> str:
-        """Name of the value of an entry of K (block 0) or inp (1)."""
-
-    @abstractmethod
-    def store(self, index: int, value: str) -> None:
-        """Write, into `stores`, that this value is an output."""
-
-    @abstractmethod
-    def new(self, text: str, operands: tuple[str, ...]) -> str:
-        """Write a line, made from these operands, and give its value a new name."""
-
-    def written(self, f: ca.Function) -> list[str]:
-        """The lines of all instructions of a function (K, inp) -> out."""
-        for i in range(f.n_instructions()):
-            self.instruction(f, i)
-        return [*self.lines, *self.stores]
-
-    def instruction(self, f: ca.Function, i: int) -> None:
-        """Write CasADi's instruction number i."""
+    f = ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
+    result, places = list[Operation](), dict[Operation, int]()
+    work = dict[int, int]()  # places of the values in CasADi's registers
+    for i in range(f.n_instructions()):
         code, a, o = f.instruction_id(i), f.instruction_input(i), f.instruction_output(i)
-        if code == ca.OP_CONST:
-            self.work[o[0]] = self.literal(f.instruction_constant(i))
-        elif code == ca.OP_INPUT:
-            at = a[0], a[1]
-            if at not in self.loaded:
-                self.loaded[at] = self.read(*at)
-            self.work[o[0]] = self.loaded[at]
-        elif code == ca.OP_OUTPUT:
-            self.store(o[1], self.work[a[0]])
-        else:
-            self.work[o[0]] = self.value(code, tuple(self.work[k] for k in a))
-
-    def value(self, code: int, a: tuple[str, ...]) -> str:
-        """Name of the value of an operation `code` of the values a."""
+        of = tuple(a if code == ca.OP_INPUT else map(work.__getitem__, a))
         if code == ca.OP_ASSIGN:
-            return a[0]
-        if code == ca.OP_ADD and (both := self.either(*a)) is not None:
-            return self.line(CHOICE, both)
-        name = self.line(code, a)
-        if code == ca.OP_NOT:
-            self.negated[name] = a[0]
-        if code == ca.OP_IF_ELSE_ZERO:
-            self.chosen[name] = a[0], a[1]
-        return name
-
-    def line(self, code: int, a: tuple[str, ...]) -> str:
-        """Write the lines of an operation. Raises NotCompiled for one without a pattern."""
-        if code not in self.patterns:
+            work[o[0]] = of[0]
+        elif code == ca.OP_OUTPUT:
+            result.append(Operation(code, (of[0], o[1])))
+        elif code in PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
+            number = f.instruction_constant(i) if code == ca.OP_CONST else 0.0
+            one = _choice(result, of) if code == ca.OP_ADD else Operation(code, of, number)
+            work[o[0]] = places.setdefault(one, len(result))
+            if work[o[0]] == len(result):
+                result.append(one)
+        else:
             raise NotCompiled(
-                f"CasADi's operation {code} has no line of {self.language}; use NumPy's basic ones"
+                f"CasADi's operation {code} has no line of machine code; use NumPy's basic ones"
             )
-        pattern = self.patterns[code]
-        operands, names = dict(zip("abc", a, strict=False)), list[str]()
-        for text in (pattern,) if isinstance(pattern, str) else pattern:
-            names.append(self.new(text.format(*names, **operands), a))
-        return names[-1]
+    return result
 
-    def either(self, one: str, other: str) -> tuple[str, str, str] | None:
-        """Condition and values of a sum of two choices of which exactly one is made; None for any other sum.
 
-        CasADi writes if_else(condition, a, b) as such a sum; as one choice it costs less.
-        """
-        if one in self.chosen and other in self.chosen:
-            (condition, a), (against, b) = self.chosen[one], self.chosen[other]
-            if self.negated.get(against) == condition:
-                return condition, a, b
-        return None
+def _choice(line: list[Operation], of: tuple[int, ...]) -> Operation:
+    """The sum of two values of a line, as CHOICE where they are two choices of which exactly one is made.
+
+    CasADi writes if_else(condition, a, b) as such a sum; as one choice it costs less.
+    """
+    one, other = (line[k] for k in of)
+    if one.code == other.code == ca.OP_IF_ELSE_ZERO:
+        (condition, a), (against, b) = one.of, other.of
+        if line[against] == Operation(ca.OP_NOT, (condition,)):
+            return Operation(CHOICE, (condition, a, b))
+    return Operation(ca.OP_ADD, of)
 
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
@@ -155,17 +106,15 @@ PATTERNS: Patterns = {
     ca.OP_TWICE: "fadd double {a}, {a}",
     ca.OP_SQ: "fmul double {a}, {a}",
     ca.OP_INV: "fdiv double 1.0, {a}",
-    ca.OP_NOT: ("fcmp oeq double {a}, 0.0", "uitofp i1 {0} to double"),
-    ca.OP_IF_ELSE_ZERO: ("fcmp une double {a}, 0.0", "select i1 {0}, double {b}, double 0.0"),
-    CHOICE: ("fcmp une double {a}, 0.0", "select i1 {0}, double {b}, double {c}"),
+    ca.OP_NOT: "fcmp oeq double {a}, 0.0\nuitofp i1 {0} to double",
+    ca.OP_IF_ELSE_ZERO: "fcmp une double {a}, 0.0\nselect i1 {0}, double {b}, double 0.0",
+    CHOICE: "fcmp une double {a}, 0.0\nselect i1 {0}, double {b}, double {c}",
     ca.OP_SIGN: (
-        "fcmp ogt double {a}, 0.0",
-        "fcmp olt double {a}, 0.0",
-        "select i1 {1}, double -1.0, double 0.0",
-        "select i1 {0}, double 1.0, double {2}",
+        "fcmp ogt double {a}, 0.0\nfcmp olt double {a}, 0.0\n"
+        "select i1 {1}, double -1.0, double 0.0\nselect i1 {0}, double 1.0, double {2}"
     ),
     **{
-        code: (f"fcmp {sign} double {{a}}, {{b}}", "uitofp i1 {0} to double")
+        code: f"fcmp {sign} double {{a}}, {{b}}\nuitofp i1 {{0}} to double"
         for code, sign in COMPARISONS.items()
     },
     **{
@@ -247,43 +196,33 @@ def function_text(name: str, function: SymbolicFunction) -> str:
 
 
 def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
-    """The lines that compute and store `out`, in values whose names begin with this letter."""
-    return _Writer(letter).written(straight_line(function._replace(out=out)))
+    """The lines that compute and store `out`.
 
+    Names of values begin with this letter and are numbered, since LLVM wants each of them to be assigned once.
+    Outputs are stored last, since they may lie where an input is.
+    """
+    lines, stores, names, count = list[str](), list[str](), list[str](), 0
 
-class _Writer(Writer):
-    """Values are numbered, since LLVM wants each of them to be assigned once."""
+    def new(text: str, into: list[str] = lines) -> str:
+        nonlocal count
+        count += 1
+        into.append(f"%{letter}{count} = {text}")
+        return f"%{letter}{count}"
 
-    patterns, language = PATTERNS, "machine code"
-
-    def __init__(self, letter: str) -> None:
-        """Names are the letter and a number, `count` of the last one."""
-        super().__init__()
-        self.letter, self.count = letter, 0
-
-    def new(self, text: str, operands: tuple[str, ...]) -> str:
-        """Write a line and give its value a new name."""
-        return self._named(text, self.lines)
-
-    def _named(self, text: str, lines: list[str]) -> str:
-        """As `new`, into these lines."""
-        self.count += 1
-        name = f"%{self.letter}{self.count}"
-        lines.append(f"{name} = {text}")
-        return name
-
-    def literal(self, x: float) -> str:
-        """A double in LLVM's language with all its bits, so that no digits are lost."""
-        return f"0x{struct.unpack('<Q', struct.pack('<d', float(x)))[0]:016X}"
-
-    def read(self, block: int, index: int) -> str:
-        """Value of an entry of K or inp."""
-        at = self._named(
-            f"getelementptr double, ptr {('%K', '%inp')[block]}, i64 {index}", self.lines
-        )
-        return self._named(f"load double, ptr {at}", self.lines)
-
-    def store(self, index: int, value: str) -> None:
-        """Write an entry of out."""
-        at = self._named(f"getelementptr double, ptr %out, i64 {index}", self.stores)
-        self.stores.append(f"store double {value}, ptr {at}")
+    for code, of, number in straight_line(function._replace(out=out)):
+        name = ""
+        if code == ca.OP_CONST:  # with all its bits
+            name = f"0x{struct.unpack('<Q', struct.pack('<d', number))[0]:016X}"
+        elif code == ca.OP_INPUT:
+            at = new(f"getelementptr double, ptr {('%K', '%inp')[of[0]]}, i64 {of[1]}")
+            name = new(f"load double, ptr {at}")
+        elif code == ca.OP_OUTPUT:
+            at = new(f"getelementptr double, ptr %out, i64 {of[1]}", stores)
+            stores.append(f"store double {names[of[0]]}, ptr {at}")
+        else:
+            operands, values = dict(zip("abc", (names[k] for k in of), strict=False)), list[str]()
+            for text in PATTERNS[code].splitlines():
+                values.append(new(text.format(*values, **operands)))
+            name = values[-1]
+        names.append(name)
+    return [*lines, *stores]

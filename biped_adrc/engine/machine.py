@@ -25,7 +25,7 @@ from biped_adrc.core.versions import packages
 
 CHECK = 32
 """Bytes of the checksum before the object code."""
-_LOCK = threading.Lock()
+LOCK = threading.RLock()
 """One thread at a time compiles or loads."""
 
 
@@ -49,7 +49,7 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
     the same file.
     """
     key = hash_of(text, str(vectors))
-    with _LOCK:
+    with LOCK:
         code = stored(key)
         if code is None:
             code = compiled(text, vectors)
@@ -58,14 +58,10 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
 
 
 def hash_of(*made_from: str) -> str:
-    """Name of what is made from these texts for this processor."""
-    return hashlib.sha256("\0".join((*made_from, processor())).encode()).hexdigest()[:32]
-
-
-def processor() -> str:
-    """What the code is made for: the processor, its instructions, and LLVM's version."""
-    features = binding.get_host_cpu_features().flatten()
-    return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
+    """Name of what is made from these texts for this processor and its instructions by this version of LLVM."""
+    host = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
+    parts = (*made_from, *host, str(binding.llvm_version_info))
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
 def target() -> binding.TargetMachine:

@@ -33,12 +33,12 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.calls import Call, pushes, zeta_rows
-from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
+from biped_adrc.engine.calls import Call, compiled_biped, compiled_references, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.program import COMPILED, Program
+from biped_adrc.engine.program import COMPILED, Program, controller_numbers
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar_robot import robot_of
 
 
 def stepping_loop(
@@ -75,15 +75,18 @@ class CompiledLoop(SteppingLoop):
         with suppress(NotCompiled):
             values["pushes"] = pushes(self.disturbance, self.plant.n)
         try:
-            values["program"] = Program.of_loop(self, size)
+            if not isinstance(self.model, Biped):
+                raise NotCompiled(f"the model is a {type(self.model).__name__}, expected a Biped")
+            numbers = controller_numbers(robot_of(self.model), self)._replace(moves=True)
+            values["program"] = Program(size, numbers)
             _ = values["program"].machine
-        except NotCompiled as reason:
+        except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
             values["controller"] = compiled_references(self.controller, self.plant.n)
             if isinstance(self.model, Biped):
                 with suppress(ModelError):  # of a robot that is no planar tree
-                    values["model"] = CompiledBiped.of(self.model)
+                    values["model"] = compiled_biped(self.model)
         return replace(self, **values), engine
 
     @cached_property

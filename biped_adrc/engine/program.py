@@ -1,36 +1,46 @@
-"""A walker as machine code: addresses of its functions, and the vector K of its numbers.
+"""A walker as machine code: its functions, the vector K of its numbers, and the plan of its runs.
 
 One compilation serves every robot, gain and gait of the same structure, which has no floats in it
-(`engine.structure`). So a program is made in microseconds where its functions are in
-memory, in milliseconds where they are on disk; only for a new structure is anything traced and
-compiled.
+(`engine.structure`). So a program is made in microseconds where its functions are in memory, in milliseconds
+where they are on disk; only for a new structure is anything traced and compiled.
+
+In a `CompiledWalker` three things come together: the program (flow, tick, impact, ..), the matrices of the
+method (`hybrid.exponential`), and the terms of the disturbance, which are compiled by themselves so that
+another disturbance does not recompile the walker. What cannot be compiled raises `NotCompiled` with the reason;
+in sampled time the march then calls its sample instants and impacts in Python (`PythonTicks`), and the plant
+moves in machine code between them.
 """
 
 from __future__ import annotations
 
+import ctypes
 import math
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import ErrorForm, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by
-from biped_adrc.core.errors import ModelError
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.base import Disturbance, Sum
 from biped_adrc.engine import equations
 from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
 from biped_adrc.engine.ir import generated
+from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
+from biped_adrc.engine.kernels.record import FUNCTIONS, PART
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.engine.tracer import located
 from biped_adrc.gait.reference import Reference
-from biped_adrc.model.biped import Biped
+from biped_adrc.hybrid import constants
+from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
+from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 COMPILED = "compiled"
@@ -38,50 +48,11 @@ COMPILED = "compiled"
 
 
 @dataclass(frozen=True)
-class Program:
-    """Functions by name, and the numbers they are called with."""
+class Program(Equations):
+    """Functions by name, compiled, and the numbers they are called with.
 
-    size: int
-    """Numbers in the controller's state."""
-    numbers: WalkerNumbers
-    """The numbers by name."""
-
-    @classmethod
-    def of(
-        cls,
-        walker: Walker,
-        size: int,
-        split: ErrorForm | None = None,
-        curve: Reference | OuterLoop | None = None,
-        plant_alone: bool = False,
-    ) -> Program:
-        """The program of a walker whose controller has `size` states.
-
-        split: coordinates of the exponential method. curve: what readings refer to. plant_alone: without
-        controller, sensors and touchdown detector, for sample instants in Python. Takes the controller in its
-        time base, the data of plant and model, and puts all floats into K in the order of `WalkerNumbers`.
-        Raises NotCompiled for a part whose content cannot be compared, or ModelError for a robot that is no
-        planar tree.
-        """
-        numbers = numbers_of(walker)._replace(
-            split=split, curve=None if curve is None else tracked_by(walker.law, curve)
-        )
-        if plant_alone:
-            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
-            numbers = numbers._replace(controller=Passive(), held=held)
-        return cls(size, numbers)
-
-    @classmethod
-    def of_loop(cls, loop: SteppingLoop, size: int) -> Program:
-        """The program of sample instants around another plant. Raises NotCompiled also for a model that is no
-        planar tree.
-        """
-        if not isinstance(loop.model, Biped):
-            raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
-        try:
-            return cls(size, controller_numbers(robot_of(loop.model), loop)._replace(moves=True))
-        except ModelError as reason:
-            raise NotCompiled(str(reason)) from reason
+    Raises NotCompiled for a part whose content cannot be compared, when it is asked for.
+    """
 
     @cached_property
     def K(self) -> Array:
@@ -99,30 +70,22 @@ class Program:
         """What decides the code, but that of readings."""
         return self.size, structure(self.numbers._replace(curve=None))
 
-    @property
-    def nx(self) -> int:
-        """Numbers in a state."""
-        return self.numbers.nx(self.size)
-
     @cached_property
     def machine(self) -> LoadedCode:
         """Its functions in memory, compiled when they are asked for.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
-        names = Equations.names(self.numbers)
-        return generated(self.key, {name: partial(self._traced, name) for name in names})
+        return generated(self.key, {name: partial(self._traced, name) for name in self.names})
 
     def reading(self, read: Reading) -> LoadedCode:
         """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
         key = read, self.key, structure(self.numbers.curve)
-        return generated(
-            key, {"reading": lambda: Equations.of(self.size, self.numbers).reading(read)}
-        )
+        return generated(key, {"reading": partial(self.view, read)})
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
-            function: SymbolicFunction = getattr(Equations.of(self.size, self.numbers), name)()
+            function: SymbolicFunction = getattr(self, name)()
             return function
 
     def address(self, name: str) -> int:
@@ -134,10 +97,13 @@ class Program:
         return code.addresses.get(name, 0)
 
 
-def numbers_of(walker: Walker) -> WalkerNumbers:
+def numbers_of(
+    walker: Walker, split: ErrorForm | None = None, curve: Reference | OuterLoop | None = None
+) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
-    Raises ModelError for a robot that is no planar tree.
+    split: coordinates of the exponential method. curve: what readings refer to. Raises ModelError for a robot
+    that is no planar tree.
     """
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),
@@ -145,6 +111,8 @@ def numbers_of(walker: Walker) -> WalkerNumbers:
         lowest_hip=float(walker.lowest_hip),
         longest=float(walker.max_step_time),
         impact_gain=walker.gain,
+        split=split,
+        curve=None if curve is None else tracked_by(walker.law, curve),
     )
 
 
@@ -164,3 +132,126 @@ def push_code(term: Disturbance, n: int) -> LoadedCode:
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
     return generated(("push", n, structure(term)), {"push": partial(equations.push, term, n)})
+
+
+NO_PUSH = Sum()
+
+
+@dataclass(frozen=True)
+class CompiledWalker:
+    """A walker that the compiled loops can run."""
+
+    walker: Walker
+    """Plant, controller and all the rest."""
+    program: Program
+    """Keeps the code in memory and holds the parameters."""
+    plan: CompiledRun
+    """A run that has not begun: sizes, addresses and settings."""
+
+    ticks: PythonTicks | None = None
+    """What carries out sample instants and impacts in Python; None where machine code does."""
+
+    @classmethod
+    def of(
+        cls,
+        walker: Walker,
+        method: OneStepMethod,
+        size: int,
+        t_first: float = 0.0,
+        reference: Reference | None = None,
+        in_python: bool = False,
+    ) -> CompiledWalker:
+        """For a controller with `size` states and a run that begins at t_first [s].
+
+        reference: what readings of the program refer to.
+        in_python: sample instants and impacts by the walker's own methods, in sampled time.
+        Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
+        Raises NotCompiled where a part or the method cannot be compiled, InputError for a
+        method without the coordinates that it needs.
+        """
+        if not isinstance(method, RK4 | Exponential):
+            raise NotCompiled(
+                f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
+            )
+        etd = isinstance(method, Exponential)
+        split = walker.split_form() if etd else None
+        if etd and split is None:
+            raise no_coordinates()
+        numbers = numbers_of(walker, split, reference)
+        if in_python:
+            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
+            numbers = numbers._replace(controller=Passive(), held=held)
+        program = Program(size, numbers)
+        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
+        push = walker.disturbance or NO_PUSH
+        parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
+        relaxing = walker.relaxing()
+        k = 0 if split is None else len(split.A)
+        # the torque of the motors, then all does; q'' at a sample instant comes from machine code alone
+        flows = walker.held is None or relaxing or in_python
+        tables = {
+            "K": program.K,
+            "fastest": bounds.fastest,
+            "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+            "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
+            "phi": np.zeros(0) if split is None else phi_levels(method.h, split.A),
+            "push": np.array(floats(push.terms)),
+            "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
+        }
+        fields = dict[str, float]()
+        if isinstance(walker.timing, SampledTime) and walker.held is not None:
+            T, motors = walker.timing.period, walker.held.motors
+            part = motors.fraction * T if walker.held.sizes.waiting else 0.0
+            fields |= {"period": T, "restart": walker.timing.restart, "part": part}
+        fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
+        fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
+        fields |= {"t_first": t_first, "pulled": push.pulls}
+        fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
+        if relaxing is not None:
+            fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
+        fields |= {name: program.address(name) for name in FUNCTIONS}
+        ticks = PythonTicks(walker, nx) if in_python else None
+        if ticks is not None:
+            fields |= ticks.addresses
+        return cls(walker, program, plan(tables, fields), ticks)
+
+
+_FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+
+
+@lru_cache(maxsize=64)
+def _numbers_at(address: int, size: int) -> Array:
+    """The numbers (size,) at an address, as a view."""
+    numbers: Array = np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
+    return numbers
+
+
+class PythonTicks:
+    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states; without q''.
+
+    What a method raises is kept as `error`; the march ends as NOT_FINITE.
+    """
+
+    def __init__(self, walker: Walker, nx: int):
+        self.nx = nx
+        self.error: BaseException | None = None
+
+        def tick(t: float, step: float, start: float, *x: float) -> Array:
+            return walker.tick(t, np.array(x), Mode(int(step), start))
+
+        def impact(t: float, step: float, *x: float) -> Array:
+            return walker.impact(t, np.array(x[:nx]), Mode(int(step) - 1))[0]
+
+        self.functions = [_FUNCTION(partial(self._called, f)) for f in (tick, impact)]
+        at = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
+        self.addresses = dict(zip(("tick", "impact"), at, strict=True))
+
+    def _called(self, method: Callable[..., Array], K: int, inp: int, out: int) -> None:
+        """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
+        raises.
+        """
+        result = _numbers_at(out, self.nx + 1)
+        try:
+            result[:] = *method(*_numbers_at(inp, 3 + self.nx).tolist()), 1.0
+        except BaseException as error:  # goes on where the march was called
+            self.error, result[:] = error, math.nan

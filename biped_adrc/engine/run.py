@@ -6,7 +6,7 @@ fits:
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
 - compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
-  (`engine.compiled_walker`);
+  (`engine.program`);
 - compiled plant otherwise: the loop of `hybrid.simulator` on compiled dynamics;
 - Pinocchio, for a robot that is no planar tree.
 
@@ -24,9 +24,8 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.calls import compiled_biped, compiled_references
+from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -167,6 +166,6 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
 def compiled_plant(walker: Walker) -> Walker:
     """The walker with compiled dynamics and references. Raises ModelError."""
     controller = compiled_references(walker.controller, walker.plant.n)
-    model = None if walker.model is None else CompiledBiped.of(walker.model)
-    plant = CompiledBiped.of(walker.plant)
+    model = None if walker.model is None else compiled_biped(walker.model)
+    plant = compiled_biped(walker.plant)
     return replace(walker, plant=plant, model=model, controller=controller)

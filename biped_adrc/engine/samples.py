@@ -28,15 +28,15 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import Reading, WalkerNumbers
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.on_plant import CompiledLoop
+from biped_adrc.engine.program import CompiledWalker
 from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc
@@ -79,9 +79,6 @@ class CompiledWalk:
     """Where it is; moved by the kernel `samples`. Its nodes are those of this single support, as
     `engine.batch.BatchWalk.table`; none where it is not judged."""
 
-    places: tuple[int, int]
-    """Cells of the torque and the force from outside, the last term of the disturbance."""
-
     @classmethod
     def of(
         cls,
@@ -102,10 +99,9 @@ class CompiledWalk:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look, 3 * walker.plant.p + 4)
         assert walker.disturbance is not None
-        torque = run.place("K") + torque_place(compiled.program.numbers)
-        return cls(
-            compiled, run, (torque, run.place("push") + len(floats(walker.disturbance.terms[:-1])))
-        )
+        run["torque"] = run["K"] + 8 * torque_place(compiled.program.numbers)
+        run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
+        return cls(compiled, run)
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, nodes of the single support in which it is stay there."""
@@ -113,11 +109,6 @@ class CompiledWalk:
         stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
         run.nodes[: len(stay)], run["count"] = stay, len(stay)
         return np.ascontiguousarray(rows.T)
-
-    @property
-    def addresses(self) -> list[int]:
-        """In the order of `kernels.record.WALK`."""
-        return [self.run.address + 8 * cell for cell in (0, *self.places)]
 
     @property
     def at(self) -> At:
@@ -148,8 +139,6 @@ class PythonWalk:
     x: Array
     """State (nx,) before the sample instant at t."""
     mode: Mode
-    began: float
-    """Where the clock of sample instants began that restarts at impacts [s]."""
     fired: str | None = None
     """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
@@ -170,7 +159,7 @@ class PythonWalk:
                 places.append((loop.program.K[at : at + p], slice(p)))
             if loop.pushes is not None:
                 places.append((loop.pushes[-1].K[:2], slice(p, None)))
-        return cls(loop, method, tuple(places), mode.start, x, mode, mode.start)
+        return cls(loop, method, tuple(places), mode.start, x, mode)
 
     @property
     def at(self) -> At:
@@ -191,9 +180,9 @@ class PythonWalk:
             place[:] = inputs[part]
         walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
         while True:
-            start = walk.began if timing.restart else 0.0
+            start = walk.mode.start if timing.restart else 0.0
             until = next_tick(walk.t, start, timing.period)
-            at = (walk.t, walk.x, walk.mode, walk.fired, walk.began)
+            at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
@@ -206,7 +195,7 @@ class PythonWalk:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
                 return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
             t, (x, mode) = event.t, flown.outcome
-            walk = replace(walk, t=t, x=x, mode=mode, began=t, fired=event.guard, arcs=arcs)
+            walk = replace(walk, t=t, x=x, mode=mode, fired=event.guard, arcs=arcs)
             if timing.restart or t >= until:
                 return walk, flown.status, over
 

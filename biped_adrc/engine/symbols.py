@@ -16,6 +16,7 @@ are typed for numbers.
 
 from __future__ import annotations
 
+import functools
 import math
 import random
 from collections.abc import Callable, Iterator, Sequence
@@ -68,6 +69,12 @@ def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Sc
     return apply
 
 
+def function_of(name: str) -> Callable[[Number], Scalar]:
+    """CasADi's function of that name for one Scalar."""
+    code = getattr(ca, f"OP_{name.upper()}")
+    return lambda x: Scalar(ca.SX.unary(code, expression(x)))
+
+
 class Scalar:
     """One number of an expression; arithmetic with another Scalar or a float gives another Scalar.
 
@@ -94,18 +101,13 @@ class Scalar:
             return Scalar(self.e ** int(other))
         return Scalar(self.e ** expression(other))
 
-    def __abs__(self) -> Scalar:
-        return Scalar(ca.SX.unary(ca.OP_FABS, self.e))
-
-    def __neg__(self) -> Scalar:
-        return Scalar(ca.SX.unary(ca.OP_NEG, self.e))
-
     def __pos__(self) -> Scalar:
         return self
 
     def __hash__(self) -> int:
         raise NotCompiled("the law looks a number up in a dictionary or a set")
 
+    __abs__, __neg__ = function_of("fabs"), function_of("neg")
     __add__, __radd__ = _binary(ca.OP_ADD), _binary(ca.OP_ADD, reflected=True)
     __sub__, __rsub__ = _binary(ca.OP_SUB), _binary(ca.OP_SUB, reflected=True)
     __mul__, __rmul__ = _binary(ca.OP_MUL), _binary(ca.OP_MUL, reflected=True)
@@ -137,12 +139,6 @@ class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     def __array_wrap__(self, array: Array, *_: object) -> Any:
         """What an operation gives: one number as itself, as NumPy does for its own arrays."""
         return array.item() if array.ndim == 0 else array.view(Symbols)
-
-
-def function_of(name: str) -> Callable[[Number], Scalar]:
-    """CasADi's function of that name for one Scalar."""
-    code = getattr(ca, f"OP_{name.upper()}")
-    return lambda x: Scalar(ca.SX.unary(code, expression(x)))
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -232,7 +228,7 @@ class Solver:
             for i in range(j + 1, n):
                 one, other = rows[j, j:].copy(), rows[i, j:].copy()
                 swap = abs(Scalar(expression(other[0]))) > abs(Scalar(expression(one[0])))
-                rows[j, j:], rows[i, j:] = _chosen(swap, other, one), _chosen(swap, one, other)
+                rows[j, j:], rows[i, j:] = chosen(swap, other, one), chosen(swap, one, other)
             self.pivots.append(abs(rows[j, j]))
             inverse.append(1.0 / rows[j, j])
             for i in range(j + 1, n):
@@ -246,13 +242,11 @@ class Solver:
     @property
     def least(self) -> Scalar:
         """The smallest |pivot| of all solutions so far, infinite without one; generated functions return it."""
-        least = Scalar(ca.SX(math.inf))
-        for pivot in self.pivots:
-            least = minimum(least, pivot)
-        return least
+        return functools.reduce(minimum, self.pivots, Scalar(ca.SX(math.inf)))
 
 
-_chosen: Callable[..., Any] = elementwise(where)
+chosen: Callable[..., Any] = elementwise(where)
+"""`where`, entry by entry."""
 
 
 def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:

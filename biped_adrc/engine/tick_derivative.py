@@ -19,10 +19,8 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, WalkerNumbers
-from biped_adrc.engine.program import numbers_of
-from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, floats
+from biped_adrc.engine.program import Program, numbers_of
+from biped_adrc.engine.symbols import NotCompiled
 
 DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""
@@ -44,11 +42,11 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
             "timing=SampledTime(period)"
         )
     try:
-        numbers = numbers_of(walker)
-        function = _function(walker.controller_size(nx), numbers)
+        program = Program(walker.controller_size(nx), numbers_of(walker))
+        function, K = _function(program), program.K
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)
-    inputs = np.array([*floats(numbers), 0.0]), np.zeros(function.size1_in(1))
+    inputs = K, np.zeros(function.size1_in(1))
     after, columns = np.zeros(nx), np.zeros((nx, nx))
     buffer, evaluate = function.buffer()  # CasADi knows the arrays by address
     for i, array in enumerate(inputs):
@@ -68,11 +66,11 @@ _FUNCTIONS: dict[Hashable, ca.Function] = {}
 """Made in this process, by the key of their structure; a function is a value, so this is no state."""
 
 
-def _function(size: int, numbers: WalkerNumbers) -> ca.Function:
-    """(K, inp) -> (x+, J) for `size` numbers in s; the values of `numbers` do not matter."""
-    key, nx = (size, structure(numbers)), numbers.nx(size)
+def _function(program: Program) -> ca.Function:
+    """(K, inp) -> (x+, J); the values of the program's numbers do not matter."""
+    key, nx = program.key, program.nx
     if key not in _FUNCTIONS:
-        tick = Equations.of(size, numbers).tick()
+        tick = program.tick()
         after = ca.densify(tick.out[:nx])
         J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + nx])
         _FUNCTIONS[key] = ca.Function("tick", [tick.K, tick.inp], [after, J], {"cse": True})

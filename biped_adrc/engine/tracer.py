@@ -129,21 +129,18 @@ class Tracer:
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
-    def __call__(self, f: T) -> T:
-        """The function for symbols, with every function that it reaches; what is no Python function
-        stays as it is.
+    def __call__(self, f: Any) -> Any:
+        """The function for symbols, with every function that it reaches; what is no Python function stays as it
+        is, and so does one that is defined inside a copy or is for symbols anyhow.
 
-        A copy shares the code object and has its own globals and closure, in which names are
-        replaced. Copies are remembered before their names are replaced, so functions that call
-        each other end.
+        A copy shares the code object and has its own globals and closure, in which names are replaced; in a
+        method that says `super()`, `__class__` is the twin. Copies are remembered before their names are
+        replaced, so functions that call each other end.
         """
-        ours = isinstance(f, types.FunctionType) and not str(f.__module__).startswith(ENGINE)
-        return self._copy(f) if ours else f
-
-    def _copy(self, f: Any) -> Any:
-        """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
-        if f.__globals__.get(COPIED) is self or f.__module__.startswith(ENGINE):
-            return f  # defined inside a copy, or for symbols as it is
+        if not isinstance(f, types.FunctionType) or str(f.__module__).startswith(ENGINE):
+            return f
+        if f.__globals__.get(COPIED) is self:
+            return f
         if f not in self._copies:
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
@@ -154,7 +151,7 @@ class Tracer:
             own = changes(f.__module__, f.__globals__.get("__file__"))
             if own and catches(f.__code__):
                 copy = _refused(f.__code__)
-            self._copies[f] = self._copies[copy] = copy
+            self._copies[f] = copy
             for name in names_of(f.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
@@ -222,7 +219,7 @@ class Tracer:
     def _member(self, value: Any) -> Any:
         """What stands in the twin for a method, property or other member of a class."""
         if isinstance(value, types.FunctionType):
-            return self._copy(inspect.unwrap(value))
+            return self(inspect.unwrap(value))
         if isinstance(value, property):
             return property(self._member(value.fget))
         if isinstance(value, functools.cached_property) and not isinstance(value, derived):

@@ -1,6 +1,8 @@
-"""Numbers and names of the march in both of its forms: methods, codes of arcs, tolerances, arrays."""
+"""What the march has in both of its forms: codes of methods and arcs, tolerances, arrays, sample instants."""
 
 from __future__ import annotations
+
+import math
 
 RK4, ETD, SOLVER = 0, 1, 2
 """Kinds of method; the last is one of Python's, such as SciPy's."""
@@ -34,6 +36,22 @@ Y_ROWS = (
     *("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try"),
     *("N0", "N1", "N_a", "N_b", "N_c", "N_sub"),
 )
-"""Arrays (ny,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
+"""Arrays (nx,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
 of sub-steps, and of one that is tried.
 """
+
+
+def is_tick(t: float, start: float, period: float) -> bool:
+    """Whether t [s], not before `start` [s], is exactly one of start + k period.
+
+    Sample instants are always computed by this expression, so equality is exact.
+    """
+    return t == start + math.floor((t - start) / period + 0.5) * period
+
+
+def next_tick(t: float, start: float, period: float) -> float:
+    """The first of the sample instants start + k period, k = 0, 1, .., after t [s]."""
+    k = max(0, math.floor((t - start) / period))
+    while start + k * period <= t:
+        k += 1
+    return start + k * period

@@ -81,8 +81,8 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     half, half_phi = matrix(r, level, HALF), matrix(r, level, HALF_PHI)
     middle, a, b, nw = matrix(r, level, MIDDLE), r.y_a, r.y_b, r.n_slow
     matvec(r, half, y, r.e_half)
-    copy(r.e_half, a, r.ny)
-    copy(r.e_half, b, r.ny)
+    copy(r.e_half, a, r.nx)
+    copy(r.e_half, b, r.nx)
     add(y, 0.5 * h, N, a, nw)
     apply_input(r, half_phi, 1.0, N, a)
     remainder(r, t + 0.5 * h, a, r.N_a)
@@ -112,7 +112,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
     """
     levels, count, now = r.levels, 0, t
     y, N, trial, x = r.y_sub, r.N_sub, r.y_try, r.x_b
-    copy(r.y0, y, r.ny)
+    copy(r.y0, y, r.nx)
     copy(r.N0, N, r.nN)
     finest = r.h * 0.5 ** (levels - 1)
     for level in range(1, levels):
@@ -128,7 +128,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
                 tb, fb = end, r.tried[guard]
                 continue
         count, now = further, end
-        copy(trial, y, r.ny)
+        copy(trial, y, r.nx)
         remainder(r, now, y, N)
     join(r, y, x)
     flow(r, now, x, r.dx_b)
@@ -321,7 +321,7 @@ def nodes(r: Run, t0: float, t1: float) -> None:
 
 
 @inner
-def begin(r: Run, t: float, h: float, t_next: float) -> None:
+def begin(r: Run, t: float, h: float) -> None:
     """What the first step after a break at t [s], h [s] long, starts from beside x0: dx0, for ETD-RK4 y0 and
     N0.
 
@@ -334,8 +334,6 @@ def begin(r: Run, t: float, h: float, t_next: float) -> None:
         lagging(r, t, r.x0, h, r.dx0)
     elif (r.kind != ETD or r.every > 0) and r.sloped == 0:
         flow(r, t, r.x0, r.dx0)
-    if r.kind == SOLVER:
-        solver_starts(r, t, t_next)
     r.sloped = 0
 
 
@@ -376,7 +374,7 @@ def pass_on(r: Run) -> None:
     copy(r.x1, r.x0, r.moving)
     copy(r.dx1, r.dx0, r.moving)
     if r.kind == ETD:
-        copy(r.y1, r.y0, r.ny)
+        copy(r.y1, r.y0, r.nx)
         copy(r.N1, r.N0, r.nN)
 
 
@@ -408,12 +406,12 @@ def through(r: Run, t_next: float) -> int:
     skipped, steps, code = 0, 0, 0
     r.limit = left(t_next)
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
-    begin(r, t, r.h if count > 1.0 else t_next - t, t_next)
+    begin(r, t, r.h if count > 1.0 else t_next - t)
     keep(r, t, r.x0, r.dx0)
     while t < t_next:
         steps += 1
         if r.kind == SOLVER:
-            t1 = solve(r)
+            t1 = solve(r, t_next)
         else:
             t1 = t0 + steps * r.h if steps < count else t_next
             code = fixed(r, t, t1, int(steps >= count))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -16,7 +16,7 @@ import numpy as np
 
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK, X_ROWS, Y_ROWS
+from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
 from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
@@ -60,13 +60,9 @@ class Calendar:
         return sorted([*self.system.switching_times(self.mode), self.t_end, math.inf])
 
     def due(self, t: float, x: Array) -> Array:
-        """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
-
-        A clock is due where t equals start + k period exactly; breaks are computed by the same expression.
-        """
+        """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system."""
         for clock, start in self.clocks:
-            k = round((t - start) / clock.period)
-            if k >= 0 and t == start + k * clock.period:
+            if t >= start and constants.is_tick(t, start, clock.period):
                 x = clock.update(t, x, self.mode)
         return x
 
@@ -74,17 +70,9 @@ class Calendar:
         """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
         first = self.edges[bisect_right(self.edges, t)]
         for clock, start in self.clocks:
-            tick = next_tick(t, start, clock.period)
+            tick = constants.next_tick(t, start, clock.period)
             first = tick if tick < first else first
         return first
-
-
-def next_tick(t: float, start: float, period: float) -> float:
-    """The first of the sample instants start + k period, k = 0, 1, .., after t [s]."""
-    k = max(0, math.floor((t - start) / period))
-    while start + k * period <= t:
-        k += 1
-    return start + k * period
 
 
 class Run:
@@ -93,7 +81,7 @@ class Run:
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of X_ROWS and Y_ROWS."""
+            """One of constants.X_ROWS and Y_ROWS."""
 
     step: Step
 
@@ -121,13 +109,13 @@ class Run:
         self.nx, self.moving, self.p = len(x), len(x), 0
         self.accepted: dict[int, FoundEvent] = {}
         self.event: FoundEvent | None = None
-        for name in X_ROWS:
+        for name in constants.X_ROWS:
             setattr(self, name, np.zeros(self.nx))
         self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
         self.x0[:] = x
-        self.kind, self.h, self.lags, self.lag_speed = SOLVER, math.inf, 0, 0.0
-        self.steps: Iterator[Step] = iter(())
-        self.ny = self.nN = self.n_slow = self.levels = 0
+        self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
+        self.t_next, self.steps = math.nan, iter(tuple[Step, ...]())
+        self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
         if isinstance(method, ClassicalRungeKutta):
             self._set_rk4(method)
@@ -135,7 +123,7 @@ class Run:
             self._set_etd(method)
 
     def _set_rk4(self, method: ClassicalRungeKutta) -> None:
-        self.kind, self.h, relaxing = RK4, method.h, self.system.relaxing()
+        self.kind, self.h, relaxing = constants.RK4, method.h, self.system.relaxing()
         if relaxing is not None:
             self.lags, self.lag_speed, self.relaxing = 1, relaxing.speed, relaxing
 
@@ -144,12 +132,12 @@ class Run:
         if form is None:
             raise no_coordinates()
         w, E = form.to(self.x0)
-        self.kind, self.h, self.form, self.E_shape = ETD, method.h, form, E.shape
+        self.kind, self.h, self.form, self.E_shape = constants.ETD, method.h, form, E.shape
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
-        self.ny = self.nN = len(w) + E.size
-        for name in Y_ROWS:
-            setattr(self, name, np.zeros(self.ny))
+        self.nN = self.nx
+        for name in constants.Y_ROWS:
+            setattr(self, name, np.zeros(self.nx))
 
     def parts(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, c) of y, as copies."""
@@ -249,7 +237,7 @@ def slow(r: Run, t: float, x: Array) -> bool:
 
 def broken(r: Run) -> int:
     """The status of a run whose state or slope is not finite."""
-    return NOT_FINITE
+    return constants.NOT_FINITE
 
 
 def watch(r: Run, t: float, x: Array, out: Array) -> None:
@@ -280,7 +268,7 @@ def accepts(r: Run, guard: int, te: float) -> bool:
 def code_of(r: Run, guard: int) -> int:
     """STRUCK, with the event in r.event."""
     r.event = r.accepted[guard]
-    return STRUCK
+    return constants.STRUCK
 
 
 def due(r: Run) -> int:
@@ -300,21 +288,18 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- a solver's steps ------------------------------------------------------------------------------
-def solver_starts(r: Run, t: float, t_next: float) -> None:
-    """The solver begins at (t, x0), to go to t_next [s] at most."""
-    assert isinstance(r.method, Solver)
-
-    def f(t: float, x: Array) -> Array:
-        return r.system.flow(min(t, r.limit), x, r.mode)
-
-    r.steps = iter(r.method.steps(f, t, r.x0.copy(), t_next))
-
-
-def solve(r: Run) -> float:
-    """x1, dx1 (nx,) after the solver's next step; its end [s].
+def solve(r: Run, t_next: float) -> float:
+    """x1, dx1 (nx,) after the solver's next step towards t_next [s]; its end [s]. A new t_next starts it at x0.
 
     Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
     """
+    if r.t_next != t_next:
+        assert isinstance(r.method, Solver)
+
+        def f(t: float, x: Array) -> Array:
+            return r.system.flow(min(t, r.limit), x, r.mode)
+
+        r.t_next, r.steps = t_next, iter(r.method.steps(f, r.t, r.x0.copy(), t_next))
     r.step = step = next(r.steps)
     r.x1[:], r.dx1[:] = step.x, step.dx
     if not finite(r.x1, r.nx):

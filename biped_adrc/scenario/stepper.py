@@ -37,7 +37,7 @@ from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.record import WALK, Ints
+from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
@@ -120,7 +120,7 @@ class Stepper:
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk, where judged."""
         self._kernels = kernels()
-        self.addresses = np.zeros((count, WALK), dtype=np.int64)
+        self.addresses = np.zeros(count, dtype=np.int64)
         self._walks = self.addresses.ctypes.data, count
         self._inputs = np.zeros((count, self.p + 2))
         self._impacts = np.zeros(count, dtype=np.int64)
@@ -192,10 +192,10 @@ class Stepper:
         if not self.rows.size:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
             arrays = (self._inputs, self.rows, self.codes, self._impacts)
-            self._states = self.p, self.rows.shape[1], *(x.ctypes.data for x in arrays)
+            self._states = self.rows.shape[1], *(x.ctypes.data for x in arrays)
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
-        self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
+        self.addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
         self._complete.clear()
         for laws, _, _ in self._laws.values():

@@ -24,7 +24,7 @@ from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import load_or_compile
-from biped_adrc.engine.program import Program, push_code
+from biped_adrc.engine.program import Program, numbers_of, push_code
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.constraint import continued
@@ -389,7 +389,7 @@ def loop_compiles(walker, states=20, ticks=0):
         for _ in range(ticks):
             x = walker.tick(0.1, x, mode)
         if program is None:
-            program = Program.of(walker, walker.controller_size(x))
+            program = Program(walker.controller_size(x), numbers_of(walker))
         zeta = 30.0 * random.normal(size=n)
         pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
         flow = pushed.flow(0.1, x, mode)

@@ -104,7 +104,7 @@ def test_every_run_of_a_batch_is_the_single_run(mixed):
             x0,
             mode,
             case.method,
-            t_end=case.t_end,
+            t_end=case.options.t_end,
             t0=mode.start,
             impacts=case.impacts,
         )
@@ -155,9 +155,8 @@ def test_a_case_that_does_not_fit_is_an_error(plain):
         list(simulate_many([plain, wrong, plain]))
     with pytest.raises(InputError, match="impacts"):
         replace(plain, impacts=0)
-    short = replace(plain, walker=replace(plain.walker, timing=ba.SampledTime(1e-12)))
     with pytest.raises(InputError, match="period"):
-        list(simulate_many([short]))
+        ba.SampledTime(1e-12)
     with pytest.raises(InputError, match="0 threads"):
         simulate_many([plain], threads=0)
     assert list(simulate_many([])) == []

@@ -11,8 +11,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.program import Program
+from biped_adrc.engine.calls import compiled_biped
+from biped_adrc.engine.program import Program, numbers_of
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
@@ -30,7 +30,7 @@ def close(found, expected):
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_terms_of_every_robot_are_pinocchio_s(robot):
     biped = ba.Biped.load(robot)
-    code = CompiledBiped.of(biped)
+    code = compiled_biped(biped)
     random = np.random.default_rng(5)
     for _ in range(500):
         q, v, a = random.normal(0.0, 3.0, (3, biped.n))
@@ -45,8 +45,8 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 @pytest.mark.parametrize("robot", ["rabbit", "three_link"])
 def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
-    code, n = CompiledBiped.of(biped), biped.n
-    program = Program.of(Walker(biped, Passive()), 0)
+    code, n = compiled_biped(biped), biped.n
+    program = Program(0, numbers_of(Walker(biped, Passive())))
     random = np.random.default_rng(12)
     for _ in range(COUNT):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -99,13 +99,15 @@ def test_a_plant_that_is_not_the_model(gait, timing):
 
 def test_one_compilation_serves_every_number(biped, gait):
     """Robots, gains, gaits and limits change K alone."""
-    first = Program.of(Walker(biped, ba.NPDController(gait.constraint)), 0)
+    first = Program(0, numbers_of(Walker(biped, ba.NPDController(gait.constraint))))
     bare = ba.Biped.load("rabbit", "tac2003").with_errors(mass={"torso": 1.3})
     other = ba.NPDController(gait.constraint, ba.Gains(100.0, 20.0))
-    second = Program.of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0), 0)
+    second = Program(
+        0, numbers_of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0))
+    )
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
-    third = Program.of(Walker(bare, other), 0)
+    third = Program(0, numbers_of(Walker(bare, other)))
     assert third.numbers.plant.n == 5
 
 

@@ -97,10 +97,10 @@ def test_several_processes_make_the_same_code_and_another_one_traces_nothing(cac
         "import numpy as np, biped_adrc as ba\n"
         "from functools import partial\n"
         "from biped_adrc.engine import ir\n"
-        "from biped_adrc.engine.compiled_biped import CompiledBiped\n"
+        "from biped_adrc.engine.calls import compiled_biped\n"
         "made = []\n"
         "ir.module_text = partial(lambda text, *x: made.append(1) or text(*x), ir.module_text)\n"
-        "c = CompiledBiped.of(ba.Biped.load('rabbit'))\n"
+        "c = compiled_biped(ba.Biped.load('rabbit'))\n"
         "print(c.acceleration(np.linspace(0.1, 0.5, 5), np.ones(5), np.zeros(5)).tobytes().hex(), *made)\n"
     )
     processes = [python(lines, cache / "several") for _ in range(2)]

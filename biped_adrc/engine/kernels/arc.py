@@ -13,7 +13,7 @@ import math
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
-from biped_adrc.engine.kernels.record import FOOT_STRIKE, WALK, Ints, Run
+from biped_adrc.engine.kernels.record import FOOT_STRIKE, Ints, Run
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.march import arm, keep, travel
 
@@ -41,12 +41,22 @@ def go_on(r: Run) -> int:
 
 @unit
 def land(r: Run) -> int:
-    """x+ in place of x- in x0, and the start of the next arc; a status, all as before where it is not 0."""
-    code = jump(r, r.x0, r.x_e)
-    if code == 0:
-        copy(r.x_e, r.x0, r.nx)
-        r.fired, r.armed = FOOT_STRIKE, 0
-    return code
+    """x+ in place of x- in x0, and the start of the next arc; a status, all as before where it is not 0.
+
+    step, t_start and t_arc become those of the single support that begins.
+    """
+    r.inp[0], r.inp[1] = r.t, r.step + 1.0
+    copy(r.x0, shift(r.inp, 2), r.nx)
+    call(r.impact, r.K, r.inp, r.x_e)
+    if r.x_e[r.nx] == 0.0:
+        return SINGULAR
+    if not finite(r.x_e, r.nx):
+        return NOT_FINITE
+    copy(r.x_e, r.x0, r.nx)
+    r.step += 1.0
+    r.t_start = r.t_arc = r.t
+    r.fired, r.armed = FOOT_STRIKE, 0
+    return 0
 
 
 @unit
@@ -74,13 +84,13 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
 def sample(r: Run) -> int:
     """From a sample instant to the next one, or to the end of the walk; a code, 0 for COMPLETED."""
     for _ in range(MOST_ARCS):
-        r.t_end = next_tick(r, r.t, clock_start(r))
+        r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
         if code == STRUCK:
             code = land(r)
         if code != COMPLETED:
             return code
-        if is_tick(r, r.t, clock_start(r)):
+        if at_tick(r.t, clock_start(r), r.period):
             return COMPLETED
     return EVENT_LIMIT
 
@@ -99,7 +109,6 @@ def look(r: Run, law: int, out: Array) -> None:
 def samples(
     walks: Ints,
     count: int,
-    p: int,
     width: int,
     inputs: Array,
     states: Array,
@@ -109,16 +118,17 @@ def samples(
     """One sample of each of `count` walks whose code is 0; how many of them end a single support, by an impact
     or with the walk.
 
-    walks (count, WALK); inputs (count, p + 2): torque [N m] and force [N]. codes (count,) become those of
-    `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it, as they were where a walk has
-    ended. impacts (count,) are those made.
+    walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N].
+    codes (count,) become those of `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it,
+    as they were where a walk has ended. impacts (count,) are those made.
     """
     over = 0
     for i in range(count):
-        if codes[i] == COMPLETED and walks[WALK * i] != 0:
-            r, u = ints_at(walks[WALK * i]), shift(inputs, i * (p + 2))
-            copy(u, floats_at(walks[WALK * i + 1]), p)
-            copy(shift(u, p), floats_at(walks[WALK * i + 2]), 2)
+        if codes[i] == COMPLETED and walks[i] != 0:
+            r = run_at(walks[i])
+            u = shift(inputs, i * (r.p + 2))
+            copy(u, r.torque, r.p)
+            copy(shift(u, r.p), r.force, 2)
             step = r.step
             codes[i] = sample(r)
             impacts[i] = int(r.step - step)
@@ -135,5 +145,5 @@ def looks(walks: Ints, count: int, width: int, laws: Ints, views: Array) -> None
     they are.
     """
     for i in range(count):
-        if walks[WALK * i] != 0:
-            look(ints_at(walks[WALK * i]), laws[i], shift(views, i * width))
+        if walks[i] != 0:
+            look(run_at(walks[i]), laws[i], shift(views, i * width))

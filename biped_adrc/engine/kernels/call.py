@@ -34,6 +34,7 @@ Generated = tuple[Signature, Callable[..., ir.Value]]
 Context = Any
 """numba.core.base.BaseContext, whose methods have no annotations."""
 njit: Any = numba.njit
+intrinsic: Callable[[Callable[..., Generated]], Callable[..., Any]] = extending.intrinsic
 types: Any = numba.types
 
 UNITS: dict[str, tuple[str, Signature, Callable[..., object]]] = {}
@@ -48,12 +49,6 @@ _TYPES = {
     "Array": types.CPointer(types.float64),
 }
 """numba's types by annotation; a run and vectors are pointers."""
-
-
-def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
-    """numba's decorator for a function that is written in LLVM's instructions."""
-    decorator: Any = extending.intrinsic
-    return decorator(function)
 
 
 def inner(function: _Function) -> _Function:
@@ -94,20 +89,12 @@ def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
     return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 
 
-def _pointer_at(number: Type, kind: ir.Type) -> Callable[..., Any]:
-    """An intrinsic from an address (int64) to a pointer to numbers of this type."""
-    pointer, signature = kind.as_pointer(), types.CPointer(number)(types.int64)
-
-    def at(typingctx: object, address: Type) -> Generated:
-        return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
-
-    return intrinsic(at)
-
-
-floats_at = _pointer_at(types.float64, ir.DoubleType())
-"""Pointer to the float64 at an address."""
-ints_at = _pointer_at(types.int64, ir.IntType(64))
-"""Pointer to the int64 at an address."""
+@intrinsic
+def run_at(typingctx: object, address: Type) -> Generated:
+    """The run at an address."""
+    pointer = ir.IntType(64).as_pointer()
+    signature = _CELLS(types.int64)
+    return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
 
 
 # -- fields of a run -------------------------------------------------------------------------------

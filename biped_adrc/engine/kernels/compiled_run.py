@@ -1,6 +1,6 @@
 """A compiled run in memory: its block of cells by name, and what the codes that it ends with mean.
 
-`engine.compiled_walker` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
+`engine.program` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
 plan is a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of the
 block.
 
@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PLACES, ROWS, TABLES, Ints
@@ -26,8 +25,6 @@ from biped_adrc.hybrid.status import Status
 
 STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK has none."""
-LEAST_PERIOD = 1e-9
-"""Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 NO_ROWS = np.zeros((0, 0))
 
 
@@ -114,27 +111,17 @@ class CompiledRun:
 
 
 def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
-    """Lay out a run: tables and fields by their names in `record.Run`; those left out are empty and 0.
-
-    Raises InputError for a period too short.
-    """
-    values = {"moving": fields["nx"], "guards": 3, **fields}
-    if 0.0 < values.get("period", 0.0) < LEAST_PERIOD:
-        raise InputError(
-            f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
-        )
-    n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
-    slow, none = nx - k * p, np.zeros(0)
-    values |= {"n_slow": slow, "ny": nx, "nN": slow + p, "levels": len(tables.get("phi", none))}
-    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches", "parts")}
-    blocks = [np.ravel(tables.get(name, none)).view(np.int64) for name in TABLES]
-    width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
-    lengths = [*map(len, blocks), *(width for _ in ROWS)]
-    starts = np.cumsum([len(KINDS), *lengths])
-    places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
-    cells = np.zeros(starts[-1], dtype=np.int64)
-    filled = np.concatenate(blocks)
-    cells[len(KINDS) : len(KINDS) + len(filled)] = filled
+    """Lay out a run: tables and fields by their names in `record.Run`; fields left out are 0."""
+    n, nx, p, k = (int(fields[name]) for name in ("n", "nx", "p", "k"))
+    width, slow = 3 + nx + max(n, 2) + OUTSIDE, nx - k * p
+    values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
+    values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
+    parts = [np.zeros(len(KINDS)), *(np.ravel(tables[name]) for name in TABLES)]
+    parts += [np.zeros(width) for _ in ROWS]
+    ends = np.cumsum([len(part) for part in parts]).tolist()
+    places = dict(zip((*TABLES, *ROWS), ends[:-1], strict=True))
+    places |= {"torque": places["K"], "force": places["push"]}
+    cells = np.concatenate(parts).view(np.int64)
     for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():

@@ -20,14 +20,13 @@ import sys
 from ctypes import CFUNCTYPE, c_int64, c_void_p
 from functools import cache
 from pathlib import Path
-from threading import Lock
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.engine.machine import keep, key_of, load_or_compile, stored
+from biped_adrc.engine.machine import LOCK, keep, key_of, load_or_compile, stored
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
@@ -45,16 +44,15 @@ _LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
 ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
-ARGUMENTS = {"stride": 3, "samples": 8, "looks": 5}
+ARGUMENTS = {"stride": 3, "samples": 7, "looks": 5}
 """The units of `kernels.arc` that Python calls; how many whole numbers and addresses each takes."""
-_LOCK = Lock()
 
 
 def kernels() -> Any:
     """The loops by name, during which other threads of Python run; the first thread that asks loads them, or
     compiles them where they are not on disk.
     """
-    with _LOCK:
+    with LOCK:
         return _loaded()
 
 

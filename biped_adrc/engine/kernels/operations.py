@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, inner, shift, unit
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, OUTSIDE, PART, Run
@@ -173,8 +171,8 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
         call(r.back, r.K, y, r.out)
         copy(r.out, shift(inp, 3), 2 * r.n)
     disturb(r, min(t, r.limit))
-    copy(y, shift(inp, 3), r.ny)
-    copy(r.load, shift(inp, 3 + r.ny), r.n)
+    copy(y, shift(inp, 3), r.nx)
+    copy(r.load, shift(inp, 3 + r.nx), r.n)
     call(r.remainder, r.K, inp, N)
     note(r, N, N[r.nN])
 
@@ -250,24 +248,6 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
 
 @inner
-def jump(r: Run, x: Array, out: Array) -> int:
-    """out (nx,) = x+ at the impact in x (nx,); a status.
-
-    On success step, t_start and t_arc become those of the single support that begins; on failure they stay.
-    """
-    r.inp[0], r.inp[1] = r.t, r.step + 1.0
-    copy(x, shift(r.inp, 2), r.nx)
-    call(r.impact, r.K, r.inp, out)
-    if out[r.nx] == 0.0:
-        return SINGULAR
-    if not finite(out, r.nx):
-        return NOT_FINITE
-    r.step += 1.0
-    r.t_start = r.t_arc = r.t
-    return 0
-
-
-@inner
 def lower(r: Run) -> None:
     """drop: how far the steps of the ground lower the ground [m] on which this single support ends."""
     r.drop = 0.0
@@ -295,23 +275,7 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- breaks ----------------------------------------------------------------------------------------
-@inner
-def is_tick(r: Run, t: float, start: float) -> bool:
-    """Whether t [s] is exactly a sample instant of the clock that began at `start` [s].
-
-    Sample instants are always computed as start + k T, so equality is exact.
-    """
-    k = np.floor((t - start) / r.period + 0.5)
-    return t == start + k * r.period
-
-
-@inner
-def next_tick(r: Run, t: float, start: float) -> float:
-    """The first sample instant after t [s] of the clock that began at `start` [s]."""
-    k = np.floor((t - start) / r.period)
-    while start + k * r.period <= t:
-        k += 1.0
-    return start + k * r.period
+at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 
 @inner
@@ -341,9 +305,9 @@ def next_break(r: Run) -> float:
     """The first switching time or sample instant after t [s], at most t_end."""
     first = next_switch(r, r.t, r.t_end)
     if r.period > 0.0:
-        first = min(first, next_tick(r, r.t, clock_start(r)))
+        first = min(first, after_tick(r.t, clock_start(r), r.period))
     if r.part > 0.0:
-        first = min(first, next_tick(r, r.t, clock_start(r) + r.part))
+        first = min(first, after_tick(r.t, clock_start(r) + r.part, r.period))
     return first
 
 
@@ -356,7 +320,7 @@ def due(r: Run) -> int:
     evaluation of the flow.
     """
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
-    if r.period > 0.0 and is_tick(r, r.t, clock_start(r)):
+    if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
         measure(r, x)
         call(r.tick, r.K, r.inp, out)
         note(r, out, out[nx])
@@ -370,7 +334,7 @@ def due(r: Run) -> int:
         r.sloped = 1 if r.moving == 2 * n else 0
     if r.part > 0.0:
         begin = clock_start(r) + r.part
-        if r.t >= begin and is_tick(r, r.t, begin):
+        if r.t >= begin and at_tick(r.t, begin, r.period):
             for i in range(r.p):
                 x[nx - r.p + i] = x[nx - 2 * r.p + i]
     return 0
@@ -386,12 +350,7 @@ def measure(r: Run, x: Array) -> None:
 
 # -- a solver's steps, which are Python's ----------------------------------------------------------
 @inner
-def solver_starts(r: Run, t: float, t_next: float) -> None:
-    """No solver runs here."""
-
-
-@inner
-def solve(r: Run) -> float:
+def solve(r: Run, t_next: float) -> float:
     """No step: the march then ends as STEP_FAILED."""
     return r.t
 

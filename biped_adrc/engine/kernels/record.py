@@ -20,8 +20,6 @@ FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
 """Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
 PART = 2
 """Numbers in `parts` for one."""
-WALK = 3
-"""Numbers for one of many walks: addresses of its run, and of the torque and the force in it; 0 for no walk."""
 OUTSIDE = 2
 """Numbers behind the inputs of a sample instant: force from outside, or those on both feet."""
 
@@ -70,8 +68,6 @@ class Run:
     """Numbers in w, for ETD-RK4."""
     k: int
     """Rows of E (k, p)."""
-    ny: int
-    """Numbers in y = (w, E)."""
     nN: int
     """Numbers in the remainder (N_w, row 1 of N_E)."""
     levels: int
@@ -119,6 +115,10 @@ class Run:
     parts: Ints
     """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers it
     has."""
+    torque: Array
+    """In K, what is added to the torques of the motors (p,) [N m]; set for `samples` alone, as `force` is."""
+    force: Array
+    """In `push`, the force on the trunk (2,) [N]."""
     # -- what changes
     t: float
     """[s]"""

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.ir import CHOICE, FUNCTIONS, Patterns, Writer, straight_line
+from biped_adrc.engine.ir import CHOICE, FUNCTIONS, Operation, Patterns, straight_line
 
 PATTERNS: Patterns = {
     ca.OP_ADD: "{a} + {b}",
@@ -53,10 +53,15 @@ PATTERNS: Patterns = {
 
 @dataclass(frozen=True)
 class Entry:
-    """A number that a C function reads: its name in C, and whether it is a double whatever `real` is."""
+    """A number in a C function: its name in C, and whether it is a double whatever `real` is."""
 
     name: str
     double: bool = False
+
+    @property
+    def real(self) -> str:
+        """The number as an operand of type `real`."""
+        return f"(real){self.name}" if self.double else self.name
 
 
 @dataclass(frozen=True)
@@ -81,63 +86,72 @@ class Written:
 
 def used_numbers(functions: Sequence[CFunction]) -> list[int]:
     """Indices, in increasing order, of the parameters K that any of these functions reads."""
-    result: set[int] = set()
-    for each in functions:
-        f = straight_line(each.function)
-        for i in range(f.n_instructions()):
-            a = f.instruction_input(i)
-            if f.instruction_id(i) == ca.OP_INPUT and a[0] == 0:
-                result.add(a[1])
-    return sorted(result)
+    lines = (straight_line(each.function) for each in functions)
+    return sorted({x.of[1] for f in lines for x in f if x.code == ca.OP_INPUT and x.of[0] == 0})
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
     """Write a function in C; its parameters K are read from the table k, which holds
     the entries `numbers` of K.
 
-    Raises InputError for an operation that has no line here.
+    Values in double are called w1, w2, .., others v1, v2, ..; values that nothing reads are left out. Raises
+    InputError for an operation that has no line here.
     """
-    f = straight_line(each.function)
-    K = {place: Entry(f"k[{i}]", double=True) for i, place in enumerate(numbers)}
-    writer = _Writer(each, K, in_double(f, [entry.double for entry in each.inputs]))
-    lines = writer.written(f)
-    count = len(writer.needed)
-    return Written(tuple(lines), count, sum(name.startswith("w") for name in writer.needed))
+    line, places = straight_line(each.function), {k: i for i, k in enumerate(numbers)}
+    doubles = in_double(line, [entry.double for entry in each.inputs])
+    values, stores, texts = list[Entry](), list[str](), dict[int, str]()
+    for i, (code, of, number) in enumerate(line):
+        value = Entry("")
+        if code == ca.OP_CONST:
+            value = Entry(decimal(number), double=True)
+        elif code == ca.OP_INPUT:
+            value = each.inputs[of[1]] if of[0] else Entry(f"k[{places[of[1]]}]", double=True)
+        elif code == ca.OP_OUTPUT:
+            stores.append(f"{each.outputs[of[1]]} = {values[of[0]].real};")
+        else:
+            wide = i in doubles
+            operands = (values[k].name if wide else values[k].real for k in of)
+            text = PATTERNS[code].format(
+                **dict(zip("abc", operands, strict=False)), F="" if wide else "F"
+            )
+            value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)
+            texts[i] = f"const {'double' if wide else 'real'} {value.name} = {text};"
+        values.append(value)
+    needed = ancestors(line, {x.of[0] for x in line if x.code == ca.OP_OUTPUT}) & texts.keys()
+    kept = (text for i, text in texts.items() if i in needed)
+    return Written((*kept, *stores), len(needed), len(needed & doubles))
 
 
-def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
-    """Indices of the instructions of f that have to be computed in double.
+def ancestors(line: Sequence[Operation], places: set[int]) -> set[int]:
+    """The places of these values and of all that they are made of."""
+    result = set(places)
+    for i in reversed(range(len(line))):
+        if i in result and line[i].code != ca.OP_INPUT:
+            result.update(line[i].of)
+    return result
+
+
+def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
+    """Places of the values that have to be computed in double.
 
     They are the differences one side of which is a linear combination of angles or times, where the other side
-    depends on angles, times and constants alone, with all instructions they are made of. angles: for each
-    input whether it is an angle or a time.
+    depends on angles, times and constants alone, with all that they are made of. angles: for each input whether
+    it is an angle or a time.
     """
-    made: dict[int, int] = {}
-    sources: dict[int, list[int]] = {}
-    degree: dict[int, int] = {}
-    open_names: list[int] = []
-    for i in range(f.n_instructions()):
-        code, a = f.instruction_id(i), f.instruction_input(i)
-        if code == ca.OP_OUTPUT:
-            continue
-        leaf = code in (ca.OP_CONST, ca.OP_INPUT)
-        sources[i] = [] if leaf else [made[x] for x in a]
-        of = [degree[x] for x in sources[i]]
-        if leaf:
-            given = code == ca.OP_INPUT and a[0] == 1
-            degree[i] = (LINEAR if angles[a[1]] else UNKNOWN) if given else CONSTANT
+    degree, differences = list[int](), set[int]()
+    for i, (code, of, _) in enumerate(line):
+        if code == ca.OP_INPUT:
+            degree.append((LINEAR if angles[of[1]] else UNKNOWN) if of[0] else CONSTANT)
+        elif code in (ca.OP_CONST, ca.OP_OUTPUT):
+            degree.append(CONSTANT)
         else:
-            degree[i] = _degree(code, of)
-        if code == ca.OP_SUB and LINEAR in of and UNKNOWN not in of:
-            open_names.append(i)
-        made[f.instruction_output(i)[0]] = i
-    result: set[int] = set()
-    while open_names:
-        i = open_names.pop()
-        if i not in result:
-            result.add(i)
-            open_names.extend(sources[i])
-    return {i for i in result if sources[i]}
+            sides = [degree[k] for k in of]
+            degree.append(_degree(code, sides))
+            if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
+                differences.add(i)
+    return {
+        i for i in ancestors(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)
+    }
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
@@ -149,90 +163,9 @@ def _degree(code: int, of: list[int]) -> int:
     most = max(of)
     if most != LINEAR:
         return most
-    if code in (ca.OP_ADD, ca.OP_SUB, ca.OP_NEG, ca.OP_TWICE, ca.OP_ASSIGN):
+    if code in (ca.OP_ADD, ca.OP_SUB, ca.OP_NEG, ca.OP_TWICE):
         return LINEAR
     return LINEAR if code == ca.OP_MUL and CONSTANT in of else KNOWN
-
-
-class _Writer(Writer):
-    """Writer of C: values in double are called w1, w2, .., others v1, v2, ..; values that
-    nothing reads are left out.
-    """
-
-    patterns, language = PATTERNS, "C"
-
-    def __init__(self, each: CFunction, K: dict[int, Entry], wide: set[int]) -> None:
-        super().__init__()
-        self.each, self.K, self.wide = each, K, wide
-        self.now = -1
-        self.double: set[str] = set()
-        """Names of values that are doubles."""
-        self.made: dict[str, tuple[str, tuple[str, ...]]] = {}
-        """By name, the line of a value and the names that it reads."""
-        self.stored: list[str] = []
-        self.needed: set[str] = set()
-
-    def written(self, f: ca.Function) -> list[str]:
-        """Lines of the function f, without those of values that no output needs."""
-        super().written(f)
-        self.needed, open_names = set(), list(self.stored)
-        while open_names:
-            name = open_names.pop()
-            if name in self.made and name not in self.needed:
-                self.needed.add(name)
-                open_names.extend(self.made[name][1])
-        kept = [line for name, (line, _) in self.made.items() if name in self.needed]
-        return [*kept, *self.stores]
-
-    def instruction(self, f: ca.Function, i: int) -> None:
-        """Write instruction i of f, as in every language, and note its index for `line` and `new`."""
-        self.now = i
-        super().instruction(f, i)
-
-    def literal(self, x: float) -> str:
-        """A constant as the shortest decimals that give the same bits."""
-        name = decimal(x)
-        self.double.add(name)
-        return name
-
-    def read(self, block: int, index: int) -> str:
-        """Name in C of an input: entry `index` of K (block 0) or of the inputs (block 1)."""
-        entry = self.each.inputs[index] if block else self.K[index]
-        if entry.double:
-            self.double.add(entry.name)
-        return entry.name
-
-    def store(self, index: int, value: str) -> None:
-        """Assign a value to output `index`."""
-        self.stores.append(f"{self.each.outputs[index]} = {self.cast(value)};")
-        self.stored.append(value)
-
-    def cast(self, name: str) -> str:
-        """The value as an operand of type `real`."""
-        return f"(real){name}" if name in self.double else name
-
-    def line(self, code: int, a: tuple[str, ...]) -> str:
-        """Write an operation, with operands of the type in which it is computed;
-        returns the name of its value.
-        """
-        pattern = self.patterns.get(code)
-        if not isinstance(pattern, str):
-            return super().line(code, a)
-        wide = self.now in self.wide
-        shown = a if wide else tuple(map(self.cast, a))
-        text = pattern.format(**dict(zip("abc", shown, strict=False)), F="" if wide else "F")
-        return self.new(text, a)
-
-    def new(self, text: str, operands: tuple[str, ...]) -> str:
-        """Write a constant of C with this expression; returns its name. operands: names
-        that the expression reads.
-        """
-        wide = self.now in self.wide
-        name = f"{'w' if wide else 'v'}{len(self.made) + 1}"
-        if wide:
-            self.double.add(name)
-        self.made[name] = f"const {'double' if wide else 'real'} {name} = {text};", operands
-        return name
 
 
 def decimal(x: float) -> str:

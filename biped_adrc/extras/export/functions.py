@@ -28,7 +28,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
 from biped_adrc.engine.ir import straight_line
 from biped_adrc.engine.symbols import Scalar, Vector, column, where
-from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.engine.tracer import run
 from biped_adrc.extras.export.c_text import CFunction, Entry
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.hardware.sample_hold import read
@@ -48,15 +48,15 @@ class Inputs:
     @cached_property
     def equations(self) -> Equations:
         """Equations of the computer's parts, with a symbol for each of its numbers."""
-        return Equations.of(self.size, self.computer.numbers)
+        return Equations(self.size, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
         """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
-        inp, trace = Vector("inp", HEAD + self.equations.nx), Tracer()
+        inp = Vector("inp", HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.nx)
-        return SymbolicInstant(inp, trace, self.equations.loop(trace), t, x, mode)
+        return SymbolicInstant(inp, self.equations.loop(), t, x, mode)
 
     @property
     def parts(self) -> tuple[Array, Array, Array, Array]:
@@ -67,7 +67,7 @@ class Inputs:
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
-        return SymbolicFunction(self.equations.K, self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
+        return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:
@@ -76,8 +76,8 @@ def init(computer: Computer) -> SymbolicFunction:
     q, v = inputs.parts[:2]
     at = inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
-    controller = at.trace.on_symbols(inputs.equations.numbers.controller)
-    s = run(at.trace, controller.initial_state, m)
+    controller = at.loop.trace.on_symbols(inputs.equations.symbols[1].controller)
+    s = run(at.loop.trace, controller.initial_state, m)
     held = at.loop.held
     w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
     return inputs.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
@@ -90,7 +90,7 @@ def step(computer: Computer, size: int) -> SymbolicFunction:
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)
     line = read(k.sizes, semantics.parts(at.loop, x)[3]).line
-    return inputs.function(x[2 * n :], line.sent, at.lost)
+    return inputs.function(x[2 * n :], line.sent, at.loop.lost)
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
@@ -99,7 +99,7 @@ def touchdown(computer: Computer, size: int) -> SymbolicFunction:
     """
     inputs = Inputs(computer, size)
     at, (q, v) = inputs.at, inputs.parts[:2]
-    x = at.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
+    x = at.loop.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
     return inputs.function(x[2 * len(q) :])
 
 
@@ -208,9 +208,8 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
 
 def _read(function: SymbolicFunction) -> set[int]:
     """Indices of the inputs that a function reads."""
-    f = straight_line(function)
-    inputs = (i for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_INPUT)
-    return {at[1] for at in map(f.instruction_input, inputs) if at[0] == 1}
+    line = straight_line(function)
+    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == 1}
 
 
 def _named(

@@ -22,12 +22,11 @@ from llvmlite import binding
 
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
 from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
-from biped_adrc.engine.program import push_code
+from biped_adrc.engine.program import CompiledWalker, push_code
 
 
 class WebWalker(NamedTuple):
