@@ -23,7 +23,7 @@ from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.records import complaint
-from biped_adrc.scenario.scenario import Scenario, field_of, read_scenario
+from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
@@ -87,7 +87,7 @@ def _shown(text: str | PlainRecord) -> object:
 
 def _option(name: str, usual: str | None) -> Parameter:
     """The parameter, for typer, of one value; usual: what the help shows as its default."""
-    what = field_of(SHORT[name])
+    what = Scenario.field_of(SHORT[name])
     text, default = what.text.removesuffix("."), what.default
     if usual is not None:
         text, default = text.partition("; by default")[0], usual
@@ -114,7 +114,7 @@ def scenario_from(
     for name, x in pairs(sets).items():
         if name in values:
             raise InputError(f"'{name}' is given twice, as --set {name} too; leave one of them out")
-        values[name] = x if field_of(name).types else _own(x)
+        values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
         values = {**_passive(base, values, usual), **values}

@@ -54,10 +54,8 @@ def robot_list(robot: str | None = None, preset: str | None = None) -> None:
 
 def _print_values() -> None:
     """Print what a scenario may say: names, units, ranges, defaults and texts."""
-    from biped_adrc.scenario.scenario import field_of, names
-
     console.say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
-    for what in map(field_of, names()):
+    for what in map(ba.Scenario.field_of, ba.Scenario.names()):
         default = "" if what.default in (None, {}) else f"{what.default}"
         words = ", ".join(x for x in (default, what.range_text) if x)
         console.say(f"  {what.name}{what.in_brackets}{f' ({words})' if words else ''}: {what.text}")

@@ -165,7 +165,7 @@ class Record(BaseModel):
         result = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
-                raise Misfit(name, unknown(name, names_of(cls)), known=False)
+                raise Misfit(name, unknown(name, cls.names()), known=False)
             what = cls.own_value(name)
             try:
                 result[name] = read(what, plain(result[name]))
@@ -184,6 +184,63 @@ class Record(BaseModel):
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
         name = str(info.field_name)
         return read(described(cls, name), plain(x))
+
+    @classmethod
+    def names(cls, before: str = "") -> list[str]:
+        """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
+        result = []
+        for name, info in cls.model_fields.items():
+            inner = record_in(cls, name)
+            if inner is None or inner is cls:
+                result.append(before + name)
+            else:
+                place = "0." if get_origin(info.annotation) is tuple else ""
+                result += inner.names(f"{before}{name}.{place}")
+        return result
+
+    @classmethod
+    def field_of(cls, name: str) -> Described:
+        """Type, unit, range, default and text of a value by its dotted name.
+
+        Raises InputError with the nearest names.
+        """
+        at: type[Record] = cls
+        parts = [part for part in name.split(".") if not part.isdigit()]
+        for k, part in enumerate(parts):
+            inside = k < len(parts) - 1
+            if part not in at.model_fields:
+                if issubclass(at, OpenRecord) and not inside:
+                    return at.own_value(part)._replace(name=name)
+                raise Misfit(name, unknown(name, cls.names()))
+            inner = record_in(at, part)
+            if inner is None:
+                text = texts(at)[part]
+                if inside:  # of a table
+                    return Described(name, (float,), text=text)
+                return described(at, part, name)._replace(text=text)
+            at = inner
+        if at.SHORT in at.model_fields:
+            return at.field_of(at.SHORT)._replace(name=name)
+        raise Misfit(
+            name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}"
+        )
+
+    @classmethod
+    def value_of(cls, name: str, x: object) -> Any:
+        """Reads and checks a value x for a field by its dotted name, such as "run.h".
+
+        "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
+        Raises InputError for an unknown field, and for a value that the field does not take.
+        """
+        what = cls.field_of(name)
+        try:
+            result = read(what, plain(x))
+            what.check(result)
+        except ValueError as error:
+            raise Misfit(name, str(error)) from None
+        if what.kind and isinstance(result, str):
+            return portable(what.kind, result)
+        return float(result) if type(result) is int and float in what.types else result
 
     @property
     def own(self) -> dict[str, Any]:
@@ -326,41 +383,6 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
     return None
 
 
-def names_of(cls: type[Record], before: str = "") -> list[str]:
-    """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
-    result = []
-    for name, info in cls.model_fields.items():
-        inner = record_in(cls, name)
-        if inner is None or inner is cls:
-            result.append(before + name)
-        else:
-            place = "0." if get_origin(info.annotation) is tuple else ""
-            result += names_of(inner, f"{before}{name}.{place}")
-    return result
-
-
-def described_in(cls: type[Record], name: str) -> Described:
-    """What is known of a value by its dotted name. Raises InputError with the nearest names."""
-    at: type[Record] = cls
-    parts = [part for part in name.split(".") if not part.isdigit()]
-    for k, part in enumerate(parts):
-        inside = k < len(parts) - 1
-        if part not in at.model_fields:
-            if issubclass(at, OpenRecord) and not inside:
-                return at.own_value(part)._replace(name=name)
-            raise Misfit(name, unknown(name, names_of(cls)))
-        inner = record_in(at, part)
-        if inner is None:
-            text = texts(at)[part]
-            if inside:  # of a table
-                return Described(name, (float,), text=text)
-            return described(at, part, name)._replace(text=text)
-        at = inner
-    if at.SHORT in at.model_fields:
-        return described_in(at, at.SHORT)._replace(name=name)
-    raise Misfit(name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}")
-
-
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
     result = error.errors()[0]
@@ -372,7 +394,7 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
         if inner.known:
             return Misfit(place, inner.text)
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
-        return Misfit(place, unknown(place, names_of(cls)), known=False)
+        return Misfit(place, unknown(place, cls.names()), known=False)
     return Misfit(place, complaint(result))
 
 

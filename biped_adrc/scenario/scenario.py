@@ -25,18 +25,7 @@ from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write
 from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.records import (
-    Described,
-    Misfit,
-    OpenRecord,
-    Record,
-    described_in,
-    field,
-    names_of,
-    plain,
-    read,
-)
-from biped_adrc.scenario.registry import portable
+from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, field
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
@@ -332,36 +321,6 @@ def scenario_lines(s: Scenario) -> list[str]:
         f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
         for name, x in values.items()
     ]
-
-
-def value_of(name: str, x: object) -> Any:
-    """Reads and checks a value x for the scenario's field `name`, a dotted name such as "run.h".
-
-    "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
-    Raises InputError for an unknown field, and for a value that the field does not take.
-    """
-    what = field_of(name)
-    try:
-        result = read(what, plain(x))
-        what.check(result)
-    except ValueError as error:
-        raise Misfit(name, str(error)) from None
-    if what.kind and isinstance(result, str):
-        return portable(what.kind, result)
-    return float(result) if type(result) is int and float in what.types else result
-
-
-def names() -> list[str]:
-    """Dotted names of all values; "0" in a name stands for the number of a push."""
-    return names_of(Scenario)
-
-
-def field_of(name: str) -> Described:
-    """Type, unit, range, default and text of a value by its dotted name.
-
-    Raises InputError with the nearest names.
-    """
-    return described_in(Scenario, name)
 
 
 DRAWN = (

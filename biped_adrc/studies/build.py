@@ -27,7 +27,7 @@ from biped_adrc.engine.program import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
-from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
+from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 from biped_adrc.scenario.walk import method_of
 
 Values = Mapping[str, Any]
@@ -64,7 +64,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
     for name, x in values:
         for path in files_of(name, x):
             result[f"file {path}"] = _hash(path)
-        kind = field_of(name).kind
+        kind = Scenario.field_of(name).kind
         if kind and is_own(str(x)):
             result[f"source {x}"] = _source(find(kind, str(x)).load())
         if name == PLANT:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from biped_adrc.analysis.statistics import Interval
 from biped_adrc.core.files import write_text
-from biped_adrc.scenario.scenario import field_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.measure import OF_ALL, is_counted
 from biped_adrc.studies.results import Group, Line, Results
 from biped_adrc.studies.run import COLUMNS
@@ -136,7 +136,7 @@ def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bo
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
             values.append(number)
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
-    names = [name + field_of(name).in_brackets for name in axes[:2]]
+    names = [name + Scenario.field_of(name).in_brackets for name in axes[:2]]
     return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)
 
 

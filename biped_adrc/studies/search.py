@@ -46,7 +46,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BeforeValidator, Field
 
 from biped_adrc.core.errors import optional
-from biped_adrc.scenario.scenario import field_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Limit, Measure, Objective, Row, numbers_without_walk
 from biped_adrc.studies.space import Part, Range, Seeds, each, read_list, read_range, table
@@ -91,7 +91,7 @@ class Variable(Part):
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
         """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
         return all(
-            name in free or values.get(name, field_of(name).default) in those
+            name in free or values.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
         )
 

@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
+from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.run import run_trials
@@ -147,8 +147,8 @@ def test_what_is_wrong_is_named(values, message) -> None:
 
 
 def test_every_value_is_known_by_its_name() -> None:
-    for name in names():
-        what = field_of(name)
+    for name in Scenario.names():
+        what = Scenario.field_of(name)
         unit_of(what.unit or "1")
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
