@@ -42,7 +42,7 @@ from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import Part, execute_twice, method_of, runs_in_parts
+from biped_adrc.scenario.walk import Part, execute_twice, methods_of, runs_in_parts
 
 
 class Track(NamedTuple):
@@ -107,7 +107,7 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    first = method_of(run.replace({"run.h": share * h}), walker)
+    first = methods_of(run.run.replace({"h": share * h}), walker)[0]
     parts = [Part(1, first), Part(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
     return [Walk(walker, gait, moved) for moved in runs]

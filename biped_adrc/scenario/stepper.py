@@ -49,7 +49,7 @@ from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import check_start, default_method, method_of
+from biped_adrc.scenario.walk import check_start, default_method, methods_of
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""
@@ -165,7 +165,7 @@ class Stepper:
             s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
             walker, outside = with_inputs(self.walker_of(s, self.scene))
             start = start_of(s, self.scene) if start is None else start
-            loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
+            loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:
             raise InputError(
                 "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"

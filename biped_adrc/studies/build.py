@@ -28,7 +28,7 @@ from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
-from biped_adrc.scenario.walk import method_of
+from biped_adrc.scenario.walk import methods_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
@@ -143,5 +143,5 @@ def trial_of(s: Scenario) -> Trial:
     q, v = start(s, scene)
     walker, mode = build(s, scene), Mode(s.run.first_step)
     curve = scene.walked.constraint
-    made = Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, curve)
+    made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
     return Trial(s, scene, made, soft_loop(s, walker))

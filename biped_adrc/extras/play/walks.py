@@ -38,7 +38,7 @@ from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.urdf import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
-from biped_adrc.scenario.walk import method_of
+from biped_adrc.scenario.walk import methods_of
 from biped_adrc.studies.build import scene_of
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values
@@ -188,7 +188,7 @@ class PageWalk:
 
 def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
     """Compile a walker with a hand. Raises NotCompiled."""
-    size, method = walker.controller_size(x), method_of(s, walker)
+    size, method = walker.controller_size(x), methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)
 
 
