@@ -115,7 +115,6 @@ def robot_export(
     from biped_adrc.extras.mujoco.mjcf import write_mjcf
     from biped_adrc.extras.mujoco.plant import MuJoCoPlant
     from biped_adrc.model.ground import SoftGround
-    from biped_adrc.scenario.build import plant_step
 
     path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))
     s = scenario_from({"robot.name": robot}, sets)
@@ -123,7 +122,7 @@ def robot_export(
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else ba.load_gait(gait, biped)
-    console.written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=plant_step(s)), path, start))
+    console.written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=g.engine_step), path, start))
 
 
 # -- parts -----------------------------------------------------------------------------------------

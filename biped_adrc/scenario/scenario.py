@@ -29,6 +29,10 @@ from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, f
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
+LONGEST_PLANT_STEP = 2e-4
+"""Default step of an engine with soft ground, where the ground is soft enough [s]."""
+RESOLVED = 0.1
+"""Of the ground's time constant: the longest step that resolves contact."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
 
@@ -136,6 +140,12 @@ class GroundRecord(OpenRecord):
     """In place of stones: the least and the largest length, between which all are drawn."""
     stone_tolerance: float = field(0.025, "m", gt=0, le=1)
     """Distance from the middle of a stone at which a foot still lands on it."""
+
+    @property
+    def engine_step(self) -> float:
+        """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
+        usual = min(LONGEST_PLANT_STEP, RESOLVED * self.time_constant)
+        return usual if self.plant_step is None else self.plant_step
 
     @model_validator(mode="after")
     def _stones_once(self) -> Self:

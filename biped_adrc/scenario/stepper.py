@@ -46,7 +46,6 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.robot_toml import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
-from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import check_start, default_method, methods_of
@@ -164,7 +163,7 @@ class Stepper:
         if isinstance(s, Scenario):
             s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
             walker, outside = with_inputs(self.walker_of(s, self.scene))
-            start = start_of(s, self.scene) if start is None else start
+            start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:
             raise InputError(

@@ -44,15 +44,7 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.robot_toml import Limits
-from biped_adrc.scenario.build import (
-    RIGID,
-    RobotAndGait,
-    build,
-    plant_around,
-    plant_step,
-    soft_loop,
-)
-from biped_adrc.scenario.build import start as start_of
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_around, soft_loop
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import FREE, RunRecord, Scenario
 
@@ -174,7 +166,7 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
     """
     run = s.run
     if s.ground.plant != RIGID:
-        return s.replace({"ground.plant_step": 0.5 * plant_step(s)})
+        return s.replace({"ground.plant_step": 0.5 * s.ground.engine_step})
     if run.method in FREE:
         return s.replace(run={"method": "adaptive", "tolerance": 1e-2 * run.tolerance})
     usual, fine = methods_of(run, walker)
@@ -199,8 +191,8 @@ def walk(
 
     start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
     that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio";
-    the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push
-    the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
+    the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a
+    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
     under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is kept,
     so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends, with
     the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by them.
@@ -263,7 +255,7 @@ def walk_scenario(
     if controller is not None:
         walker = replace(walker, controller=controller)
     if scene.gait:
-        begin = start_of(s, scene)
+        begin = scene.start(s)
     else:
         from biped_adrc.scenario.cycle import cycle_start
 

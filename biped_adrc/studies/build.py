@@ -25,7 +25,7 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
-from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
+from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 from biped_adrc.scenario.walk import methods_of
@@ -140,7 +140,7 @@ def trial_of(s: Scenario) -> Trial:
     if found := "; ".join(text for text, is_so in wrong.items() if is_so):
         raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
     scene = scene_of(s)
-    q, v = start(s, scene)
+    q, v = scene.start(s)
     walker, mode = build(s, scene), Mode(s.run.first_step)
     curve = scene.walked.constraint
     made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)

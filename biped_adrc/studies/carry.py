@@ -33,15 +33,7 @@ from biped_adrc.studies.results import (
 )
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Progress, Runner
-from biped_adrc.studies.search import (
-    Candidate,
-    Search,
-    Walks,
-    judged,
-    optuna_library,
-    ranked,
-    searched,
-)
+from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
 from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
@@ -137,12 +129,12 @@ class _Searched:
         if not failure:
             few = _few(search, result)
             again = [
-                judged(search, base, c.number, c.chosen, walks)
+                search.judged(base, c.number, c.chosen, walks)
                 for c, walks in zip(few, walk("choice", few), strict=True)
             ]
             failure = self.failure(again, case, "choice")
         if not failure:
-            return Choice(tuple(result), tuple(ranked(search, again)))
+            return Choice(tuple(result), tuple(search.ranked(again)))
         self.runner.tell(failure)
         return failure
 
@@ -206,7 +198,7 @@ def _named(case: str) -> dict[str, Any]:
 def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
     """The best few, settings that come twice once, and the case itself."""
     some: dict[str, Candidate] = {}
-    for c in ranked(search, found):
+    for c in search.ranked(found):
         some.setdefault(repr(sorted(c.values.items())), c)
     best = list(some.values())[: search.finalists]
     return best if any(c.number == 0 for c in best) else [*best, found[0]]

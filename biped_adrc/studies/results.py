@@ -33,7 +33,7 @@ from biped_adrc.studies.build import NO_WALK
 from biped_adrc.studies.measure import is_counted, is_made
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.studies.search import Candidate
-from biped_adrc.studies.study import CASE, CONDITION, Point, Study, measure_of
+from biped_adrc.studies.study import CASE, CONDITION, Point, Study
 
 APPLICATION = 0x62614453
 """SQLite's application_id, by which a results file is told from other databases."""
@@ -218,7 +218,7 @@ class Results(Shown):
     @cached_property
     def groups(self) -> list[Group]:
         """The walks by case and condition, those of a search on its test set; the first case comes first."""
-        measure, results = measure_of(self.study), dict[tuple[str, str], list[Result]]()
+        measure, results = self.study.measure, dict[tuple[str, str], list[Result]]()
         for result in self.results():
             if result.at.get(SET, "test") == "test" and result.row["status"] not in NO_WALK:
                 where = _name(result.at), str(result.at.get(CONDITION, ""))

@@ -144,6 +144,11 @@ class Study(Part):
         return bool(self.search or self.draw or len(self.seeds) > 1) and not self.grid
 
     @property
+    def measure(self) -> Measure:
+        """What the table and the page show: the objective of a search, or the median of the column."""
+        return Measure(column=self.column) if self.search is None else self.search.objective
+
+    @property
     def hash(self) -> str:
         """A hash of everything but the description: results of another hash are never mixed with these."""
         text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)
@@ -269,8 +274,3 @@ def _problem(error: Any) -> str:
 def chosen_file(case: str) -> str:
     """The name of the scenario file in which a search writes what it chose for a case, "" for none."""
     return "-".join(["chosen", *re.findall(r"\w+", case)]) + ".toml"
-
-
-def measure_of(study: Study) -> Measure:
-    """What the table and the page show: the objective of a search, or the median of the study's column."""
-    return Measure(column=study.column) if study.search is None else study.search.objective

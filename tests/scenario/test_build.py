@@ -10,7 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
+from biped_adrc.scenario.build import RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.scenario.walk import walk_scenario
@@ -19,7 +19,7 @@ from biped_adrc.studies.run import run_trials
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
     s = Scenario(run={"seed": seed}, **{"start.speed_spread": 0.02, **values})
-    return np.concatenate(start(s, RobotAndGait.of(s)))
+    return np.concatenate(RobotAndGait.of(s).start(s))
 
 
 @pytest.mark.parametrize("name", ["start.speed_spread", "start.spread", "start.rate_spread"])
@@ -35,7 +35,7 @@ def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
     scene = RobotAndGait.of(s)
     q, v = scene.on_orbit
     *_, last = np.random.default_rng(drawn(s, "start")).standard_normal(len(q) + len(v) + 1)
-    np.testing.assert_allclose(start(s, scene)[1], v * (1.1 + 0.02 * last), rtol=1e-15)
+    np.testing.assert_allclose(scene.start(s)[1], v * (1.1 + 0.02 * last), rtol=1e-15)
 
 
 def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:

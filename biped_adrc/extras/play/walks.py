@@ -36,7 +36,7 @@ from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.urdf import twins
-from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
 from biped_adrc.scenario.walk import methods_of
 from biped_adrc.studies.build import scene_of
@@ -92,7 +92,7 @@ class PageWalk:
             )
         if walker.disturbance is not None:
             raise InputError(f"the walk '{name}' has a push of its own; leave it out")
-        x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
+        x = walker.initial_state(*scene.start(s), Mode(s.run.first_step))
         try:
             code = compiled(s, scene, with_hand(walker), x)
         except NotCompiled as reason:
