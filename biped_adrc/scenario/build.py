@@ -103,7 +103,7 @@ class RobotAndGait:
         return frozen(self.walked.start(self.biped))
 
     def start(self, s: Scenario) -> tuple[Array, Array]:
-        """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with offsets of a scenario.
+        """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with a scenario's offsets.
 
         First random offsets of every coordinate, then the rates scaled by `speed`, then the values of
         single coordinates. Raises InputError for a coordinate that the robot does not have.

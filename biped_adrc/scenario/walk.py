@@ -192,12 +192,13 @@ def walk(
     start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
     that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio";
     the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a
-    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
-    under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is kept,
-    so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends, with
-    the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by them.
-    plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped, ground);
-    then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit together.
+    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too
+    large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is
+    kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends,
+    with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by
+    them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
+    ground); then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit
+    together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
     >>> walk.trajectory.status.name, walk.feasibility.status.name
