@@ -53,7 +53,8 @@ def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
 
     The docstring below the field is its help text.
     """
-    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
+    extra: Any = {"unit": unit, "kind": kind, "limits": tuple(limits.items())}
+    return Field(default, json_schema_extra=extra)
 
 
 class Misfit(InputError):
@@ -121,6 +122,7 @@ class Described(NamedTuple):
     def check(self, x: Any) -> None:
         """Raise ValueError for a value of another type, or out of its range."""
         wrong = self.types and not isinstance(x, (*self.types, *((int,) * self.number)))
+        wrong = wrong or (self.number and isinstance(x, bool))
         if wrong or (self.choices and x is not None and x not in self.choices):
             kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
@@ -147,6 +149,8 @@ class Record(BaseModel):
     )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
+    APART: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Pairs of values that say the same, or exclude one another, by dotted names."""
 
     def __init__(self, **values: Any) -> None:
         try:
@@ -183,7 +187,11 @@ class Record(BaseModel):
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
         name = str(info.field_name)
-        return read(described(cls, name), plain(x))
+        what = described(cls, name)
+        x = read(what, plain(x))
+        if record_in(cls, name) is None:
+            what.check(x)
+        return x
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
@@ -241,6 +249,16 @@ class Record(BaseModel):
         if what.kind and isinstance(result, str):
             return portable(what.kind, result)
         return float(result) if type(result) is int and float in what.types else result
+
+    @model_validator(mode="after")
+    def _apart(self) -> Self:
+        """Raise Misfit for both values of a pair."""
+        usual = by_default(type(self))
+        for pair in self.APART:
+            values = operator.attrgetter(*pair)
+            if all(x != y for x, y in zip(values(self), values(usual), strict=True)):
+                raise Misfit(pair[0], f"is given beside {pair[1]}; leave one of them out")
+        return self
 
     @property
     def own(self) -> dict[str, Any]:
@@ -322,8 +340,6 @@ def read(what: Described, x: Any) -> Any:
             return x == "true"
         elif tuple in types and what.in_brackets:
             return tuple(quantity(word, what.unit) for word in x.split(","))
-    if number and isinstance(x, bool):
-        raise ValueError(f"found {x!r}, expected a number{what.in_brackets}")
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x
@@ -342,15 +358,9 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
-    limits = tuple(
-        (sign, getattr(rule, sign))
-        for rule in info.metadata
-        for sign in SIGNS
-        if hasattr(rule, sign)
-    )
     more: Any = info.json_schema_extra
     default = info.get_default(call_default_factory=True)
-    return Described(place or name, types, limits, default, choices=choices, **more)
+    return Described(place or name, types, default=default, choices=choices, **more)
 
 
 @lru_cache
@@ -374,6 +384,7 @@ def _members(hint: Any) -> tuple[Any, ...]:
     return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
 
 
+@lru_cache(maxsize=1024)
 def record_in(cls: type[Record], name: str) -> type[Record] | None:
     """The class of the record, or of the records, that a field holds; None for a value."""
     for kind in _members(cls.model_fields[name].annotation):

@@ -60,6 +60,7 @@ class GaitRecord(Record):
 class ObserverRecord(OpenRecord):
     """The observer of the controller; its further parameters by name."""
 
+    APART = (("bandwidth", "poles"), ("order", "poles"))
     name: str | None = field(None, kind="observer")
     """Of the registry, or module:Class; by default the controller's own."""
     bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
@@ -70,14 +71,6 @@ class ObserverRecord(OpenRecord):
     """m + 2 poles, comma separated; by default the controller's own."""
     reset: Literal["none", "relabel", "measured", "model"] = field("model")
     """At impact nothing, legs swapped, states from the measurement, or from the nominal model."""
-
-    @model_validator(mode="after")
-    def _once(self) -> Self:
-        """Raise Misfit for two ways to say where the poles are."""
-        for name in ("bandwidth", "order"):
-            if self.poles is not None and getattr(self, name) is not None:
-                raise Misfit(name, "is given beside poles, which say it; leave one of them out")
-        return self
 
 
 class ContactRecord(OpenRecord):
@@ -114,6 +107,7 @@ class GroundRecord(OpenRecord):
     """The ground, or the engine that walks on it, with its further parameters by name."""
 
     SHORT = "plant"
+    APART = (("stone_range", "stones"),)
     plant: str = field("rigid", kind="plant")
     """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
     friction: float = field(0.6, gt=0, le=10)
@@ -148,11 +142,9 @@ class GroundRecord(OpenRecord):
         return usual if self.plant_step is None else self.plant_step
 
     @model_validator(mode="after")
-    def _stones_once(self) -> Self:
-        """Raise Misfit for stones that are told twice, and for a range that is none."""
+    def _in_order(self) -> Self:
+        """Raise Misfit for a range of stones that is none."""
         ends = self.stone_range
-        if ends is not None and self.stones is not None:
-            raise Misfit("stone_range", "is given beside stones; leave one of them out")
         if ends is not None and not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
             raise Misfit("stone_range", f"is {ends}, expected the least and the largest length [m]")
         return self
@@ -264,6 +256,7 @@ class Scenario(Record):
     """
 
     SHORT = "controller"
+    APART = (("hardware.delay_known", "controller.prediction"),)
     controller: ControllerRecord = field(ControllerRecord.model_construct())
     robot: RobotRecord = field(RobotRecord.model_construct())
     gait: GaitRecord = field(GaitRecord.model_construct())
@@ -292,13 +285,6 @@ class Scenario(Record):
             x = [x]
         many = isinstance(x, list | tuple)
         return tuple(parse_push(y) if isinstance(y, str) else y for y in x) if many else x
-
-    @model_validator(mode="after")
-    def _acting(self) -> Self:
-        """Raise Misfit for a delay that is counted twice."""
-        if self.hardware.delay_known and self.controller.prediction > 0.0:
-            raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
-        return self
 
 
 def read_scenario(path: Path) -> Scenario:

@@ -133,12 +133,12 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"hardware": {"perod": 1e-3}}, "hardware.perod: .* 'hardware.period'"),
         ({"hardware.period": "1 m"}, "'m' is another dimension, expected a unit such as 's'"),
         ({"hardware.period": "1e999"}, "too large"),
-        ({"controller.K_p": -1.0}, "controller.K_p: found -1.0, should be greater than 0"),
-        ({"run.impacts": True}, "run.impacts: found True, expected a number"),
+        ({"controller.K_p": -1.0}, "controller.K_p: found -1, expected > 0"),
+        ({"run.impacts": True}, "run.impacts: found True, expected int"),
         ({"pushes.0.shape": "puls"}, "pushes.0.shape: .*did you mean 'pulse'"),
         ({"controller": {"observr": {"order": 1}}}, "controller.observr: unknown name"),
         ({"start.q": 1.0}, "start.q: expected"),
-        ({"run.method": "rk5"}, "should be 'rk4'"),
+        ({"run.method": "rk5"}, "found 'rk5', expected rk4 or"),
     ],
 )
 def test_what_is_wrong_is_named(values, message) -> None:
