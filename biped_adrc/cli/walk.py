@@ -134,32 +134,24 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
     """Print what steps needed of ground and motors, a row each; those without a certificate have no impact."""
     from biped_adrc.analysis.certificate import ratio_text
 
-    columns = (
-        "step",
-        "time [s]",
-        "length [m]",
-        "torque [N m]",
-        "F_N [N]",
-        Column("friction", min_width=8),
-        "at impact",
-        "scuffs [mm]",
-        Column("breaks", min_width=8),
-    )
     rows = [
-        (
-            f"{s.step}",
-            f"{s.duration:.4f}",
-            f"{c.step_length:.4f}" if c else "",
-            f"{s.peak_torque:.1f}",
-            f"{s.mean_normal_force:.1f}",
-            ratio_text(s.mean_friction),
-            ratio_text(s.impulse_ratio) if c else "",
-            f"{1e3 * s.scuffing:.2g}",
-            ", ".join(name.replace("_", " ") for name in s.infeasible()),
-        )
+        {
+            "step": f"{s.step}",
+            "time [s]": f"{s.duration:.4f}",
+            "length [m]": f"{c.step_length:.4f}" if c else "",
+            "torque [N m]": f"{s.peak_torque:.1f}",
+            "F_N [N]": f"{s.mean_normal_force:.1f}",
+            "friction": ratio_text(s.mean_friction),
+            "at impact": ratio_text(s.impulse_ratio) if c else "",
+            "scuffs [mm]": f"{1e3 * s.scuffing:.2g}",
+            "breaks": ", ".join(name.replace("_", " ") for name in s.infeasible()),
+        }
         for s, c in zip_longest(supports, certificates)
     ]
-    console.table(columns, rows, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    widths = {"friction": 8, "breaks": 8}
+    header = (Column(name, min_width=widths.get(name)) for name in rows[0])
+    cells = (row.values() for row in rows)
+    console.table(header, cells, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for window in {s.window for s in supports}:
         console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 

@@ -44,8 +44,15 @@ MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
 LONGEST = 100
 """Letters of the name of a file that a search writes."""
-CASE, CONDITION = "case", "condition"
-"""Names under which the case and the condition of a walk stand beside what is varied."""
+
+
+def located(**names: object) -> dict[str, Any]:
+    """Names that locate a walk beside what is varied, but for empty ones.
+
+    case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
+    "before" (the case as it was).
+    """
+    return {name: x for name, x in names.items() if x != ""}
 
 
 class Point(NamedTuple):
@@ -175,9 +182,8 @@ class Study(Part):
     def sets(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
         """For each case under each condition: the values that its walks share, and its names."""
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
-            names = {CASE: case_} if case_ else {}
-            names |= {CONDITION: condition} if condition else {}
-            yield self.values_of(case_) | self.conditions.get(condition, {}), names
+            values = self.values_of(case_) | self.conditions.get(condition, {})
+            yield values, located(case=case_, condition=condition)
 
     def values_of(self, name: str) -> dict[str, Any]:
         """The values of a case, "" for none."""
