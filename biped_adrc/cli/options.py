@@ -27,21 +27,6 @@ from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
-SHORT = {
-    "controller": "controller.name",
-    "gait": "gait.name",
-    "preset": "robot.preset",
-    "robot": "robot.name",
-    "impacts": "run.impacts",
-    "period": "hardware.period",
-    "torque_limit": "hardware.torque_limit",
-    "plant": "ground.plant",
-    "engine": "run.engine",
-    "poles": "controller.observer.poles",
-    "bandwidth": "controller.observer.bandwidth",
-    "order": "controller.observer.order",
-}
-"""Values of a scenario that have short options."""
 WALKS = ("controller", "gait", "preset", "robot")
 """Options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
@@ -51,7 +36,7 @@ T = TypeVar("T")
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
     """Decorator: the options and arguments of a command, for typer.
 
-    place: of their texts in options.toml, such as "gait.design". names: of SHORT, values of a scenario, which
+    place: of their texts in options.toml, such as "gait.design". names: of the table `values`, which
     the command gets in `values`, as texts by dotted name. usual: by name, the default that the help shows.
     """
     words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
@@ -59,7 +44,7 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
     def decorate(command: Command) -> Command:
         @wraps(command)
         def run(**arguments: Any) -> None:
-            texts = {SHORT[name]: arguments.pop(name) for name in names}
+            texts = {TEXTS["values"][name]: arguments.pop(name) for name in names}
             if names:
                 arguments["values"] = {name: x for name, x in texts.items() if x is not None}
             command(**arguments)
@@ -87,7 +72,7 @@ def _shown(text: str | PlainRecord) -> object:
 
 def _option(name: str, usual: str | None) -> Parameter:
     """The parameter, for typer, of one value; usual: what the help shows as its default."""
-    what = Scenario.field_of(SHORT[name])
+    what = Scenario.field_of(TEXTS["values"][name])
     text, default = what.text.removesuffix("."), what.default
     if usual is not None:
         text, default = text.partition("; by default")[0], usual
