@@ -9,7 +9,7 @@ line, pushes, and --set NAME=VALUE with the dotted names that values have everyw
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import reduce, wraps
 from inspect import Parameter, Signature, signature
 from pathlib import Path
@@ -96,9 +96,7 @@ def scenario_from(
     for a text or a file that cannot be read, and for a value that is given twice.
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
-    for name, x in pairs(sets).items():
-        if name in values:
-            raise InputError(f"'{name}' is given twice, as --set {name} too; leave one of them out")
+    for name, x in pairs(sets, taken=values).items():
         values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
@@ -122,14 +120,18 @@ def pairs(
     sets: list[str] | None,
     option: str = "--set",
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
+    taken: Collection[str] = (),
 ) -> dict[str, str]:
-    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice."""
+    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice.
+
+    taken: names that other options have given already.
+    """
     result: dict[str, str] = {}
     for text in sets or ():
         name, equals, x = (word.strip() for word in text.partition("="))
         if not (name and equals and x):
             raise InputError(f"{option} is '{text}', expected {form}")
-        if name in result:
+        if name in result or name in taken:
             raise InputError(
                 f"'{name}' is given twice, as {option} {text} too; leave one of them out"
             )

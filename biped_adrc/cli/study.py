@@ -15,6 +15,7 @@ from typing import Any
 
 import typer
 
+import biped_adrc as ba
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, command, console
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
@@ -45,7 +46,6 @@ def study(
         console.say(f"{result.name}: {most}{result.count} walks{over}")
         return
     from biped_adrc.studies.build import NO_WALK
-    from biped_adrc.studies.carry import study as carry_out
     from biped_adrc.studies.page import chosen, headings, texts, write_page
     from biped_adrc.studies.runner import Progress
 
@@ -57,7 +57,7 @@ def study(
                 if p.note:
                     console.print(p.note)
 
-            done = carry_out(result, out, workers, cluster=cluster, progress=progress)
+            done = ba.study(result, out, workers, cluster=cluster, progress=progress)
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"

@@ -130,6 +130,15 @@ class Described(NamedTuple):
             if not getattr(operator, sign)(x, limit):
                 raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
 
+    def taken(self, x: Any) -> Any:
+        """A value as the field takes it, checked. Raises Misfit."""
+        try:
+            result = read(self, plain(x))
+            self.check(result)
+        except ValueError as error:
+            raise Misfit(self.name, str(error)) from None
+        return result
+
     @property
     def range_text(self) -> str:
         """Its range, or its choices, in a few words."""
@@ -170,11 +179,7 @@ class Record(BaseModel):
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
                 raise Misfit(name, unknown(name, cls.names()), known=False)
-            what = cls.own_value(name)
-            try:
-                result[name] = read(what, plain(result[name]))
-            except ValueError as error:
-                raise Misfit(name, str(error)) from None
+            result[name] = cls.own_value(name).taken(result[name])
         return result
 
     @classmethod
@@ -241,11 +246,7 @@ class Record(BaseModel):
         Raises InputError for an unknown field, and for a value that the field does not take.
         """
         what = cls.field_of(name)
-        try:
-            result = read(what, plain(x))
-            what.check(result)
-        except ValueError as error:
-            raise Misfit(name, str(error)) from None
+        result = what.taken(x)
         if what.kind and isinstance(result, str):
             return portable(what.kind, result)
         return float(result) if type(result) is int and float in what.types else result

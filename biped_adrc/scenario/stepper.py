@@ -131,7 +131,6 @@ class Stepper:
         self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
         """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
         `kernels.looks`."""
-        self._complete = set[Reading]()  # those whose addresses are there for all walks
 
     @property
     def sample(self) -> Sample:
@@ -196,7 +195,6 @@ class Stepper:
         self.walks[i], self.codes[i] = walk, code
         self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
-        self._complete.clear()
         for laws, _, _ in self._laws.values():
             laws[i] = 0
 
@@ -280,14 +278,12 @@ class Stepper:
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         laws, result, at = self._laws[view]
-        for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
+        for i in np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
                 laws[i] = walk.law(view)
             elif walk is not None:
                 result[i] = reading(walk, view, self.curve)
-        if not self.in_python:
-            self._complete.add(view)
         self._kernels.looks(*self._walks, *at)
         return result.copy()
 
