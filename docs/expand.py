@@ -44,7 +44,7 @@ def _names(rooms: str) -> str:
 
 
 def _fields(model: str) -> str:
-    home = importlib.import_module(model)
+    home = importlib.import_module(model).Scenario
     rows = ["| name | unit | default | range | what |", "|---|---|---|---|---|"]
     for what in map(home.field_of, home.names()):
         unit = "" if what.unit == "1" else what.unit

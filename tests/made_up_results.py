@@ -10,7 +10,7 @@ from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import KnownLimits
-from biped_adrc.paper.pushes import Fate, MemberOutcome, MemberWalk, PushCell
+from biped_adrc.paper.pushes import MemberOutcome, MemberWalk, PushCell
 from biped_adrc.paper.runs import Order, Results, Start
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
@@ -63,9 +63,19 @@ def member(npd=None, adrc=None, of=None):
 
 
 def cell(npd, adrc, doubtful=False, onset=0.1):
-    fates = [Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4, 0.5) for x in (npd, adrc)]
-    push = MapPush("identified", onset, 90.0, "all +", None)
-    return PushCell(push, fates[0], replace(fates[1], marginal=doubtful))
+    push, one = MapPush("identified", onset, 90.0, "all +", None), ended(adrc)
+    other = replace(one, half=replace(one, status="STALLED")) if doubtful else one
+    return PushCell(push, ended(npd), other)
+
+
+def ended(word):
+    """A walk of the map that is called so, "pulled" by the ground's force."""
+    status = {"fell": "FELL", "ended": "STALLED"}.get(word, "COMPLETED")
+    odd = {"infeasible": ("mean_friction", 0.9), "pulled": ("mean_normal_force", -1.0)}
+    odd["but_impact"] = ("impulse_ratio", 0.9)
+    support = replace(CERTIFICATE, **dict([odd[word]] if word in odd else []))
+    f = replace(FEASIBILITY, status=Status[status], supports=(support,))
+    return outcome("NPD", feasibility=f, status=status)
 
 
 def cycle(*sizes, change=0.0):

@@ -105,9 +105,9 @@ def test_the_observed_order(limit, order):
 def test_fine_steps_go_where_a_push_switches(biped, gait):
     push = ba.TorquePulse([1.0] * 5, step=3, start=0.1, stop=0.3)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
-    parts = refined(walker, 6, 1, ba.RK4(1e-3), ba.RK4(1e-4))
+    parts = refined(walker, 6, 1, ba.RK4(1e-3), 1e-4)
     assert [(p.impacts, p.method.h) for p in parts] == [(2, 1e-3), (2, 1e-4), (2, 1e-3)]
-    assert refined(replace(walker, disturbance=None), 6, 1, ba.RK4(1e-3), ba.RK4(1e-4)) == (
+    assert refined(replace(walker, disturbance=None), 6, 1, ba.RK4(1e-3), 1e-4) == (
         Part(6, ba.RK4(1e-3)),
     )
 

@@ -2,32 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from biped_adrc.gait.constraint import continued
-from biped_adrc.paper.pushes import Fate, PushCell, push_map
+from biped_adrc.paper.pushes import push_map, word_of
 from biped_adrc.paper.reproduction import _map
 from biped_adrc.paper.scenarios import MapPush
 from biped_adrc.scenario.walk import walk_scenario
 
-FEASIBLE = Fate("feasible", "COMPLETED", 200.0, 0.4, 0.5)
-MADE = Fate("infeasible", "COMPLETED", 50.0, 0.8, 0.5)
-FELL = Fate("fell", "FELL", 10.0, 0.9, None)
-
-
-def cell(npd: Fate, adrc: Fate) -> PushCell:
-    return PushCell(MapPush("p", 0.1, 30.0, "all +", None), npd, adrc)
+from .made_up_results import cell
 
 
 def test_marginal_cells_carry_no_claim():
-    sure = [cell(MADE, FEASIBLE), cell(FEASIBLE, FEASIBLE), cell(FEASIBLE, FELL)]
-    cells = [*sure, cell(replace(MADE, marginal=True), FEASIBLE)]
+    words = [("infeasible", "feasible"), ("feasible", "feasible"), ("pulled", "fell")]
+    sure = [cell(*pair) for pair in words]
+    cells = [*sure, cell("feasible", "feasible", doubtful=True)]
     assert [c for c in cells if c.certain] == sure
     assert _map(cells)["rows"] == [
-        ["p, unlimited", "NPD", 2, 0, 1, 0, 0, 0, 1],
-        ["p, unlimited", "ADRC", 3, 0, 0, 0, 1, 0, 0],
+        ["identified, unlimited", "NPD", 2, 0, 1, 1, 0, 0, 0],
+        ["identified, unlimited", "ADRC", 2, 0, 0, 0, 1, 0, 1],
     ]
 
 
@@ -37,7 +30,7 @@ def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     assert not walk_scenario(push.run("NPD").replace(gait={"continued": False})).outcome.walked
     (found,) = push_map([push])
     assert found.npd.status == "COMPLETED"
-    assert found.npd.word not in ("feasible", "but_impact")
+    assert word_of(found.npd) not in ("feasible", "but_impact")
 
 
 def test_a_continued_constraint_is_the_same_inside(biped, gait):

@@ -16,7 +16,7 @@ import sys
 import warnings
 from importlib import import_module
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, Lasting, app, complain
+from biped_adrc.cli.app import EXIT_INTERRUPTED, Lasting, app, errors
 from biped_adrc.core.errors import BipedError, OutputError
 
 __all__ = ["app", "main"]
@@ -36,10 +36,10 @@ def main() -> None:
     for name in ("stdout", "stderr"):
         if (stream := getattr(sys, name)) is not None:
             setattr(sys, name, Lasting(stream))
-    warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
+    warnings.showwarning = lambda message, *_: errors.say(f"warning: {message}")
     code, lost = _run(), getattr(sys.stdout, "lost", None)
     if lost is not None and not isinstance(lost, BrokenPipeError):
-        complain(
+        errors.say(
             f"error: what was printed cannot be written: {lost.strerror}; files that were to be written are "
             "complete"
         )
@@ -52,7 +52,7 @@ def _run() -> int:
     try:
         app(standalone_mode=True)
     except BipedError as error:
-        complain(f"error: {error}")
+        errors.say(f"error: {error}")
         return error.exit_code
     except SystemExit as stop:
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
@@ -61,5 +61,5 @@ def _run() -> int:
     else:
         return 0
     if code == EXIT_INTERRUPTED:
-        complain("interrupted; what was already written is complete")
+        errors.say("interrupted; what was already written is complete")
     return code

@@ -17,7 +17,6 @@ import shlex
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
 from typing import Annotated, Any, TextIO, TypeVar
@@ -26,7 +25,7 @@ import typer
 from rich import progress
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
-from rich.table import Table
+from rich.table import Column, Table
 
 import biped_adrc
 from biped_adrc.core.files import keep_inputs, one_line, output_path
@@ -77,6 +76,40 @@ class Terminal(Console):
             text = one_line(segment.text, keep="\n\t")
             yield segment if segment.control else segment._replace(text=text)
 
+    def say(self, text: str) -> None:
+        """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
+        self.print(text, highlight=False, soft_wrap=True)
+
+    def written(self, *paths: Path | None) -> None:
+        """Say which files were written; nothing for None."""
+        for path in filter(None, paths):
+            self.say(f"written to {path}")
+
+    def table(
+        self,
+        header: Iterable[str | Column],
+        rows: Iterable[Iterable[str]],
+        title: str | None = None,
+        **style: Any,
+    ) -> None:
+        """Print a table. style: more arguments of rich's."""
+        table = Table(*header, title=title, title_justify="left", **style)
+        for row in rows:
+            table.add_row(*row)
+        self.print(table)
+
+    @contextmanager
+    def bar(self, name: str) -> Iterator[Callable[[int, int | None, str], None]]:
+        """Context with a progress bar, from its first call: shown(done, of how many, what is done now)."""
+        text = progress.TextColumn("{task.description:<44.44}", markup=False)
+        counts = progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn()
+        left = progress.TextColumn("left"), progress.TimeRemainingColumn()
+        with progress.Progress(text, *counts, *left, console=self) as shown:
+            task = shown.add_task(name, total=None, visible=False)
+            yield lambda done, total, now: shown.update(
+                task, completed=done, total=total, description=now, visible=True
+            )
+
 
 class Lasting:
     """A stream to print to that takes everything, also when nobody reads or the disk is full."""
@@ -118,19 +151,6 @@ FIGURES, GAITS = (".png", ".svg"), (".json",)
 """Suffixes of figures and of gaits."""
 
 
-@contextmanager
-def bar(name: str) -> Iterator[Callable[[int, int | None, str], None]]:
-    """Context with a progress bar, from its first call: shown(done, of how many, what is done now)."""
-    text = progress.TextColumn("{task.description:<44.44}", markup=False)
-    counts = progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn()
-    left = progress.TextColumn("left"), progress.TimeRemainingColumn()
-    with progress.Progress(text, *counts, *left, console=console) as shown:
-        task = shown.add_task(name, total=None, visible=False)
-        yield lambda done, total, now: shown.update(
-            task, completed=done, total=total, description=now, visible=True
-        )
-
-
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     """The files that a robot and gaits are read from, so that no output may take their place; none for names.
 
@@ -153,27 +173,3 @@ def target(out: P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> P:
     path = output_path(out, suffixes, default=True)
     keep_inputs((path,), read)
     return path
-
-
-def say(text: str, to: Terminal = console) -> None:
-    """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
-    to.print(text, highlight=False, soft_wrap=True)
-
-
-complain = partial(say, to=errors)
-"""As `say`, to the error stream."""
-
-
-def say_written(*paths: Path | None) -> None:
-    """Say which files were written; nothing for None."""
-    for path in paths:
-        if path is not None:
-            say(f"written to {path}")
-
-
-def say_table(header: Iterable[str], rows: Iterable[Iterable[str]], title: str = "") -> None:
-    """Print a table."""
-    table = Table(*header, title=title or None, title_justify="left")
-    for row in rows:
-        table.add_row(*row)
-    console.print(table)

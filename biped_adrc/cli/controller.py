@@ -11,7 +11,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.cli.app import FIGURES, app, inputs, say, say_table, say_written, target
+import biped_adrc as ba
+from biped_adrc.cli.app import FIGURES, app, console, inputs, target
 from biped_adrc.cli.options import WALKS, options, pairs, scenario_from
 from biped_adrc.core.files import check_folder, write_text
 from biped_adrc.core.types import PlainRecord
@@ -32,7 +33,6 @@ def observer_command(
     """
     from biped_adrc.analysis.observer.report import observer_report
     from biped_adrc.core.checks import check_part
-    from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.scenario.build import RobotAndGait
     from biped_adrc.scenario.controllers import controller
 
@@ -42,11 +42,11 @@ def observer_command(
     s = scenario_from(values, sets)
     h, scene = s.hardware, RobotAndGait.of(s)
     law: Any = controller(s, scene.walked, scene.biped)
-    check_part(
-        getattr(law, "observer", None), f"the observer of '{s.controller.name}'", GPIObserver
-    )
+    what = f"the observer of '{s.controller.name}'"
+    observer: Any = getattr(law, "observer", None)
+    check_part(observer, what, ba.GPIObserver)
     report = observer_report(
-        law.observer,
+        observer,
         law.gains,
         robot=scene.biped,
         gait=scene.walked,
@@ -55,15 +55,15 @@ def observer_command(
         delay=h.delay,
         known=h.delay_known,
     )
-    say(report.verdict)
+    console.say(report.verdict)
     for section in report.sections:
-        say_table(section.header, section.rows, section.title)
+        console.table(section.header, section.rows, section.title)
     if out is not None:
         from biped_adrc.view.plots.figures import observer_figure
         from biped_adrc.view.style import write_figure
 
         write_figure(out, observer_figure(report))
-        say_written(out)
+        console.written(out)
 
 
 SLOW = 10.0
@@ -82,25 +82,25 @@ def export_command(
 ) -> None:
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
     from biped_adrc.extras.export.computer import Computer
-    from biped_adrc.extras.export.export import contents, export_c
+    from biped_adrc.extras.export.export import contents
     from biped_adrc.extras.export.loaded import tried
     from biped_adrc.scenario.build import RobotAndGait, build
 
     s = scenario_from({}, sets, scenario)
-    source = export_c(s, out, prefix, real, fmu)
+    source = ba.export_c(s, out, prefix, real, fmu)
     step, files = source.written["step"], list(source.files)
-    say(
+    console.say(
         f"step: {step.operations} operations, {step.doubles} of them in double always; {source.numbers} "
         f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
     )
-    say(tried(source))
+    console.say(tried(source))
     if fmu:
         files.append(f"{source.prefix}.fmu")
-        say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
-    say(f"written to {out}: {', '.join(files)}")
+        console.say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
+    console.say(f"written to {out}: {', '.join(files)}")
     scene = RobotAndGait.of(s)
     if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
-        say(
+        console.say(
             f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
             "walk the least difference grows too, so compare it in closed loop"
         )
@@ -117,7 +117,7 @@ def replay_command(
     out: Path | None = None,
 ) -> None:
     """Show a robot's log to a controller and its observer, and print what they make of it."""
-    from biped_adrc.extras.logs.replay import HEADER, cells, replay
+    from biped_adrc.extras.logs.replay import HEADER, cells
     from biped_adrc.view.style import write_figure
 
     s, paths = scenario_from(values, sets, scenario), list[Path]()
@@ -126,12 +126,12 @@ def replay_command(
         read = (log, *inputs(s.robot.name, s.gait.name))
         names = ("replay.csv", "steps.txt", "replay.svg")
         paths = [target(out / name, (Path(name).suffix,), read) for name in names]
-    result = replay(log, s, window)
+    result = ba.replay(log, s, window)
     if paths:
         result.to_csv(paths[0])
         write_text(paths[1], f"{result.text()}\n")
         write_figure(paths[2], result.plot())
-    say_table(HEADER, map(cells, result.rows))
+    console.table(HEADER, map(cells, result.rows))
     for remark in result.remarks:
-        say(f"note: {remark}")
-    say_written(*paths)
+        console.say(f"note: {remark}")
+    console.written(*paths)

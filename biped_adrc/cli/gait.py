@@ -16,26 +16,15 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from biped_adrc.cli.app import (
-    FIGURES,
-    GAITS,
-    app,
-    command,
-    console,
-    inputs,
-    say,
-    say_table,
-    say_written,
-    target,
-)
+import biped_adrc as ba
+from biped_adrc.cli.app import FIGURES, GAITS, app, command, console, inputs, target
 from biped_adrc.cli.options import options, pairs, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
-    from biped_adrc.gait.design.request import GaitRequest, StepLimits
-    from biped_adrc.model.biped import Biped
+    from biped_adrc.gait.design.request import GaitRequest
 
 gait_app = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
@@ -58,24 +47,23 @@ def gait_design(
     out: Path | None = None,
 ) -> None:
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
-    from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
-    from biped_adrc.model.biped import Biped
+    from biped_adrc.gait.design.request import GaitRequest, Objective
 
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     others = [text for text in sets or () if text not in of_limits]
-    limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    limits = with_sets(ba.StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if steps is not None:
         if others:
             raise InputError(
                 f"--set {others[0]}: a family takes limits alone, as limits.torque=100"
             )
-        _family(Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
+        _family(ba.Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
         return
     if speeds is None:
         out = target(out, GAITS, inputs(robot))
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
-    biped = Biped.load(robot, preset)
+    biped = ba.Biped.load(robot, preset)
     fixed: dict[str, Any] = {"slope": slope, "objective": Objective(minimise), "limits": limits}
     request = partial(with_sets, GaitRequest, others, **fixed)
     if speeds is not None:
@@ -85,10 +73,10 @@ def gait_design(
     console.print(result.text(), highlight=False)
     path = out or Path(result.gait.file_name)
     result.gait.save(path)
-    say_written(path)
+    console.written(path)
 
 
-def _design(biped: Biped, request: GaitRequest) -> DesignedGait:
+def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
     """The gait that is asked for, certified, with this command line in its provenance."""
     from biped_adrc.analysis.gait_design import certify
     from biped_adrc.gait.design.optimise import optimise
@@ -99,7 +87,7 @@ def _design(biped: Biped, request: GaitRequest) -> DesignedGait:
     return replace(result, gait=replace(result.gait, provenance=provenance))
 
 
-def _library(biped: Biped, speeds: str, request: Callable[..., GaitRequest], out: Path) -> None:
+def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], out: Path) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
     check_folder(out)
     rows, missed = [], []
@@ -116,14 +104,14 @@ def _library(biped: Biped, speeds: str, request: Callable[..., GaitRequest], out
         rows.append([f"{x:.4g}" for x in numbers])
     if rows:
         header = "m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s"
-        say_table(header, rows)
-        say_written(out)
+        console.table(header, rows)
+        console.written(out)
     if missed:
         raise GaitError("; ".join(missed))
 
 
 def _family(
-    biped: Biped, speeds: str | None, steps: str, limits: StepLimits | None, out: Path | None
+    biped: ba.Biped, speeds: str | None, steps: str, limits: ba.StepLimits | None, out: Path | None
 ) -> None:
     """Design a gait for every pair of speed and step length, and store the family through them in a file."""
     from biped_adrc.analysis.gait_design import RESERVE, design_family, library
@@ -131,12 +119,12 @@ def _family(
     if speeds is None:
         raise InputError("--steps is given without --speeds; a family needs both")
     path = target(out or Path("family.json"), GAITS)
-    gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=say)
+    gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=console.say)
     with console.status("fitting the family"):
         name = path.stem.removesuffix(f"-{biped.preset}")
         family = design_family(name, biped, gaits, {"command": command()})
     family.save(path)
-    say_written(path)
+    console.written(path)
 
 
 def _numbers(text: str) -> tuple[float, ...]:
@@ -165,41 +153,38 @@ def gait_show(
     sets: list[str] | None = None,
 ) -> None:
     """List the gaits of a robot, or say what one is and what its zero dynamics allow."""
-    from biped_adrc.analysis.zero_report import zero_report
-    from biped_adrc.gait.gait import load_gait
     from biped_adrc.gait.zero_domain import DomainLimits
-    from biped_adrc.model.biped import Biped
 
-    plot, biped = target(plot, FIGURES), Biped.load(robot, preset)
+    plot, biped = target(plot, FIGURES), ba.Biped.load(robot, preset)
     if gait is None:
         _list(biped)
         return
-    result = load_gait(gait, biped)
+    result = ba.load_gait(gait, biped)
     for key, value in result.provenance.items():
-        say(f"{key}: {value}")
+        console.say(f"{key}: {value}")
     console.print(f"period {result.period:.6f} s, slope {result.slope:g} rad", highlight=False)
     usual = {"friction": biped.description.friction_coefficient, "slope": result.slope}
-    report = zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
-    say(report.text())
+    report = ba.zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
+    console.say(report.text())
     if plot is not None:
         from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
         from biped_adrc.view.style import write_figure
 
         write_figure(plot, zero_dynamics_figure(report))
-        say_written(plot)
+        console.written(plot)
 
 
-def _list(biped: Biped) -> None:
+def _list(biped: ba.Biped) -> None:
     """Print the stored gaits of a robot in its preset."""
-    from biped_adrc.gait.gait import gait_names, load_gait
+    from biped_adrc.gait.gait import gait_names
 
     rows = []
     for name in gait_names(biped.description.name, biped.preset):
-        result = load_gait(name, biped)
+        result = ba.load_gait(name, biped)
         length = float(biped.swing_foot(result.q_minus)[0])
         numbers = (length / result.period, length, result.period, result.slope)
         rows.append((name, *(f"{x:.4g}" for x in numbers)))
-    say_table(("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]"), rows)
+    console.table(("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]"), rows)
 
 
 @gait_app.command("export")
@@ -212,14 +197,10 @@ def gait_export(
     convention: str = "paper",
 ) -> None:
     """Write a gait for MATLAB or as JSON, in any angle convention."""
-    from biped_adrc.gait.exchange.importing import export_gait
-    from biped_adrc.gait.gait import load_gait
-    from biped_adrc.model.biped import Biped
-
     path = target(out, (".json", ".mat"), inputs(robot, gait))
-    biped = Biped.load(robot, preset)
-    export_gait(load_gait(gait, biped), path, convention, biped)
-    say_written(path)
+    biped = ba.Biped.load(robot, preset)
+    ba.export_gait(ba.load_gait(gait, biped), path, convention, biped)
+    console.written(path)
 
 
 @gait_app.command("import")
@@ -236,15 +217,12 @@ def gait_import(
     out: Path | None = None,
 ) -> None:
     """Bring along a gait, or fit one to samples of a step; check that it closes, and store it for the robot."""
-    from biped_adrc.gait.exchange.importing import import_gait
-    from biped_adrc.model.biped import Biped
-
     read = (file, *inputs(robot))
     out = target(out, GAITS, read)
-    biped = Biped.load(robot, preset)
+    biped = ba.Biped.load(robot, preset)
     names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
-    gait = import_gait(file, biped, convention, names, slopes, degree, slope)
+    gait = ba.import_gait(file, biped, convention, names, slopes, degree, slope)
     path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)
     console.print(f"period {gait.period:.6f} s", highlight=False)
-    say_written(path)
+    console.written(path)

@@ -9,7 +9,7 @@ line, pushes, and --set NAME=VALUE with the dotted names that values have everyw
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import reduce, wraps
 from inspect import Parameter, Signature, signature
 from pathlib import Path
@@ -23,25 +23,10 @@ from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.records import complaint
-from biped_adrc.scenario.scenario import Scenario, field_of, read_scenario
+from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
-SHORT = {
-    "controller": "controller.name",
-    "gait": "gait.name",
-    "preset": "robot.preset",
-    "robot": "robot.name",
-    "impacts": "run.impacts",
-    "period": "hardware.period",
-    "torque_limit": "hardware.torque_limit",
-    "plant": "ground.plant",
-    "engine": "run.engine",
-    "poles": "controller.observer.poles",
-    "bandwidth": "controller.observer.bandwidth",
-    "order": "controller.observer.order",
-}
-"""Values of a scenario that have short options."""
 WALKS = ("controller", "gait", "preset", "robot")
 """Options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
@@ -51,7 +36,7 @@ T = TypeVar("T")
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
     """Decorator: the options and arguments of a command, for typer.
 
-    place: of their texts in options.toml, such as "gait.design". names: of SHORT, values of a scenario, which
+    place: of their texts in options.toml, such as "gait.design". names: of the table `values`, which
     the command gets in `values`, as texts by dotted name. usual: by name, the default that the help shows.
     """
     words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
@@ -59,7 +44,7 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
     def decorate(command: Command) -> Command:
         @wraps(command)
         def run(**arguments: Any) -> None:
-            texts = {SHORT[name]: arguments.pop(name) for name in names}
+            texts = {TEXTS["values"][name]: arguments.pop(name) for name in names}
             if names:
                 arguments["values"] = {name: x for name, x in texts.items() if x is not None}
             command(**arguments)
@@ -87,7 +72,7 @@ def _shown(text: str | PlainRecord) -> object:
 
 def _option(name: str, usual: str | None) -> Parameter:
     """The parameter, for typer, of one value; usual: what the help shows as its default."""
-    what = field_of(SHORT[name])
+    what = Scenario.field_of(TEXTS["values"][name])
     text, default = what.text.removesuffix("."), what.default
     if usual is not None:
         text, default = text.partition("; by default")[0], usual
@@ -111,10 +96,8 @@ def scenario_from(
     for a text or a file that cannot be read, and for a value that is given twice.
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
-    for name, x in pairs(sets).items():
-        if name in values:
-            raise InputError(f"'{name}' is given twice, as --set {name} too; leave one of them out")
-        values[name] = x if field_of(name).types else _own(x)
+    for name, x in pairs(sets, taken=values).items():
+        values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
         values = {**_passive(base, values, usual), **values}
@@ -137,14 +120,18 @@ def pairs(
     sets: list[str] | None,
     option: str = "--set",
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
+    taken: Collection[str] = (),
 ) -> dict[str, str]:
-    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice."""
+    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice.
+
+    taken: names that other options have given already.
+    """
     result: dict[str, str] = {}
     for text in sets or ():
         name, equals, x = (word.strip() for word in text.partition("="))
         if not (name and equals and x):
             raise InputError(f"{option} is '{text}', expected {form}")
-        if name in result:
+        if name in result or name in taken:
             raise InputError(
                 f"'{name}' is given twice, as {option} {text} too; leave one of them out"
             )

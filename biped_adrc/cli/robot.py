@@ -12,22 +12,13 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from biped_adrc.cli.app import (
-    EXIT_CHECK_FAILED,
-    app,
-    complain,
-    inputs,
-    say,
-    say_table,
-    say_written,
-    target,
-)
+import biped_adrc as ba
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console, errors, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
-    from biped_adrc.model.biped import Biped
     from biped_adrc.model.robot_import.import_robot import Derived
 
 robot_app = typer.Typer(
@@ -42,13 +33,12 @@ app.add_typer(robot_app, name="robot")
 @options("robot.list")
 def robot_list(robot: str | None = None, preset: str | None = None) -> None:
     """The robots of the package, and all values of a scenario that --set takes; or the record of one robot."""
-    from biped_adrc.model.biped import Biped
     from biped_adrc.model.robots.robot_toml import load_description, robot_names
 
     if robot is not None:
-        biped = Biped.load(robot, preset)
+        biped = ba.Biped.load(robot, preset)
         d = biped.description
-        say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
+        console.say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
         _describe(biped)
         return
     rows = []
@@ -58,20 +48,18 @@ def robot_list(robot: str | None = None, preset: str | None = None) -> None:
             default = " (default)" if each.name == d.default_preset else ""
             n, p = str(len(d.joints)), str(len(d.actuated))
             rows.append((name, each.name + default, n, p, each.source))
-    say_table(("robot", "preset", "n", "p", "source"), rows)
+    console.table(("robot", "preset", "n", "p", "source"), rows)
     _print_values()
 
 
 def _print_values() -> None:
     """Print what a scenario may say: names, units, ranges, defaults and texts."""
-    from biped_adrc.scenario.scenario import field_of, names
-
-    say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
-    for what in map(field_of, names()):
+    console.say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
+    for what in map(ba.Scenario.field_of, ba.Scenario.names()):
         default = "" if what.default in (None, {}) else f"{what.default}"
         words = ", ".join(x for x in (default, what.range_text) if x)
-        say(f"  {what.name}{what.in_brackets}{f' ({words})' if words else ''}: {what.text}")
-    say(
+        console.say(f"  {what.name}{what.in_brackets}{f' ({words})' if words else ''}: {what.text}")
+    console.say(
         "A controller, observer, contact, sensor, touchdown, push or plant takes its own parameters the same "
         "way, such as controller.K_i=90000 of NPID."
     )
@@ -94,7 +82,7 @@ def robot_check(
     _explain(derived)
     if derived.broken:
         for check in derived.broken:
-            complain(f"error: {check}")
+            errors.say(f"error: {check}")
         raise typer.Exit(EXIT_CHECK_FAILED)
 
 
@@ -115,7 +103,7 @@ def robot_new(
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
     _explain(derived)
-    say_written(record)
+    console.written(record)
 
 
 @robot_app.command("export")
@@ -126,18 +114,15 @@ def robot_export(
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
     from biped_adrc.extras.mujoco.mjcf import write_mjcf
     from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-    from biped_adrc.gait.gait import load_gait
-    from biped_adrc.model.biped import Biped
     from biped_adrc.model.ground import SoftGround
-    from biped_adrc.scenario.build import plant_step
 
     path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))
     s = scenario_from({"robot.name": robot}, sets)
-    biped = Biped.load(robot, s.robot.preset, s.hardware.friction)
+    biped = ba.Biped.load(robot, s.robot.preset, s.hardware.friction)
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
-    start = None if gait is None else load_gait(gait, biped)
-    say_written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=plant_step(s)), path, start))
+    start = None if gait is None else ba.load_gait(gait, biped)
+    console.written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=g.engine_step), path, start))
 
 
 # -- parts -----------------------------------------------------------------------------------------
@@ -160,27 +145,29 @@ def _explain(derived: Derived) -> None:
     """Print the robot, what was guessed about it, and whether each law holds."""
     _describe(derived.biped)
     for sentence in derived.guesses:
-        say(f"guessed  {sentence}")
+        console.say(f"guessed  {sentence}")
     for check in derived.checks:
-        say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
+        console.say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
 
 
-def _describe(biped: Biped) -> None:
+def _describe(biped: ba.Biped) -> None:
     """Print coordinates and their joints, Theta, feet, section, limits, and mass and inertia of the links."""
     d = biped.description
-    say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
+    console.say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
     for i, joint in enumerate(d.joints):
         role = (
             "motor" if joint in d.actuated else "free" if joint in d.passive else "absolute pitch"
         )
-        say(f"  q{i + 1} = {joint} ({role})")
+        console.say(f"  q{i + 1} = {joint} ({role})")
     terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
-    say(f"Theta = {terms}")
-    say(f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}")
-    say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
+    console.say(f"Theta = {terms}")
+    console.say(
+        f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}"
+    )
+    console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
     limit = f"torque limit {d.peak_torque:g} N m, " if biped.p else ""
-    say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
+    console.say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
     for name, link in biped.tree.links.items():
         if link.inertial is not None:
             mass, (x, _, z), iyy = link.inertial.mass, link.inertial.com, link.inertial.inertia[3]
-            say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")
+            console.say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")

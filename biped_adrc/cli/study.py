@@ -15,17 +15,8 @@ from typing import Any
 
 import typer
 
-from biped_adrc.cli.app import (
-    EXIT_CHECK_FAILED,
-    EXIT_INTERRUPTED,
-    app,
-    bar,
-    command,
-    console,
-    say,
-    say_table,
-    say_written,
-)
+import biped_adrc as ba
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, command, console
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
 
@@ -52,41 +43,40 @@ def study(
         result.rehearse()
         most = "at most " if result.search else ""
         over = f", over {', '.join(result.axes)}" if result.axes else ""
-        say(f"{result.name}: {most}{result.count} walks{over}")
+        console.say(f"{result.name}: {most}{result.count} walks{over}")
         return
     from biped_adrc.studies.build import NO_WALK
-    from biped_adrc.studies.carry import study as carry_out
     from biped_adrc.studies.page import chosen, headings, texts, write_page
     from biped_adrc.studies.runner import Progress
 
     try:
-        with bar(result.name) as shown:
+        with console.bar(result.name) as shown:
 
             def progress(p: Progress) -> None:
                 shown(p.done, p.total, result.name)
                 if p.note:
                     console.print(p.note)
 
-            done = carry_out(result, out, workers, cluster=cluster, progress=progress)
+            done = ba.study(result, out, workers, cluster=cluster, progress=progress)
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
-        say(f"{begun} {out}; the same command goes on from there")
+        console.say(f"{begun} {out}; the same command goes on from there")
         raise typer.Exit(EXIT_INTERRUPTED) from None
-    say_table(headings(done), (texts(line, short=True) for line in done.table()))
+    console.table(headings(done), (texts(line, short=True) for line in done.table()))
     if done.too_few:
-        say(done.too_few)
+        console.say(done.too_few)
     for name, words in chosen(done).items():
-        say(f"{name}: {words}")
+        console.say(f"{name}: {words}")
     statuses = done.statuses()
     for status, (count, detail) in statuses.items():
         if status in NO_WALK:
-            say(f"{count} {status}, such as: {detail}")
+            console.say(f"{count} {status}, such as: {detail}")
     written = [write_page(done)]
     if table is not None:
         done.export(table)
         written.append(table)
-    say_written(*written)
+    console.written(*written)
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
 
@@ -117,9 +107,9 @@ def reproduce(
     for joint in (joint for p in pushes for joint in p.factors):
         description.joint_index(joint)
     plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
-    with bar("starting") as progress:
+    with console.bar("starting") as progress:
         summary = run(plan, out, command(), workers, progress)
-    say("\n".join(lines(summary, out)))
+    console.say("\n".join(lines(summary, out)))
     if not summary["holds"]:
         raise typer.Exit(EXIT_CHECK_FAILED)
 

@@ -21,31 +21,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import typer
 from rich.box import SIMPLE_HEAD
-from rich.table import Column, Table
+from rich.table import Column
 
-from biped_adrc.cli.app import (
-    EXIT_FELL,
-    FIGURES,
-    app,
-    bar,
-    console,
-    inputs,
-    say,
-    say_table,
-    say_written,
-    target,
-)
+import biped_adrc as ba
+from biped_adrc.cli.app import EXIT_FELL, FIGURES, app, console, inputs, target
 from biped_adrc.cli.options import WALKS, options, scenario_from, with_sets
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.core.types import Array, PlainRecord
-from biped_adrc.hybrid.status import Status
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate, Support
     from biped_adrc.analysis.soft_steps import SoftStep
-    from biped_adrc.model.robots.limits import Limits
-    from biped_adrc.scenario.recording import Walk
-    from biped_adrc.scenario.scenario import Scenario
 
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
@@ -79,23 +65,25 @@ def simulate(
 
 
 def _walk(
-    s: Scenario, limits: Limits, end_infeasible: bool, out: Path | None, log: Path | None
+    s: ba.Scenario, limits: ba.Limits, end_infeasible: bool, out: Path | None, log: Path | None
 ) -> None:
     """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
 
     A walk with motors is carried out again at half the step; only the first one is stored.
     """
-    from biped_adrc.scenario.walk import halved, walk_scenario
+    from biped_adrc.scenario.walk import halved
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
-    with bar(name) as shown:
-        full = walk_scenario(s, lambda t, n: shown(n, total, name))
+    with console.bar(name) as shown:
+        full = ba.walk_scenario(s, lambda t, n: shown(n, total, name))
         half, run = None, full.trajectory
-        if run.status is Status.RAISED:
+        if run.status is ba.Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
         if full.gait is not None:
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
-            half = walk_scenario(finer, lambda t, n: shown(n, total, "the same at half the step"))
+            half = ba.walk_scenario(
+                finer, lambda t, n: shown(n, total, "the same at half the step")
+            )
     if end_infeasible:
         full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
     if out is not None:
@@ -110,13 +98,13 @@ def _walk(
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
-        say(f"note: {remark}")
-    say_written(out, log)
+        console.say(f"note: {remark}")
+    console.written(out, log)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 
 
-def _print_end(walk: Walk, half: Walk | None, limits: Limits) -> None:
+def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     """Print what every step needed of ground and motors, and how the walk ended.
 
     half: the same walk at half the step, where there are joints with an error.
@@ -146,31 +134,24 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
     """Print what steps needed of ground and motors, a row each; those without a certificate have no impact."""
     from biped_adrc.analysis.certificate import ratio_text
 
-    columns = (
-        "step",
-        "time [s]",
-        "length [m]",
-        "torque [N m]",
-        "F_N [N]",
-        Column("friction", min_width=8),
-        "at impact",
-        "scuffs [mm]",
-        Column("breaks", min_width=8),
-    )
-    table = Table(*columns, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    for s, c in zip_longest(supports, certificates):
-        table.add_row(
-            f"{s.step}",
-            f"{s.duration:.4f}",
-            f"{c.step_length:.4f}" if c else "",
-            f"{s.peak_torque:.1f}",
-            f"{s.mean_normal_force:.1f}",
-            ratio_text(s.mean_friction),
-            ratio_text(s.impulse_ratio) if c else "",
-            f"{1e3 * s.scuffing:.2g}",
-            ", ".join(name.replace("_", " ") for name in s.infeasible()),
-        )
-    console.print(table)
+    rows = [
+        {
+            "step": f"{s.step}",
+            "time [s]": f"{s.duration:.4f}",
+            "length [m]": f"{c.step_length:.4f}" if c else "",
+            "torque [N m]": f"{s.peak_torque:.1f}",
+            "F_N [N]": f"{s.mean_normal_force:.1f}",
+            "friction": ratio_text(s.mean_friction),
+            "at impact": ratio_text(s.impulse_ratio) if c else "",
+            "scuffs [mm]": f"{1e3 * s.scuffing:.2g}",
+            "breaks": ", ".join(name.replace("_", " ") for name in s.infeasible()),
+        }
+        for s, c in zip_longest(supports, certificates)
+    ]
+    widths = {"friction": 8, "breaks": 8}
+    header = (Column(name, min_width=widths.get(name)) for name in rows[0])
+    cells = (row.values() for row in rows)
+    console.table(header, cells, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for window in {s.window for s in supports}:
         console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 
@@ -184,7 +165,7 @@ def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
         flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
         rows.append((f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}"))
     if rows:
-        say_table(header, rows)
+        console.table(header, rows)
 
 
 def _named(letter: str, x: Array) -> str:
@@ -201,24 +182,24 @@ def poincare(
     observer_states: bool = True,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
-    from biped_adrc.analysis.stability import cycle_stability, nominal_step
+    from biped_adrc.analysis.stability import nominal_step
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.cycle import cycle_of
 
     s = scenario_from(values, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
-        result = cycle_stability(cycle)
+        result = ba.cycle_stability(cycle)
     walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
-    say(
+    console.say(
         f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}\n"
         f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]"
     )
     step = nominal_step(cycle, o, limits(s))
     _print_steps([step], [step])
-    say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
+    console.say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
 
 
 # -- pictures of walks, and a page to push one ------------------------------------------------------
@@ -242,7 +223,7 @@ def animate(
     walks = load_walks(runs)
     first, *others = walks
     export(out, {name: walks[name] for name in (*others, first)}, clip)  # the last is drawn solid
-    say_written(out)
+    console.written(out)
 
 
 @app.command()
@@ -261,7 +242,7 @@ def plot(
     runs = [run, *(beside or [])]
     out = target(out, FIGURES, runs)
     write_figure(out, draw(figure, load_walks(runs)))
-    say_written(out)
+    console.written(out)
 
 
 @app.command("play")
@@ -274,7 +255,7 @@ def play_command(
     out: Path | None = None,
 ) -> None:
     """Push a walk yourself, on a page with a guided tour; sampled at 1 kHz if not said otherwise."""
-    from biped_adrc.extras.play.page import OTHERS, play
+    from biped_adrc.extras.play.page import OTHERS
 
     out = target(out, (".html",), () if scenario is None else (scenario,))
     s = scenario_from(values, sets, scenario)
@@ -283,7 +264,7 @@ def play_command(
     ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")
     others = {ghost: {"controller.name": ghost}, **OTHERS}
     path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out
-    play(path, s, others)
-    say_written(path)
+    ba.play(path, s, others)
+    console.written(path)
     if out is None and not webbrowser.open(path.as_uri()):
-        say("no browser could be opened here: open the page in one")
+        console.say("no browser could be opened here: open the page in one")

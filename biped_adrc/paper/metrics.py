@@ -198,7 +198,7 @@ def figure(i: str, figures: Sequence[float]) -> float:
 
 def adrc_counts(cell: PushCell) -> float:
     """1 where ADRC makes all steps, feasible but for the impact, else 0."""
-    return float(cell.adrc.outcome in COUNTED)
+    return float(cell.adrc.feasibility.outcome in COUNTED)
 
 
 def quotient(pair: tuple[float, float]) -> float:
@@ -297,7 +297,7 @@ usual_torso = partial(torso, most=20.0)
 
 def lost_by_npd(r: Results) -> dict[str, PushCell]:
     """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
-    cells = [c for c in r.cells if c.certain and c.npd.outcome in LOST]
+    cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c
         for c in cells

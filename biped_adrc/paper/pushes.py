@@ -42,7 +42,7 @@ from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import Part, execute_twice, method_of, runs_in_parts
+from biped_adrc.scenario.walk import Part, execute_twice, methods_of, runs_in_parts
 
 
 class Track(NamedTuple):
@@ -107,7 +107,7 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    first = method_of(run.replace({"run.h": share * h}), walker)
+    first = methods_of(run.run.replace({"h": share * h}), walker)[0]
     parts = [Part(1, first), Part(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
     return [Walk(walker, gait, moved) for moved in runs]
@@ -189,54 +189,31 @@ def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
 # -- the map of pushes ------------------------------------------------------------------------------
 WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and the columns of its table."""
+FORCES = ("mean_normal_force", "mean_friction", "impulse_ratio")
+"""Numbers of a walk of the map that the summary has."""
 LOST = ("fell", "ended")
 """Outcomes of a walk that did not make its steps."""
 
 
-@dataclass(frozen=True)
-class Fate:
-    """What became of one walk."""
+def word_of(o: Outcome) -> str:
+    """What a walk of the map is called; "marginal" where it ends in another way at half of the step."""
+    one, half = ((_at_step(x), x.status) for x in (o, o.half or o))
+    return one[0] if one == half else "marginal"
 
-    outcome: str
-    """One of the words in `OUTCOMES`."""
-    status: str
-    """How the simulation ended."""
-    mean_normal_force: float | None
-    """The least F_N averaged over 5 ms [N]; where it is negative the ground would have had to pull."""
-    mean_friction: float | None
-    """The largest |F_T| / F_N of such an average; None where the ground never pushed."""
-    impulse_ratio: float | None
-    """The largest |F_T| / F_N of the impacts."""
-    reasons: tuple[str, ...] = ()
-    """Why the walk is not feasible, by the names of `Feasibility.reasons`."""
-    marginal: bool = False
-    """Whether its word or its status is another at half of the step."""
 
-    @classmethod
-    def of(cls, o: Outcome) -> Fate:
-        """Of a run computed at two steps; marginal where word or status differ between them."""
-        f = o.feasibility
-        result = (f.mean_normal_force, f.mean_friction, f.impulse_ratio)
-        normal, friction, impulse = (x if math.isfinite(x) else None for x in result)
-        used = cls(f.outcome, o.status, normal, friction, impulse, tuple(f.reasons))
-        half = used if o.half is None else cls.of(o.half)
-        return replace(used, marginal=(used.word, used.status) != (half.word, half.status))
-
-    @property
-    def word(self) -> str:
-        """As in the map: "marginal", or "pulled" for a walk that needed a ground that pulls, or the outcome."""
-        if self.marginal:
-            return "marginal"
-        pulls = self.mean_normal_force is not None and self.mean_normal_force <= 0.0
-        return "pulled" if self.outcome == "infeasible" and pulls else self.outcome
+def _at_step(o: Outcome) -> str:
+    """The same at one step; "pulled" for a walk that needed a ground that pulls."""
+    f = o.feasibility
+    pulls = f.outcome == "infeasible" and -math.inf < f.mean_normal_force <= 0.0
+    return "pulled" if pulls else f.outcome
 
 
 class PushCell(NamedTuple):
-    """One push and what each controller made of it."""
+    """One push, and the walk of each controller."""
 
     push: MapPush
-    npd: Fate
-    adrc: Fate
+    npd: Outcome
+    adrc: Outcome
 
     @property
     def setting(self) -> str:
@@ -247,23 +224,19 @@ class PushCell(NamedTuple):
     @property
     def certain(self) -> bool:
         """Whether it is marginal under neither controller."""
-        return not (self.npd.marginal or self.adrc.marginal)
+        return "marginal" not in map(word_of, (self.npd, self.adrc))
 
     def row(self) -> dict[str, object]:
         """In plain values, for the figure and the summary."""
-        return {
-            **asdict(self.push),
-            "npd": asdict(self.npd),
-            "adrc": asdict(self.adrc),
-            "onset_ms": 1e3 * self.push.onset,
-            "npd_word": self.npd.word,
-            "adrc_word": self.adrc.word,
-        }
+        result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
+        for name, o in (("npd", self.npd), ("adrc", self.adrc)):
+            f = o.feasibility
+            forces = {x: getattr(f, x) for x in FORCES}
+            said = {"outcome": f.outcome, "status": o.status, "reasons": list(f.reasons)}
+            result |= {name: said | forces, f"{name}_word": word_of(o)}
+        return result
 
 
 def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
     """Both controllers under every push, each at two steps."""
-    return [
-        PushCell(push, *(Fate.of(execute_twice(push.run(c))) for c in CONTROLLERS))
-        for push in pushes
-    ]
+    return [PushCell(x, *(execute_twice(x.run(c)) for c in CONTROLLERS)) for x in pushes]

@@ -30,7 +30,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.poincare import regression_of
-from biped_adrc.paper.pushes import WORDS, PushCell
+from biped_adrc.paper.pushes import WORDS, PushCell, word_of
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
@@ -238,7 +238,9 @@ COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step
 
 def _map(cells: list[PushCell]) -> Table:
     """How many pushes of the map ended how, by preset, torque limit and controller."""
-    fates = [(x.setting, c, w.word) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)]
+    fates = [
+        (x.setting, c, word_of(w)) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)
+    ]
     count = Counter(fates)
     return table(
         {"preset, torque limit": name, "controller": c}

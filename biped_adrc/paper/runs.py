@@ -55,8 +55,9 @@ def twice(run: Scenario) -> Outcome:
     h = run.run.h
     if h is None or h > 0.2 * NODE_DISTANCE or run.controller.observer.reset != "model":
         return execute_twice(run)
-    half = sparse(walk_scenario(halved(run)), 0.5 * NODE_DISTANCE)
-    return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)
+    walk = sparse(walk_scenario(run))
+    half = sparse(walk_scenario(halved(run, walk.walker)), 0.5 * NODE_DISTANCE)
+    return replace(walk.outcome, half=half.outcome)
 
 
 @dataclass(frozen=True)
@@ -73,10 +74,9 @@ class Headline:
 
 def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
-    walk, half = sparse(walk_scenario(run)), halved(run)
-    quarter = walk_scenario(
-        halved(half).replace(run={"first_step": run.pushes[0].step, "impacts": 2})
-    ).outcome
+    walk = sparse(walk_scenario(run))
+    half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
+    quarter = walk_scenario(halved(half, walk.walker).replace(run=late)).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
     return Headline(outcome, walk.trajectory, walk_laws(walk))

@@ -42,29 +42,14 @@ def declared() -> dict[str, Any]:
 
 PAPER_PUSH, SINE = (Push(**declared()["pushes"][name]) for name in ("paper", "sine"))
 """The push of figures 4 to 6, and a sine."""
-HEAVIER = {"torso": 1.2, "thigh": 1.15}
-"""Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
-KINDS: dict[str, dict[str, Any]] = {
-    "masses": {"mass": HEAVIER},
-    "masses and inertias": {"mass": HEAVIER, "inertia": HEAVIER},
-}
-"""What is heavier in the plant."""
-POLICIES = ("none", "relabel", "measured", "model")
-"""What the observer's states become at an impact."""
-RISE = 0.01
-"""Time in which the headline push rises and falls [s], in the runs beside those with vertical edges."""
+KINDS: dict[str, dict[str, Any]] = declared()["heavier"]
+"""What is heavier in the plant: errors of a scenario by name."""
 STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
 """Steps of RK4 [s]: of the whole walk, and of the single supports where a push switches and the one after."""
 LOOSE = 2e-4
 """Step of the exponential method [s] under ADRC, where its error is no spike of less than 1e-5 rad."""
 COARSE = 1e-3
 """Step [s] of walks of which endings and step times are taken."""
-RESET_STEP, DIVERGING_STEP = 2.5e-5, 5e-5
-"""Steps [s] after an impact that the observer does not expect; of the walk that diverges 1.2 ms after it."""
-ENGINES_STEP = 1e-3
-"""Step [s] at which the two engines are compared over the pushed step."""
-TORSO_STEP = 17
-"""Single support in which walks start whose push in single support 19 changes the speed."""
 
 
 @dataclass(frozen=True)
@@ -94,22 +79,15 @@ class Plan:
         """What this plan does not compute, in words."""
         if self.full:
             return ()
-        late = "the map of pushes, but for late pushes of 150 N m"
-        if not self.quick:
-            return (f"{late} (--full)",)
-        return (
-            late,
-            "the multipliers of ADRC, its observer's states included",
-            f"presets other than {self.preset}",
-            "(20) as printed",
-            "the observer's resets at impact compared",
+        words = packaged("biped_adrc.paper", "claims.toml")["left_out"]
+        return tuple(
+            x.format(preset=self.preset) for x in words["quick" if self.quick else "usual"]
         )
 
 
 def on_torso(torque: float) -> Push:
     """A push of 0.2 s on the torso, which no motor drives [N m]."""
-    step = declared()["push"]["step"]
-    return Push(joints="q5", torque=torque, step=step, onset=0.1, duration=0.2)
+    return Push(torque=torque, **declared()["torso"]["push"])
 
 
 def scenario(controller: str, preset: str, **values: Any) -> Scenario:
@@ -143,7 +121,11 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
-    run = {"first_step": plan.pushes[0].step, "impacts": 1, "h": ENGINES_STEP}
+    run = {
+        "first_step": plan.pushes[0].step,
+        "impacts": 1,
+        "h": declared()["walks"]["engines_step"],
+    }
     one = scenario(controller, plan.preset, pushes=plan.pushes, run=run)
     return one.replace({"run.engine": PINOCCHIO}), one
 
@@ -156,7 +138,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     at an impact. Where a walk starts later than in step 1, it starts on the orbit.
     """
     runs: dict[str, Scenario] = {}
-    rising = tuple(push.replace(rise=RISE) for push in plan.pushes)
+    rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
     first = min(push.step for push in plan.pushes)
     for c in CONTROLLERS:
         p, fine = plan.preset, STEPS[c][1]
@@ -165,7 +147,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
             runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", run=EIGHT)
         rises = {"first_step": first, "impacts": 2, "fine": fine}
         runs[f"rising push {c}"] = plain(c, p, pushes=rising, run=rises)
-        late = {"first_step": TORSO_STEP, "impacts": 9}
+        late = {"first_step": declared()["torso"]["first_step"], "impacts": 9}
         runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), run={**late, "fine": fine})
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
         sampled: Values = {"hardware.period": 1e-3, "run.h": 1e-3}
@@ -182,9 +164,9 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
 
     An observer that does not expect the impact asks for torques that no motor gives.
     """
-    runs = {}
-    for policy, limit in itertools.product(POLICIES, (None, 150.0)):
-        h = DIVERGING_STEP if policy == "none" and limit is None else RESET_STEP
+    runs, k = {}, declared()["walks"]
+    for policy, limit in itertools.product(k["resets"], (None, 150.0)):
+        h = k["diverging_step" if policy == "none" and limit is None else "reset_step"]
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
         values: Values = {RESET: policy, "hardware.torque_limit": limit, "run.impacts": 2}
         runs[name] = loose("ADRC", preset, h, **values)

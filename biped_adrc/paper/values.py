@@ -66,13 +66,14 @@ def of_recipe_push(r: Results) -> dict[str, object]:
 def of_map(r: Results) -> dict[str, object]:
     """What became of the pushes that throw NPD."""
     known = [c for c in r.cells if c.certain]
-    fates = [c.adrc.outcome for c in m.lost_by_npd(r).values()]
+    fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
+    lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
     return {
         "lost": len(fates),
         "known": len(known),
         "on": sum(x not in LOST for x in fates),
         "feasible": sum(x in COUNTED for x in fates),
-        "alone": sum(c.adrc.outcome in LOST and c.npd.outcome not in LOST for c in known),
+        "alone": lost.count([False, True]),
         "doubtful": len(r.cells) - len(known),
     }
 

@@ -2,7 +2,7 @@
 
     RobotAndGait.of(s)   nominal robot, and gait (or the cycle of a robot without motors)
     build(s)             the `Walker`: plant, controller, disturbance, timing, sensors, motors, ground
-    start(s, scene)      (q, v) at which the walk begins
+    scene.start(s)       (q, v) at which the walk begins
 
 The controller always has the nominal robot as its model; the plant differs from it where the scenario asks for
 model errors. Called by `walk`, by studies, and by worker processes, which receive the scenario alone.
@@ -55,10 +55,6 @@ from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
 """Name of the plant that is the walker's own."""
-LONGEST_PLANT_STEP = 2e-4
-"""Default step of an engine with soft ground, where the ground is soft enough [s]."""
-RESOLVED = 0.1
-"""Of the ground's time constant: the longest step that resolves contact."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
 """What soft ground takes from the record of the ground."""
 WITHOUT_MOTORS = ("robot", "controller.name", "run", "limits", "ground.slope")
@@ -105,6 +101,26 @@ class RobotAndGait:
         Raises InputError for a robot without motors.
         """
         return frozen(self.walked.start(self.biped))
+
+    def start(self, s: Scenario) -> tuple[Array, Array]:
+        """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with a scenario's offsets.
+
+        First random offsets of every coordinate, then the rates scaled by `speed`, then the values of
+        single coordinates. Raises InputError for a coordinate that the robot does not have.
+        """
+        q, v = self.on_orbit
+        x, random = s.start, np.random.default_rng(drawn(s, "start"))
+        q = q + x.spread * random.standard_normal(len(q))
+        v = v + x.rate_spread * random.standard_normal(len(v))
+        v = v * (1.0 + x.speed + x.speed_spread * random.standard_normal())
+        for name, added in x.own.items():
+            place = int(name[1:]) - 1
+            if not 0 <= place < len(q):
+                raise InputError(
+                    f"start.{name}: robot '{s.robot.name}' has the coordinates 1 to {len(q)}"
+                )
+            (q if name[0] == "q" else v)[place] += added
+        return q, v
 
     @property
     def walked(self) -> Gait:
@@ -189,27 +205,6 @@ def limits(s: Scenario) -> Limits:
     return Limits(s.limits.friction, None, s.limits.window)
 
 
-def start(s: Scenario, scene: RobotAndGait) -> tuple[Array, Array]:
-    """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with the scenario's offsets.
-
-    First random offsets of every coordinate, then the rates scaled by `speed`, then the values of
-    single coordinates. Raises InputError for a coordinate that the robot does not have.
-    """
-    q, v = scene.on_orbit
-    x, random = s.start, np.random.default_rng(drawn(s, "start"))
-    q = q + x.spread * random.standard_normal(len(q))
-    v = v + x.rate_spread * random.standard_normal(len(v))
-    v = v * (1.0 + x.speed + x.speed_spread * random.standard_normal())
-    for name, added in x.own.items():
-        place = int(name[1:]) - 1
-        if not 0 <= place < len(q):
-            raise InputError(
-                f"start.{name}: robot '{s.robot.name}' has the coordinates 1 to {len(q)}"
-            )
-        (q if name[0] == "q" else v)[place] += added
-    return q, v
-
-
 def plant_of(s: Scenario, biped: Biped) -> Biped:
     """The robot that walks: the nominal one with the scenario's model errors, itself where there are none.
 
@@ -255,13 +250,6 @@ def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
     return named_part("touchdown", t.name, known, t.own, Touchdown, "hardware.touchdown")  # type: ignore[type-abstract]
 
 
-def plant_step(s: Scenario) -> float:
-    """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
-    if s.ground.plant_step is not None:
-        return s.ground.plant_step
-    return min(LONGEST_PLANT_STEP, RESOLVED * s.ground.time_constant)
-
-
 def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
     """A plant of the registry for a walker's robot on its slope. options: more values by name.
 
@@ -286,7 +274,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
     options = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
-    plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": plant_step(s)})
+    plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})
     return stepping_loop(walker, plant, s.run.engine, s.run.first_step)
 
 

@@ -13,7 +13,7 @@ number of its name. A value that nothing takes is an error, since the user expec
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
@@ -64,21 +64,29 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
 
 
 def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
-    """The controller of a record; place: its dotted name, for messages."""
+    """The controller of a record; place: its dotted name, for messages.
+
+    An outer loop stays around the policies of the inner one: its state does not begin anew at a touchdown.
+    """
     entry, what = find("controller", c.name), f"controller '{c.name}'"
     make = entry.load()
     accepted = takes(make)
-    if "inner" in accepted:
-        inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
-        law = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
-        _all_taken(place, c, accepted, accepted)
-        return law  # around the policies: its state does not begin anew at a touchdown
-    if c.inner is not None:
+    outer = "inner" in accepted
+    if c.inner is not None and not outer:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
-    values, used = _values(what, make, c, entry.defaults)
+    if outer:
+        inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
+        values, used = {**c.own, "inner": inner}, set(accepted)
+    else:
+        values, used = _values(what, make, c, entry.defaults)
     law = construct(what, make, {**known, **values}, Controller, place)
-    _all_taken(place, c, used, accepted)
-    return _around(place, c, law, known)
+    for at in c.dotted():
+        if at.partition(".")[0] not in AROUND and at not in used:
+            others = [*accepted, *(GAINS if "gains" in accepted else ())]
+            text = unknown(at, [x for x in others if x not in CONTEXT])
+            text = text.replace("unknown name", f"'{c.name}' does not take it")
+            raise Misfit(f"{place}.{at}", text)
+    return law if outer else _around(place, c, law, known)
 
 
 def _around(place: str, c: ControllerRecord, law: Controller, known: Values) -> Controller:
@@ -149,14 +157,3 @@ def _default(make: Callable[..., object]) -> Observer:
     factory = of_class.get("observer")
     usual = factory() if callable(factory) else takes(make)["observer"].default
     return usual if isinstance(usual, Observer) else GPIObserver.from_poles()
-
-
-def _all_taken(
-    place: str, c: ControllerRecord, used: Container[str], known: Collection[str]
-) -> None:
-    """Raise Misfit for a value that nothing takes, with the names that the controller knows."""
-    for at in c.dotted():
-        if at.partition(".")[0] not in AROUND and at not in used:
-            others = [x for x in (*known, *(GAINS if "gains" in known else ())) if x not in CONTEXT]
-            text = unknown(at, others).replace("unknown name", f"'{c.name}' does not take it")
-            raise Misfit(f"{place}.{at}", text)

@@ -30,7 +30,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
-from biped_adrc.scenario.walk import method_of
+from biped_adrc.scenario.walk import methods_of
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
@@ -99,7 +99,7 @@ def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     walker = build(s.replace(pushes=()), scene)
     q, v = scene.walked.q_minus, scene.walked.v_minus
     upright = math.pi * round(q[-1] / math.pi)  # a leg that stands is at pi
-    P = ReturnMap(walker, method_of(s, walker), observer_states, pitch=upright)
+    P = ReturnMap(walker, methods_of(s.run, walker)[0], observer_states, pitch=upright)
     return Cycle(P, walker.initial_state(q, v))
 
 

@@ -17,10 +17,8 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from pydantic import model_validator
-
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.records import Misfit, OpenRecord, field
+from biped_adrc.scenario.records import OpenRecord, field
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity
 
@@ -46,7 +44,7 @@ class Push(OpenRecord):
     """
 
     SHORT = "shape"
-
+    APART = (("force", "torque"), ("torque", "link"))
     shape: str = field("pulse", kind="disturbance")
     """In time: pulse, step, sine, noise, recorded, hip force, or module:Class."""
     torque: float | dict[str, float] = field(0.0, "N m")
@@ -71,15 +69,6 @@ class Push(OpenRecord):
     """Of a sine; the highest of noise."""
     across_impacts: bool | None = field(None)
     """Whether it goes on over impacts; by default as its shape does."""
-
-    @model_validator(mode="after")
-    def _one_kind(self) -> Push:
-        """Raise Misfit for a torque and a force at once."""
-        if self.force > 0.0 and self.torque not in (0.0, {}):
-            raise Misfit("force", "is given beside a torque; write two pushes")
-        if self.link is not None and self.torque not in (0.0, {}):
-            raise Misfit("torque", f"is on joints, and the link '{self.link}' takes a force [N]")
-        return self
 
     @property
     def over_impacts(self) -> bool:

@@ -53,7 +53,8 @@ def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
 
     The docstring below the field is its help text.
     """
-    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
+    extra: Any = {"unit": unit, "kind": kind, "limits": tuple(limits.items())}
+    return Field(default, json_schema_extra=extra)
 
 
 class Misfit(InputError):
@@ -121,12 +122,22 @@ class Described(NamedTuple):
     def check(self, x: Any) -> None:
         """Raise ValueError for a value of another type, or out of its range."""
         wrong = self.types and not isinstance(x, (*self.types, *((int,) * self.number)))
+        wrong = wrong or (self.number and isinstance(x, bool))
         if wrong or (self.choices and x is not None and x not in self.choices):
             kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
                 raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
+
+    def taken(self, x: Any) -> Any:
+        """A value as the field takes it, checked. Raises Misfit."""
+        try:
+            result = read(self, plain(x))
+            self.check(result)
+        except ValueError as error:
+            raise Misfit(self.name, str(error)) from None
+        return result
 
     @property
     def range_text(self) -> str:
@@ -147,6 +158,8 @@ class Record(BaseModel):
     )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
+    APART: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Pairs of values that say the same, or exclude one another, by dotted names."""
 
     def __init__(self, **values: Any) -> None:
         try:
@@ -165,12 +178,8 @@ class Record(BaseModel):
         result = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
-                raise Misfit(name, unknown(name, names_of(cls)), known=False)
-            what = cls.own_value(name)
-            try:
-                result[name] = read(what, plain(result[name]))
-            except ValueError as error:
-                raise Misfit(name, str(error)) from None
+                raise Misfit(name, unknown(name, cls.names()), known=False)
+            result[name] = cls.own_value(name).taken(result[name])
         return result
 
     @classmethod
@@ -183,7 +192,74 @@ class Record(BaseModel):
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
         name = str(info.field_name)
-        return read(described(cls, name), plain(x))
+        what = described(cls, name)
+        x = read(what, plain(x))
+        if record_in(cls, name) is None:
+            what.check(x)
+        return x
+
+    @classmethod
+    def names(cls, before: str = "") -> list[str]:
+        """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
+        result = []
+        for name, info in cls.model_fields.items():
+            inner = record_in(cls, name)
+            if inner is None or inner is cls:
+                result.append(before + name)
+            else:
+                place = "0." if get_origin(info.annotation) is tuple else ""
+                result += inner.names(f"{before}{name}.{place}")
+        return result
+
+    @classmethod
+    def field_of(cls, name: str) -> Described:
+        """Type, unit, range, default and text of a value by its dotted name.
+
+        Raises InputError with the nearest names.
+        """
+        at: type[Record] = cls
+        parts = [part for part in name.split(".") if not part.isdigit()]
+        for k, part in enumerate(parts):
+            inside = k < len(parts) - 1
+            if part not in at.model_fields:
+                if issubclass(at, OpenRecord) and not inside:
+                    return at.own_value(part)._replace(name=name)
+                raise Misfit(name, unknown(name, cls.names()))
+            inner = record_in(at, part)
+            if inner is None:
+                text = texts(at)[part]
+                if inside:  # of a table
+                    return Described(name, (float,), text=text)
+                return described(at, part, name)._replace(text=text)
+            at = inner
+        if at.SHORT in at.model_fields:
+            return at.field_of(at.SHORT)._replace(name=name)
+        raise Misfit(
+            name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}"
+        )
+
+    @classmethod
+    def value_of(cls, name: str, x: object) -> Any:
+        """Reads and checks a value x for a field by its dotted name, such as "run.h".
+
+        "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
+        Raises InputError for an unknown field, and for a value that the field does not take.
+        """
+        what = cls.field_of(name)
+        result = what.taken(x)
+        if what.kind and isinstance(result, str):
+            return portable(what.kind, result)
+        return float(result) if type(result) is int and float in what.types else result
+
+    @model_validator(mode="after")
+    def _apart(self) -> Self:
+        """Raise Misfit for both values of a pair."""
+        usual = by_default(type(self))
+        for pair in self.APART:
+            values = operator.attrgetter(*pair)
+            if all(x != y for x, y in zip(values(self), values(usual), strict=True)):
+                raise Misfit(pair[0], f"is given beside {pair[1]}; leave one of them out")
+        return self
 
     @property
     def own(self) -> dict[str, Any]:
@@ -265,8 +341,6 @@ def read(what: Described, x: Any) -> Any:
             return x == "true"
         elif tuple in types and what.in_brackets:
             return tuple(quantity(word, what.unit) for word in x.split(","))
-    if number and isinstance(x, bool):
-        raise ValueError(f"found {x!r}, expected a number{what.in_brackets}")
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x
@@ -285,15 +359,9 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
-    limits = tuple(
-        (sign, getattr(rule, sign))
-        for rule in info.metadata
-        for sign in SIGNS
-        if hasattr(rule, sign)
-    )
     more: Any = info.json_schema_extra
     default = info.get_default(call_default_factory=True)
-    return Described(place or name, types, limits, default, choices=choices, **more)
+    return Described(place or name, types, default=default, choices=choices, **more)
 
 
 @lru_cache
@@ -317,6 +385,7 @@ def _members(hint: Any) -> tuple[Any, ...]:
     return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
 
 
+@lru_cache(maxsize=1024)
 def record_in(cls: type[Record], name: str) -> type[Record] | None:
     """The class of the record, or of the records, that a field holds; None for a value."""
     for kind in _members(cls.model_fields[name].annotation):
@@ -324,41 +393,6 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
             if isinstance(inner, type) and issubclass(inner, Record):
                 return inner
     return None
-
-
-def names_of(cls: type[Record], before: str = "") -> list[str]:
-    """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
-    result = []
-    for name, info in cls.model_fields.items():
-        inner = record_in(cls, name)
-        if inner is None or inner is cls:
-            result.append(before + name)
-        else:
-            place = "0." if get_origin(info.annotation) is tuple else ""
-            result += names_of(inner, f"{before}{name}.{place}")
-    return result
-
-
-def described_in(cls: type[Record], name: str) -> Described:
-    """What is known of a value by its dotted name. Raises InputError with the nearest names."""
-    at: type[Record] = cls
-    parts = [part for part in name.split(".") if not part.isdigit()]
-    for k, part in enumerate(parts):
-        inside = k < len(parts) - 1
-        if part not in at.model_fields:
-            if issubclass(at, OpenRecord) and not inside:
-                return at.own_value(part)._replace(name=name)
-            raise Misfit(name, unknown(name, names_of(cls)))
-        inner = record_in(at, part)
-        if inner is None:
-            text = texts(at)[part]
-            if inside:  # of a table
-                return Described(name, (float,), text=text)
-            return described(at, part, name)._replace(text=text)
-        at = inner
-    if at.SHORT in at.model_fields:
-        return described_in(at, at.SHORT)._replace(name=name)
-    raise Misfit(name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}")
 
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
@@ -372,7 +406,7 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
         if inner.known:
             return Misfit(place, inner.text)
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
-        return Misfit(place, unknown(place, names_of(cls)), known=False)
+        return Misfit(place, unknown(place, cls.names()), known=False)
     return Misfit(place, complaint(result))
 
 

@@ -25,21 +25,14 @@ from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write
 from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.records import (
-    Described,
-    Misfit,
-    OpenRecord,
-    Record,
-    described_in,
-    field,
-    names_of,
-    plain,
-    read,
-)
-from biped_adrc.scenario.registry import portable
+from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, field
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
+LONGEST_PLANT_STEP = 2e-4
+"""Default step of an engine with soft ground, where the ground is soft enough [s]."""
+RESOLVED = 0.1
+"""Of the ground's time constant: the longest step that resolves contact."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
 
@@ -67,6 +60,7 @@ class GaitRecord(Record):
 class ObserverRecord(OpenRecord):
     """The observer of the controller; its further parameters by name."""
 
+    APART = (("bandwidth", "poles"), ("order", "poles"))
     name: str | None = field(None, kind="observer")
     """Of the registry, or module:Class; by default the controller's own."""
     bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
@@ -77,14 +71,6 @@ class ObserverRecord(OpenRecord):
     """m + 2 poles, comma separated; by default the controller's own."""
     reset: Literal["none", "relabel", "measured", "model"] = field("model")
     """At impact nothing, legs swapped, states from the measurement, or from the nominal model."""
-
-    @model_validator(mode="after")
-    def _once(self) -> Self:
-        """Raise Misfit for two ways to say where the poles are."""
-        for name in ("bandwidth", "order"):
-            if self.poles is not None and getattr(self, name) is not None:
-                raise Misfit(name, "is given beside poles, which say it; leave one of them out")
-        return self
 
 
 class ContactRecord(OpenRecord):
@@ -121,6 +107,7 @@ class GroundRecord(OpenRecord):
     """The ground, or the engine that walks on it, with its further parameters by name."""
 
     SHORT = "plant"
+    APART = (("stone_range", "stones"),)
     plant: str = field("rigid", kind="plant")
     """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
     friction: float = field(0.6, gt=0, le=10)
@@ -148,12 +135,16 @@ class GroundRecord(OpenRecord):
     stone_tolerance: float = field(0.025, "m", gt=0, le=1)
     """Distance from the middle of a stone at which a foot still lands on it."""
 
+    @property
+    def engine_step(self) -> float:
+        """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
+        usual = min(LONGEST_PLANT_STEP, RESOLVED * self.time_constant)
+        return usual if self.plant_step is None else self.plant_step
+
     @model_validator(mode="after")
-    def _stones_once(self) -> Self:
-        """Raise Misfit for stones that are told twice, and for a range that is none."""
+    def _in_order(self) -> Self:
+        """Raise Misfit for a range of stones that is none."""
         ends = self.stone_range
-        if ends is not None and self.stones is not None:
-            raise Misfit("stone_range", "is given beside stones; leave one of them out")
         if ends is not None and not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
             raise Misfit("stone_range", f"is {ends}, expected the least and the largest length [m]")
         return self
@@ -265,6 +256,7 @@ class Scenario(Record):
     """
 
     SHORT = "controller"
+    APART = (("hardware.delay_known", "controller.prediction"),)
     controller: ControllerRecord = field(ControllerRecord.model_construct())
     robot: RobotRecord = field(RobotRecord.model_construct())
     gait: GaitRecord = field(GaitRecord.model_construct())
@@ -293,13 +285,6 @@ class Scenario(Record):
             x = [x]
         many = isinstance(x, list | tuple)
         return tuple(parse_push(y) if isinstance(y, str) else y for y in x) if many else x
-
-    @model_validator(mode="after")
-    def _acting(self) -> Self:
-        """Raise Misfit for a delay that is counted twice."""
-        if self.hardware.delay_known and self.controller.prediction > 0.0:
-            raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
-        return self
 
 
 def read_scenario(path: Path) -> Scenario:
@@ -332,36 +317,6 @@ def scenario_lines(s: Scenario) -> list[str]:
         f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
         for name, x in values.items()
     ]
-
-
-def value_of(name: str, x: object) -> Any:
-    """Reads and checks a value x for the scenario's field `name`, a dotted name such as "run.h".
-
-    "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
-    Raises InputError for an unknown field, and for a value that the field does not take.
-    """
-    what = field_of(name)
-    try:
-        result = read(what, plain(x))
-        what.check(result)
-    except ValueError as error:
-        raise Misfit(name, str(error)) from None
-    if what.kind and isinstance(result, str):
-        return portable(what.kind, result)
-    return float(result) if type(result) is int and float in what.types else result
-
-
-def names() -> list[str]:
-    """Dotted names of all values; "0" in a name stands for the number of a push."""
-    return names_of(Scenario)
-
-
-def field_of(name: str) -> Described:
-    """Type, unit, range, default and text of a value by its dotted name.
-
-    Raises InputError with the nearest names.
-    """
-    return described_in(Scenario, name)
 
 
 DRAWN = (

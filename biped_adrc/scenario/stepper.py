@@ -46,10 +46,9 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
-from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import check_start, default_method, method_of
+from biped_adrc.scenario.walk import check_start, default_method, methods_of
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""
@@ -132,7 +131,6 @@ class Stepper:
         self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
         """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
         `kernels.looks`."""
-        self._complete = set[Reading]()  # those whose addresses are there for all walks
 
     @property
     def sample(self) -> Sample:
@@ -164,8 +162,8 @@ class Stepper:
         if isinstance(s, Scenario):
             s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
             walker, outside = with_inputs(self.walker_of(s, self.scene))
-            start = start_of(s, self.scene) if start is None else start
-            loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
+            start = self.scene.start(s) if start is None else start
+            loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:
             raise InputError(
                 "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
@@ -197,7 +195,6 @@ class Stepper:
         self.walks[i], self.codes[i] = walk, code
         self.addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
-        self._complete.clear()
         for laws, _, _ in self._laws.values():
             laws[i] = 0
 
@@ -281,14 +278,12 @@ class Stepper:
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         laws, result, at = self._laws[view]
-        for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
+        for i in np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
                 laws[i] = walk.law(view)
             elif walk is not None:
                 result[i] = reading(walk, view, self.curve)
-        if not self.in_python:
-            self._complete.add(view)
         self._kernels.looks(*self._walks, *at)
         return result.copy()
 

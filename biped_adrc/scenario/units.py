@@ -14,39 +14,25 @@ import re
 from contextlib import suppress
 from typing import NamedTuple
 
+from biped_adrc.core.files import packaged
+
 
 class Unit(NamedTuple):
     """A unit as its value in SI units and its dimension."""
 
     factor: float
     """How many SI units one of it is: 1e-3 for g, since the SI unit of mass is kg."""
-    powers: tuple[int, int, int, int]
+    powers: tuple[int, ...]
     """Exponents of (m, kg, s, rad)."""
 
 
-SYMBOLS: dict[str, Unit] = {
-    "m": Unit(1.0, (1, 0, 0, 0)),
-    "g": Unit(1e-3, (0, 1, 0, 0)),
-    "s": Unit(1.0, (0, 0, 1, 0)),
-    "Hz": Unit(1.0, (0, 0, -1, 0)),
-    "N": Unit(1.0, (1, 1, -2, 0)),
-    "J": Unit(1.0, (2, 1, -2, 0)),
-    "W": Unit(1.0, (2, 1, -3, 0)),
-    "rad": Unit(1.0, (0, 0, 0, 1)),
-}
-"""Symbols that take an SI prefix; the N m of a torque and J are the same unit."""
-WHOLE: dict[str, Unit] = {
-    "1": Unit(1.0, (0, 0, 0, 0)),
-    "%": Unit(1e-2, (0, 0, 0, 0)),
-    "min": Unit(60.0, (0, 0, 1, 0)),
-    "deg": Unit(math.pi / 180.0, (0, 0, 0, 1)),
-    "rev": Unit(2.0 * math.pi, (0, 0, 0, 1)),
-    "Nm": Unit(1.0, (2, 1, -2, 0)),
-    "rpm": Unit(2.0 * math.pi / 60.0, (0, 0, -1, 1)),
-}
-"""Symbols that take no prefix: "mmin" or "krpm" is refused."""
-PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
-"""SI prefixes and their factors; the two letters for micro are different characters that look alike."""
+TABLES = packaged("biped_adrc.scenario", "units.toml")
+"""The tables of units.toml."""
+SYMBOLS, WHOLE = (
+    {name: Unit(factor, tuple(powers)) for name, (factor, *powers) in TABLES[kind].items()}
+    for kind in ("prefixed", "whole")
+)
+"""Units by the symbols that take an SI prefix, and by those that take none."""
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 """A decimal number, and what follows it."""
@@ -91,7 +77,7 @@ def unit_of(text: str) -> Unit:
 
     Raises ValueError for an unknown symbol, and a factor out of range.
     """
-    factor, powers = 1.0, (0, 0, 0, 0)
+    factor, powers = WHOLE["1"]
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
@@ -104,9 +90,7 @@ def unit_of(text: str) -> Unit:
                 )
             power = sign * int(match[2] or 1)
             factor *= symbol.factor**power
-            powers = tuple(  # type: ignore[assignment]
-                a + power * b for a, b in zip(powers, symbol.powers, strict=True)
-            )
+            powers = tuple(a + power * b for a, b in zip(powers, symbol.powers, strict=True))
     if not 0.0 < factor < math.inf:
         raise ValueError(f"the unit '{text}' is out of range")
     return Unit(factor, powers)
@@ -118,7 +102,7 @@ def _symbol(name: str) -> Unit | None:
     """
     if name in WHOLE or name in SYMBOLS:
         return WHOLE.get(name) or SYMBOLS[name]
-    prefix, rest = PREFIXES.get(name[:1]), SYMBOLS.get(name[1:])
+    prefix, rest = TABLES["prefixes"].get(name[:1]), SYMBOLS.get(name[1:])
     return None if prefix is None or rest is None else Unit(prefix * rest.factor, rest.powers)
 
 

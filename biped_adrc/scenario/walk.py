@@ -10,7 +10,7 @@ the step, whose difference estimates the error of integration.
 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     made = ba.walk(walker, gait, impacts=8)          # a Walk
-    refined(walker, 8, 1, RK4(), RK4(5e-5))          # parts: usual, fine where the push switches, usual
+    refined(walker, 8, 1, RK4(), 5e-5)               # parts: usual, fine where the push switches, usual
 
 Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
 from the stored state, and a walk starts just after its impact.
@@ -44,17 +44,9 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.build import (
-    RIGID,
-    RobotAndGait,
-    build,
-    plant_around,
-    plant_step,
-    soft_loop,
-)
-from biped_adrc.scenario.build import start as start_of
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_around, soft_loop
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.scenario import FREE, Scenario
+from biped_adrc.scenario.scenario import FREE, RunRecord, Scenario
 
 
 class Part(NamedTuple):
@@ -133,73 +125,53 @@ def rate_of_law(walker: Walker) -> float:
     return float(np.max(np.abs(np.linalg.eigvals(J)))) if np.all(np.isfinite(J)) else 0.0
 
 
-def default_parts(walker: Walker, impacts: int, first_step: int, engine: str) -> tuple[Part, ...]:
-    """Parts of a walk by the default method, on the compiled engine with `FINE_STEP` where a push switches.
+def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | None]:
+    """The integration method of a walk, and its step where a push switches [s]; None for the usual one.
 
-    In Python the fine steps would take minutes; there they have to be asked for, and `Walk.remarks` says so.
+    The walker's default where the record gives neither method nor step: on the compiled engine with `FINE_STEP`
+    for the exponential method. In Python the fine steps would take minutes; there they have to be asked for,
+    and `Walk.remarks` says so.
     """
-    method = default_method(walker)
-    if not isinstance(method, Exponential) or engine != COMPILED:
-        return (Part(impacts, method),)
-    return refined(walker, impacts, first_step, method, replace(method, h=FINE_STEP))
+    if run.method in FREE:
+        return METHODS[run.method](run.tolerance, run.tolerance), None
+    method = default_method(walker) if run.method is None else METHODS[run.method]()
+    if run.h is not None:
+        return replace(method, h=run.h), run.fine  # type: ignore[type-var]
+    usual = run.fine is None and run.method is None and run.engine == COMPILED
+    return method, FINE_STEP if usual and isinstance(method, Exponential) else run.fine
 
 
 def refined(
-    walker: Walker, impacts: int, first_step: int, usual: OneStepMethod, fine: OneStepMethod
+    walker: Walker, impacts: int, first_step: int, usual: OneStepMethod, fine: float | None
 ) -> tuple[Part, ...]:
-    """Parts with the method `fine` in the single supports in which the disturbance switches and those after.
+    """Parts with steps of `fine` [s] in the single supports in which the disturbance switches and those after.
 
     Where it switches at times of the walk rather than of a single support, all of the walk is fine, since it is
     not known beforehand in which single support that will be.
     """
+    if fine is None:
+        return (Part(impacts, usual),)
     steps = range(first_step, first_step + impacts)
     times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
-    late = walker.max_step_time
+    late, short = walker.max_step_time, replace(usual, h=fine)  # type: ignore[type-var]
     switched = {k for k in steps if any(map(math.isfinite, times(k, k * late)))}
-    methods = (fine if {k, k - 1} & switched else usual for k in steps)
+    methods = (short if {k, k - 1} & switched else usual for k in steps)
     return tuple(Part(len(list(group)), method) for method, group in groupby(methods))
 
 
-def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
-    """The integration method of a scenario, with its step or tolerance; the walker's default where none is
-    given.
-    """
-    run = s.run
-    if run.method in FREE:
-        return METHODS[run.method](run.tolerance, run.tolerance)
-    method = default_method(walker) if run.method is None else METHODS[run.method]()
-    return method if run.h is None else replace(method, h=run.h)  # type: ignore[type-var]
-
-
-def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
-    """The parts of the walk and their methods: steps of `fine` where a push switches, of h elsewhere [s]."""
-    run = s.run
-    if run.fine is not None:
-        usual, fine = (method_of(s.replace({"run.h": h}), walker) for h in (run.h, run.fine))
-        return refined(walker, run.impacts, run.first_step, usual, fine)
-    if run.h is None and run.method is None:
-        return default_parts(walker, run.impacts, run.first_step, run.engine)
-    return (Part(run.impacts, method_of(s, walker)),)
-
-
-def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
+def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
     A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
     """
     run = s.run
     if s.ground.plant != RIGID:
-        return s.replace({"ground.plant_step": 0.5 * plant_step(s)})
+        return s.replace({"ground.plant_step": 0.5 * s.ground.engine_step})
     if run.method in FREE:
         return s.replace(run={"method": "adaptive", "tolerance": 1e-2 * run.tolerance})
-    h, fine = run.h, run.fine
-    if h is None:
-        usual = method_of(s, build(s) if walker is None else walker)
-        assert isinstance(usual, RK4 | Exponential)
-        h = usual.h
-        if fine is None and run.method is None and run.engine == COMPILED:
-            fine = FINE_STEP if isinstance(usual, Exponential) else None
-    return s.replace(run={"h": 0.5 * h, "fine": None if fine is None else 0.5 * fine})
+    usual, fine = methods_of(run, walker)
+    assert isinstance(usual, RK4 | Exponential)
+    return s.replace(run={"h": 0.5 * usual.h, "fine": fine and 0.5 * fine})
 
 
 def walk(
@@ -218,14 +190,15 @@ def walk(
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
     start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
-    `default_parts`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio"; the
-    trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push
-    the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
-    under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is kept,
-    so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends, with
-    the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by them.
-    plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped, ground);
-    then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit together.
+    that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio";
+    the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a
+    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too
+    large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is
+    kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends,
+    with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by
+    them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
+    ground); then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit
+    together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
     >>> walk.trajectory.status.name, walk.feasibility.status.name
@@ -251,8 +224,9 @@ def walk(
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:
-        own_part = None if method is None else (Part(impacts, method),)
-        parts = own_part or default_parts(walker, impacts, first_step, engine)
+        usual = methods_of(RunRecord.model_construct(engine=engine), walker)
+        methods = usual if method is None else (method, None)
+        parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
     result = Walk(walker, gait, run)
     return result if within is None else result.until_infeasible(within)
@@ -282,7 +256,7 @@ def walk_scenario(
     if controller is not None:
         walker = replace(walker, controller=controller)
     if scene.gait:
-        begin = start_of(s, scene)
+        begin = scene.start(s)
     else:
         from biped_adrc.scenario.cycle import cycle_start
 
@@ -290,13 +264,15 @@ def walk_scenario(
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:
-        run = in_parts(walker, begin, mode, parts_of(s, walker), s.run.engine, progress)
+        parts = refined(walker, s.run.impacts, mode.step, *methods_of(s.run, walker))
+        run = in_parts(walker, begin, mode, parts, s.run.engine, progress)
     return Walk(walker, scene.gait, run, s if controller is None else None)
 
 
 def execute_twice(s: Scenario) -> Outcome:
     """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
-    return replace(walk_scenario(s).outcome, half=walk_scenario(halved(s)).outcome)
+    walk = walk_scenario(s)
+    return replace(walk.outcome, half=walk_scenario(halved(s, walk.walker)).outcome)
 
 
 def in_parts(

@@ -25,10 +25,10 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.model.robots.robot_toml import load_description
-from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
+from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.registry import find, is_own
-from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
-from biped_adrc.scenario.walk import method_of
+from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
+from biped_adrc.scenario.walk import methods_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
@@ -64,7 +64,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
     for name, x in values:
         for path in files_of(name, x):
             result[f"file {path}"] = _hash(path)
-        kind = field_of(name).kind
+        kind = Scenario.field_of(name).kind
         if kind and is_own(str(x)):
             result[f"source {x}"] = _source(find(kind, str(x)).load())
         if name == PLANT:
@@ -140,8 +140,8 @@ def trial_of(s: Scenario) -> Trial:
     if found := "; ".join(text for text, is_so in wrong.items() if is_so):
         raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
     scene = scene_of(s)
-    q, v = start(s, scene)
+    q, v = scene.start(s)
     walker, mode = build(s, scene), Mode(s.run.first_step)
     curve = scene.walked.constraint
-    made = Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, curve)
+    made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
     return Trial(s, scene, made, soft_loop(s, walker))

@@ -21,28 +21,11 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
-from biped_adrc.studies.results import (
-    BEFORE,
-    CANDIDATE,
-    CHOSEN,
-    SET,
-    SETTING,
-    Choice,
-    Results,
-    opened,
-)
+from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Progress, Runner
-from biped_adrc.studies.search import (
-    Candidate,
-    Search,
-    Walks,
-    judged,
-    optuna_library,
-    ranked,
-    searched,
-)
-from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
+from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
+from biped_adrc.studies.study import Point, Study, chosen_file, located, read_study
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""
@@ -130,19 +113,19 @@ class _Searched:
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
         def walk(kind: str, study_: Sequence[Candidate]) -> list[Walks]:
-            return self.walk(kind, [(c.number, c.values, _named(case)) for c in study_])
+            return self.walk(kind, [(c.number, c.values, located(case=case)) for c in study_])
 
         result = searched(search, base, partial(walk, "search"), report)
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)
             again = [
-                judged(search, base, c.number, c.chosen, walks)
+                search.judged(base, c.number, c.chosen, walks)
                 for c, walks in zip(few, walk("choice", few), strict=True)
             ]
             failure = self.failure(again, case, "choice")
         if not failure:
-            return Choice(tuple(result), tuple(ranked(search, again)))
+            return Choice(tuple(result), tuple(search.ranked(again)))
         self.runner.tell(failure)
         return failure
 
@@ -151,12 +134,10 @@ class _Searched:
 
         The first of them is what the others are compared with: without cases the setting as it was.
         """
-        chosen = [(x.selected[0], case, CHOSEN) for case, x in choices.items()]
-        before = [(x.candidates[0], case, BEFORE) for case, x in choices.items()]
+        chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
+        before = [(x.candidates[0], case, "before") for case, x in choices.items()]
         every = [*chosen, *before] if self.study.cases else [*before, *chosen]
-        self.walk(
-            "test", [(c.number, c.values, _named(case) | {SETTING: s}) for c, case, s in every]
-        )
+        self.walk("test", [(c.number, c.values, located(case=x, setting=s)) for c, x, s in every])
         self.runner.total = self.runner.done
         self.runner.tell()
 
@@ -170,14 +151,14 @@ class _Searched:
             for (number, values, named), c in itertools.product(study_, conditions):
                 there = {**values, **self.study.conditions.get(c, {})}
                 for seed in walks.seeds:
-                    at = {SET: kind, **named, CANDIDATE: number, **({CONDITION: c} if c else {})}
+                    at = located(set=kind, **named, candidate=number, condition=c)
                     yield Point(next(places), {**at, SEED: seed}, {**there, SEED: seed})
 
         count = len(conditions) * len(walks.seeds)
         self.place += count * len(study_)
         self.runner.run(points(), self.place - first)
         result = [
-            (str(at.get(CONDITION, "")), row)
+            (str(at.get("condition", "")), row)
             for at, row in self.runner.store.results(first, self.place - first)
         ]
         return [result[i : i + count] for i in range(0, len(result), count)]
@@ -198,15 +179,10 @@ class _Searched:
         )
 
 
-def _named(case: str) -> dict[str, Any]:
-    """What locates the walks of a case."""
-    return {CASE: case} if case else {}
-
-
 def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
     """The best few, settings that come twice once, and the case itself."""
     some: dict[str, Candidate] = {}
-    for c in ranked(search, found):
+    for c in search.ranked(found):
         some.setdefault(repr(sorted(c.values.items())), c)
     best = list(some.values())[: search.finalists]
     return best if any(c.number == 0 for c in best) else [*best, found[0]]

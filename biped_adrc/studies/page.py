@@ -13,11 +13,10 @@ from matplotlib.figure import Figure
 
 from biped_adrc.analysis.statistics import Interval
 from biped_adrc.core.files import write_text
-from biped_adrc.scenario.scenario import field_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.measure import OF_ALL, is_counted
 from biped_adrc.studies.results import Group, Line, Results
 from biped_adrc.studies.run import COLUMNS
-from biped_adrc.studies.study import measure_of
 from biped_adrc.view.pages import data_uri, plain, rendered
 from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
 from biped_adrc.view.style import render
@@ -48,7 +47,7 @@ def write_page(found: Results) -> Path:
 
 def headings(found: Results) -> tuple[str, ...]:
     """Of the table of a study."""
-    middle = f"median {measure_of(found.study).column}"
+    middle = f"median {found.study.measure.column}"
     first = next((line.name for line in found.table()), "") or "first"
     return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"
 
@@ -90,7 +89,7 @@ def interval(x: Interval) -> str:
 
 def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     """The questions that a study answers, each with its picture."""
-    lines, measure = found.table(), measure_of(found.study)
+    lines, measure = found.table(), found.study.measure
     if not lines:
         return
     by = {(x.name, x.condition): x for x in lines}
@@ -136,7 +135,7 @@ def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bo
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
             values.append(number)
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
-    names = [name + field_of(name).in_brackets for name in axes[:2]]
+    names = [name + Scenario.field_of(name).in_brackets for name in axes[:2]]
     return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)
 
 

@@ -34,7 +34,7 @@ from biped_adrc.studies.build import NO_WALK
 from biped_adrc.studies.measure import is_counted, is_made
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.studies.search import Candidate
-from biped_adrc.studies.study import CASE, CONDITION, Point, Study, measure_of
+from biped_adrc.studies.study import Point, Study
 
 APPLICATION = 0x62614453
 """SQLite's application_id, by which a results file is told from other databases."""
@@ -147,10 +147,6 @@ def _errors(path: Path) -> Iterator[None]:
         ) from error
 
 
-SET, CANDIDATE, SETTING = "set", "candidate", "setting"
-"""Names under which the set of walks, the candidate and which of the two settings of a test stand."""
-CHOSEN, BEFORE = "chosen", "before"
-"""The settings that are walked on the test set: what the search chose, and the case as it was."""
 TABLES = (".csv", ".parquet")
 """Suffixes of tables that can be written."""
 
@@ -219,10 +215,10 @@ class Results(Shown):
     @cached_property
     def groups(self) -> list[Group]:
         """The walks by case and condition, those of a search on its test set; the first case comes first."""
-        measure, results = measure_of(self.study), dict[tuple[str, str], list[Result]]()
+        measure, results = self.study.measure, dict[tuple[str, str], list[Result]]()
         for result in self.results():
-            if result.at.get(SET, "test") == "test" and result.row["status"] not in NO_WALK:
-                where = _name(result.at), str(result.at.get(CONDITION, ""))
+            if result.at.get("set", "test") == "test" and result.row["status"] not in NO_WALK:
+                where = _name(result.at), str(result.at.get("condition", ""))
                 results.setdefault(where, []).append(result)
         return [
             Group(*where, tuple(rows), tuple(measure.number(x.row) for x in rows))
@@ -287,8 +283,8 @@ def check_table(path: Path) -> None:
 
 def _name(at: Mapping[str, Any]) -> str:
     """What a table calls the walks of a case, and of a setting of it."""
-    case, setting = str(at.get(CASE, "")), str(at.get(SETTING, ""))
-    return ", ".join(x for x in (case, "" if case and setting == CHOSEN else setting) if x)
+    case, setting = str(at.get("case", "")), str(at.get("setting", ""))
+    return ", ".join(x for x in (case, "" if case and setting == "chosen" else setting) if x)
 
 
 def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
@@ -300,7 +296,7 @@ def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
     """
 
     def by_place(g: Group) -> dict[str, float]:
-        apart = (CASE, SETTING, CANDIDATE)
+        apart = ("case", "setting", "candidate")
         keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
         return dict(zip(keys, g.numbers, strict=True))
 

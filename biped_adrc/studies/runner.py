@@ -11,7 +11,14 @@ from __future__ import annotations
 import itertools
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import (
+    ALL_COMPLETED,
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    wait,
+)
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -153,7 +160,6 @@ class Runner:
     done: int = 0
     crashed: int = 0
     pending: dict[Future[Any], Sequence[Point]] = field(default_factory=dict)
-    lost: list[Point] = field(default_factory=list)
 
     def run(self, points: Iterable[Point], count: int | None = None) -> None:
         """Walk those of the points that have no row yet; they may come from a generator.
@@ -164,11 +170,11 @@ class Runner:
         size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
         missing = self._missing(iter(points))
         while part := tuple(itertools.islice(missing, size)):
-            self._send(part)
-            while len(self.pending) >= AHEAD * workers or self.lost:
-                self._collect()
-        while self.pending or self.lost:
-            self._collect()
+            self._again(self._send(part))
+            while len(self.pending) >= AHEAD * workers:
+                self._again(self._collect(FIRST_COMPLETED))
+        while self.pending:
+            self._again(self._collect(FIRST_COMPLETED))
 
     def tell(self, note: str = "") -> None:
         """Report progress."""
@@ -183,60 +189,55 @@ class Runner:
             self.tell()
             yield from (p for p in batch if p.place not in there)
 
-    def _send(self, chunk: Sequence[Point]) -> None:
-        """Hand a chunk to the executor; one of which a process has died takes none."""
+    def _send(self, chunk: Sequence[Point]) -> Sequence[Point]:
+        """Hand a chunk to the executor; one of which a process has died takes none, and all are lost."""
         try:
             future = self.crew.executor.submit(rows_of, self.function, [p.record for p in chunk])
         except BrokenExecutor:
-            self.lost += chunk
-        else:
-            self.pending[future] = chunk
+            return chunk
+        self.pending[future] = chunk
+        return ()
 
-    def _collect(self) -> None:
-        """Wait for a chunk; store what is finished, and walk again, one by one, what was lost."""
-        self._finished()
-        if self.lost:
-            while self.pending:  # nothing may be beside them
-                self._finished()
-            again, self.lost = self.lost, []
-            self.tell("a worker died; what it was walking is walked again, one by one")
-            self.crew.renew()
-            for point in again:
-                self._alone(point)
-
-    def _finished(self) -> None:
-        """Store finished chunks, waiting for one; those whose worker died are lost."""
-        for future in wait(self.pending, return_when=FIRST_COMPLETED).done:
+    def _collect(self, when: str) -> list[Point]:
+        """Wait until `when`, and store finished chunks; the points of those whose worker died."""
+        lost: list[Point] = []
+        for future in wait(self.pending, return_when=when).done:
             chunk, error = self.pending.pop(future), future.exception()
             if error is None:
                 self._keep(chunk, future.result())
             elif isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker":
-                self.lost += chunk
+                lost += chunk
             else:
                 raise WorkersError(
                     f"walks could not be handed to a worker or back: {error!r}; what was finished is kept"
                 ) from error
+        return lost
 
-    def _alone(self, point: Point) -> None:
-        """Walk one point with nothing beside it; its row says CRASHED where its worker dies again."""
-        self._send([point])
-        if self.pending:
-            self._finished()
-        if not self.lost:
-            self.crashed = 0
+    def _again(self, lost: Sequence[Point]) -> None:
+        """Walk lost points again, one by one and with nothing beside them.
+
+        The row of a point whose worker dies again says CRASHED.
+        """
+        if not lost:
             return
-        self.lost = []
-        self.crashed += 1
+        lost = [*lost, *self._collect(ALL_COMPLETED)]
+        self.tell("a worker died; what it was walking is walked again, one by one")
         self.crew.renew()
-        detail = "the worker that walked it died, each time it was tried"
-        row = {"status": CRASHED, "detail": detail}
-        self._keep([point], [(json.dumps(row), CRASHED)])
-        self.tell(f"left out, since it kills its worker: {dict(point.at)}")
-        if self.crashed >= MOST_CRASHED:
-            raise WorkersError(
-                f"{self.crashed} walks one after the other killed their workers; which is in the results. Look "
-                "for lack of memory; the same command goes on with the others"
-            )
+        for point in lost:
+            if not (self._send([point]) or self._collect(ALL_COMPLETED)):
+                self.crashed = 0
+                continue
+            self.crashed += 1
+            self.crew.renew()
+            detail = "the worker that walked it died, each time it was tried"
+            row = {"status": CRASHED, "detail": detail}
+            self._keep([point], [(json.dumps(row), CRASHED)])
+            self.tell(f"left out, since it kills its worker: {dict(point.at)}")
+            if self.crashed >= MOST_CRASHED:
+                raise WorkersError(
+                    f"{self.crashed} walks one after the other killed their workers; which is in the results. "
+                    "Look for lack of memory; the same command goes on with the others"
+                )
 
     def _keep(self, chunk: Sequence[Point], rows: Sequence[tuple[str, str | None]]) -> None:
         """Store a chunk and count it."""

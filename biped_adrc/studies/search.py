@@ -46,7 +46,7 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BeforeValidator, Field
 
 from biped_adrc.core.errors import optional
-from biped_adrc.scenario.scenario import field_of
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Limit, Measure, Objective, Row, numbers_without_walk
 from biped_adrc.studies.space import Part, Range, Seeds, each, read_list, read_range, table
@@ -91,7 +91,7 @@ class Variable(Part):
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
         """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
         return all(
-            name in free or values.get(name, field_of(name).default) in those
+            name in free or values.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
         )
 
@@ -156,6 +156,24 @@ class Search(Part):
                 del candidate[name]
         return candidate
 
+    def judged(
+        self, base: Values, number: int, chosen: dict[str, Any], walks: Walks | None = None
+    ) -> Candidate:
+        """The candidate of a case with the values `base`, by its walks; None where it is not walked."""
+        values = self.values(base, chosen)
+        known = numbers_without_walk([m.column for m in self.measures], values)
+        missed = (
+            0.0 if walks is None and m.column not in known else m.excess(m.of(walks or (), known))
+            for m in self.limits
+        )
+        objective = self.objective.worst if walks is None else self.objective.of(walks, known)
+        return Candidate(number, chosen, values, objective, tuple(missed), walks is not None)
+
+    def ranked(self, found: Sequence[Candidate]) -> list[Candidate]:
+        """The walked candidates, best first: by what they miss, by the objective, by number."""
+        walked, sign = [c for c in found if c.walked], self.objective.sign
+        return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
+
     def some(self, values: Values) -> Iterator[dict[str, Any]]:
         """Candidates that stand for all: the middle of all variables, and each choice with the others there.
 
@@ -189,26 +207,6 @@ class Candidate(NamedTuple):
     def feasible(self) -> bool:
         """Whether it was walked and keeps all limits."""
         return self.walked and not any(self.missed)
-
-
-def judged(
-    search: Search, base: Values, number: int, chosen: dict[str, Any], walks: Walks | None = None
-) -> Candidate:
-    """The candidate of a case with the values `base`, by its walks; None where it is not walked."""
-    values = search.values(base, chosen)
-    known = numbers_without_walk([m.column for m in search.measures], values)
-    missed = (
-        0.0 if walks is None and m.column not in known else m.excess(m.of(walks or (), known))
-        for m in search.limits
-    )
-    objective = search.objective.worst if walks is None else search.objective.of(walks, known)
-    return Candidate(number, chosen, values, objective, tuple(missed), walks is not None)
-
-
-def ranked(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
-    """The walked candidates, best first: by what they miss, by the objective, by number."""
-    walked, sign = [c for c in found if c.walked], search.objective.sign
-    return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
 
 FIRST_PART = 0.4
@@ -248,7 +246,7 @@ def searched(
         batch: list[Candidate] = []
         new: list[Candidate] = []
         for number in itertools.islice(numbers, ASKED * search.generation):
-            c = judged(search, base, number, proposals.ask(number) if number else {})
+            c = search.judged(base, number, proposals.ask(number) if number else {})
             if any(c.missed) and number:
                 new.append(c)
                 proposals.tell(c)
@@ -259,10 +257,10 @@ def searched(
         if not batch:
             break
         for c, walks in zip(batch, walk(batch), strict=True):
-            new.append(judged(search, base, c.number, c.chosen, walks))
+            new.append(search.judged(base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
         result += sorted(new, key=lambda c: c.number)
-        report(ranked(search, result)[0])
+        report(search.ranked(result)[0])
         proposals.refine(result)
     return result
 
@@ -306,7 +304,7 @@ class _Proposals:
 
     def refine(self, found: Sequence[Candidate]) -> None:
         """Go on with CMA-ES, once TPE's part of the budget is spent and where there is something to refine."""
-        best = [c for c in ranked(self.search, found) if c.number]
+        best = [c for c in self.search.ranked(found) if c.number]
         if self.refining or len(best) < max(SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True

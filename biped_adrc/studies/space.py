@@ -14,7 +14,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.records import Misfit, complaint
-from biped_adrc.scenario.scenario import MOST_SEED, field_of, value_of
+from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
 MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
@@ -103,15 +103,17 @@ R = TypeVar("R", bound=Range)
 
 def read_range(name: str, value: object, kind: type[R] = Range) -> R:  # type: ignore[assignment]
     """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
-    types, keys = field_of(name).types, table(value)
+    types, keys = Scenario.field_of(name).types, table(value)
     whole = int in types and float not in types
-    ends = {key: value_of(name, keys[key]) for key in ("from", "to") if key in keys}
+    ends = {key: Scenario.value_of(name, keys[key]) for key in ("from", "to") if key in keys}
     return kind.model_validate({"whole": whole, **keys, **ends})
 
 
 def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     """At least so many different values of one field. Raises ValueError."""
-    result = tuple(value_of(name, x) for x in value) if isinstance(value, list | tuple) else ()
+    result = (
+        tuple(Scenario.value_of(name, x) for x in value) if isinstance(value, list | tuple) else ()
+    )
     if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(
             f"found {value!r}, expected a list of different values or {{from, to, ..}}"
@@ -138,7 +140,7 @@ def _seeds(value: object) -> object:
     return tuple(value)
 
 
-Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, value_of))]
+Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, Scenario.value_of))]
 """Values of a scenario by name, read with their units."""
 Sets = dict[str, Values]
 """Values by name of the case or condition."""

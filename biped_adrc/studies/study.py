@@ -44,8 +44,15 @@ MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
 LONGEST = 100
 """Letters of the name of a file that a search writes."""
-CASE, CONDITION = "case", "condition"
-"""Names under which the case and the condition of a walk stand beside what is varied."""
+
+
+def located(**names: object) -> dict[str, Any]:
+    """Names that locate a walk beside what is varied, but for empty ones.
+
+    case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
+    "before" (the case as it was).
+    """
+    return {name: x for name, x in names.items() if x != ""}
 
 
 class Point(NamedTuple):
@@ -144,6 +151,11 @@ class Study(Part):
         return bool(self.search or self.draw or len(self.seeds) > 1) and not self.grid
 
     @property
+    def measure(self) -> Measure:
+        """What the table and the page show: the objective of a search, or the median of the column."""
+        return Measure(column=self.column) if self.search is None else self.search.objective
+
+    @property
     def hash(self) -> str:
         """A hash of everything but the description: results of another hash are never mixed with these."""
         text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)
@@ -170,9 +182,8 @@ class Study(Part):
     def sets(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
         """For each case under each condition: the values that its walks share, and its names."""
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
-            names = {CASE: case_} if case_ else {}
-            names |= {CONDITION: condition} if condition else {}
-            yield self.values_of(case_) | self.conditions.get(condition, {}), names
+            values = self.values_of(case_) | self.conditions.get(condition, {})
+            yield values, located(case=case_, condition=condition)
 
     def values_of(self, name: str) -> dict[str, Any]:
         """The values of a case, "" for none."""
@@ -269,8 +280,3 @@ def _problem(error: Any) -> str:
 def chosen_file(case: str) -> str:
     """The name of the scenario file in which a search writes what it chose for a case, "" for none."""
     return "-".join(["chosen", *re.findall(r"\w+", case)]) + ".toml"
-
-
-def measure_of(study: Study) -> Measure:
-    """What the table and the page show: the objective of a search, or the median of the study's column."""
-    return Measure(column=study.column) if study.search is None else study.search.objective

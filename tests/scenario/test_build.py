@@ -10,8 +10,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
+from biped_adrc.scenario.build import RobotAndGait, build, plant_of
+from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.run import run_trials
@@ -19,7 +19,7 @@ from biped_adrc.studies.run import run_trials
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
     s = Scenario(run={"seed": seed}, **{"start.speed_spread": 0.02, **values})
-    return np.concatenate(start(s, RobotAndGait.of(s)))
+    return np.concatenate(RobotAndGait.of(s).start(s))
 
 
 @pytest.mark.parametrize("name", ["start.speed_spread", "start.spread", "start.rate_spread"])
@@ -35,7 +35,7 @@ def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
     scene = RobotAndGait.of(s)
     q, v = scene.on_orbit
     *_, last = np.random.default_rng(drawn(s, "start")).standard_normal(len(q) + len(v) + 1)
-    np.testing.assert_allclose(start(s, scene)[1], v * (1.1 + 0.02 * last), rtol=1e-15)
+    np.testing.assert_allclose(scene.start(s)[1], v * (1.1 + 0.02 * last), rtol=1e-15)
 
 
 def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
@@ -133,12 +133,12 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"hardware": {"perod": 1e-3}}, "hardware.perod: .* 'hardware.period'"),
         ({"hardware.period": "1 m"}, "'m' is another dimension, expected a unit such as 's'"),
         ({"hardware.period": "1e999"}, "too large"),
-        ({"controller.K_p": -1.0}, "controller.K_p: found -1.0, should be greater than 0"),
-        ({"run.impacts": True}, "run.impacts: found True, expected a number"),
+        ({"controller.K_p": -1.0}, "controller.K_p: found -1, expected > 0"),
+        ({"run.impacts": True}, "run.impacts: found True, expected int"),
         ({"pushes.0.shape": "puls"}, "pushes.0.shape: .*did you mean 'pulse'"),
         ({"controller": {"observr": {"order": 1}}}, "controller.observr: unknown name"),
         ({"start.q": 1.0}, "start.q: expected"),
-        ({"run.method": "rk5"}, "should be 'rk4'"),
+        ({"run.method": "rk5"}, "found 'rk5', expected rk4 or"),
     ],
 )
 def test_what_is_wrong_is_named(values, message) -> None:
@@ -147,8 +147,8 @@ def test_what_is_wrong_is_named(values, message) -> None:
 
 
 def test_every_value_is_known_by_its_name() -> None:
-    for name in names():
-        what = field_of(name)
+    for name in Scenario.names():
+        what = Scenario.field_of(name)
         unit_of(what.unit or "1")
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):

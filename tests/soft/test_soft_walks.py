@@ -14,6 +14,7 @@ from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.ground import SoftGround
+from biped_adrc.scenario.build import build
 from biped_adrc.scenario.walk import halved
 
 from .loops import SOFT, TICK, loop_on, run_of
@@ -120,7 +121,7 @@ def test_values_of_ground_and_engine_come_from_the_scenario(ground, h):
         (name, x) for name, x in found.items() if isinstance(x, float)
     }
     assert plant["h"] == pytest.approx(h)
-    assert halved(s).ground.plant_step == pytest.approx(0.5 * h)
+    assert halved(s, build(s)).ground.plant_step == pytest.approx(0.5 * h)
 
 
 def test_a_step_that_takes_too_long_is_told():

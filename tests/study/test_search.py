@@ -15,7 +15,7 @@ from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.measure import Limit, Objective, numbers_without_walk
-from biped_adrc.studies.search import Candidate, ranked, searched
+from biped_adrc.studies.search import Candidate, searched
 from biped_adrc.studies.study import read_study
 from tests.commands import command
 
@@ -38,7 +38,7 @@ def test_the_optimum_of_riccati_is_reached():
     for seed in (1, 2, 3):
         search, found = found_by(seed=seed)
         assert (len(found), found[0].chosen) == (200, {})
-        missed.append(ranked(search, found)[0].objective / plants.optimum() - 1.0)
+        missed.append(search.ranked(found)[0].objective / plants.optimum() - 1.0)
     assert -1e-9 < min(missed) <= max(missed) < 0.01
     assert np.mean(missed) < 5e-4
 
@@ -99,7 +99,7 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
     assert excluded
     assert all((c.chosen["controller.k1"] > 20.0) is not c.walked for c in found if c.number)
     assert [c.number for c in found] == list(range(len(found)))
-    assert all(c.walked for c in ranked(search, found))
+    assert all(c.walked for c in search.ranked(found))
 
 
 def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path):
@@ -160,7 +160,7 @@ def test_candidates_are_ranked_by_limits_then_objective():
     known = [(3.0, 0.0), (1.0, 0.0), (0.1, 0.2), (2.0, 0.0), (INF, 0.0), (1.0, 0.0)]
     found = [Candidate(i, {}, {}, x, (m,), True) for i, (x, m) in enumerate(known)]
     found.append(Candidate(6, {}, {}, INF, (0.1,), False))
-    assert [c.number for c in ranked(search, found)] == [1, 5, 3, 0, 4, 2]
+    assert [c.number for c in search.ranked(found)] == [1, 5, 3, 0, 4, 2]
 
 
 def test_columns_without_a_walk_are_those_of_the_specification():

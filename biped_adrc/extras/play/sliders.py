@@ -19,7 +19,7 @@ from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.controllers import CONTEXT, GAINS
 from biped_adrc.scenario.registry import find, takes
-from biped_adrc.scenario.scenario import Scenario, field_of
+from biped_adrc.scenario.scenario import Scenario
 
 Form = tuple[float, float, int] | list[float]
 """(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""
@@ -197,7 +197,7 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
 
 def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
     """The slider with its unit, and with the value that gives the numbers `base` with which the walk begins."""
-    unit = field_of(one.name).unit.replace("^2", "²")
+    unit = Scenario.field_of(one.name).unit.replace("^2", "²")
     one = one._replace(unit="" if unit == "1" else unit)
     place, form = next(iter(forms.items()))
     if isinstance(form, list):

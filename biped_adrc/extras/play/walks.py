@@ -37,9 +37,9 @@ from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.urdf import twins
-from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
-from biped_adrc.scenario.walk import method_of
+from biped_adrc.scenario.walk import methods_of
 from biped_adrc.studies.build import scene_of
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values
@@ -93,7 +93,7 @@ class PageWalk:
             )
         if walker.disturbance is not None:
             raise InputError(f"the walk '{name}' has a push of its own; leave it out")
-        x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
+        x = walker.initial_state(*scene.start(s), Mode(s.run.first_step))
         try:
             code = compiled(s, scene, with_hand(walker), x)
         except NotCompiled as reason:
@@ -189,7 +189,7 @@ class PageWalk:
 
 def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
     """Compile a walker with a hand. Raises NotCompiled."""
-    size, method = walker.controller_size(x), method_of(s, walker)
+    size, method = walker.controller_size(x), methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)
 
 
