@@ -112,7 +112,7 @@ class CompiledWalk:
         run, rows = self.run, self.run.rows().copy()
         stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
         run.nodes[: len(stay)], run["count"] = stay, len(stay)
-        return np.ascontiguousarray(rows.T)
+        return rows
 
     @property
     def addresses(self) -> list[int]:

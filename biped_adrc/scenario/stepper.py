@@ -242,8 +242,8 @@ class Stepper:
             if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
                 walker, plant = walk.compiled.walker, walk.compiled.walker.plant
                 q, v = np.split(walk.run.x[: 2 * plant.n], 2)
-                n = Nodes.of_table(walk.over(impacts > 0 and not ended), plant.p)
-                after = plant.momentum(q, v) if len(n.supports.first) == impacts else None
+                n = Nodes(walk.over(impacts > 0 and not ended))
+                after = plant.momentum(q, v) if len(n.steps) == impacts else None
                 judged = supports(walker, n, within.of(plant.description), impacts, after)
                 result += [(i, s) for s in judged[: None if ended else impacts]]
         return result
