@@ -111,10 +111,11 @@ def samples(
 
     walks (count, WALK); inputs (count, p + 2): torque [N m] and force [N]. codes (count,) become those of
     `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it, as they were where a walk has
-    ended. impacts (count,) are those made.
+    ended. impacts (count,) are those made, -1 for a walk that is not moved.
     """
     over = 0
     for i in range(count):
+        impacts[i] = -1
         if codes[i] == COMPLETED and walks[WALK * i] != 0:
             r, u = ints_at(walks[WALK * i]), shift(inputs, i * (p + 2))
             copy(u, floats_at(walks[WALK * i + 1]), p)
