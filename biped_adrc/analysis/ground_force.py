@@ -54,21 +54,20 @@ class Nodes:
         """Place of the swing foot relative to the stance foot (K, 2) [m]."""
         return self.rows[:, -2:]
 
-    @cached_property
-    def edges(self) -> Indices:
-        """First node of each of S single supports, and K: (S + 1,)."""
-        jumps = np.flatnonzero(np.diff(self.rows[:, 1])) + 1
-        return np.array([0, *jumps, len(self.rows)])
+    @property
+    def steps(self) -> range:
+        """Numbers of the S single supports."""
+        return range(int(self.rows[0, 1]), int(self.rows[-1, 1]) + 1)
 
     @cached_property
+    def edges(self) -> Indices:
+        """First node of each single support, and K: (S + 1,)."""
+        return np.searchsorted(self.rows[:, 1], [*self.steps, self.steps.stop])
+
+    @property
     def last(self) -> Indices:
         """Last node of each single support (S,)."""
         return self.edges[1:] - 1
-
-    @cached_property
-    def steps(self) -> list[int]:
-        """Numbers of the S single supports."""
-        return [int(step) for step in self.rows[self.edges[:-1], 1]]
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:

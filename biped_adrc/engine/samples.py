@@ -92,7 +92,7 @@ class CompiledWalk:
         curve: Reference | None,
         judged: bool,
     ) -> Self:
-        """From x (nx,). curve: what `law` refers to. judged: whether the table is kept, for `over`.
+        """From x (nx,). curve: what `law` refers to. judged: whether nodes are kept.
 
         Raises NotCompiled for a part without machine code.
         """
@@ -106,13 +106,6 @@ class CompiledWalk:
         return cls(
             compiled, run, (torque, run.place("push") + len(floats(walker.disturbance.terms[:-1])))
         )
-
-    def over(self, on: bool) -> Array:
-        """The table; where the walk goes on, nodes of the single support in which it is stay there."""
-        run, rows = self.run, self.run.rows().copy()
-        stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
-        run.nodes[: len(stay)], run["count"] = stay, len(stay)
-        return rows
 
     @property
     def addresses(self) -> list[int]:

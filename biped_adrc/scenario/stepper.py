@@ -242,11 +242,13 @@ class Stepper:
             walk, impacts, ended = self.walks[i], int(self._impacts[i]), self.codes[i] != 0
             assert isinstance(walk, CompiledWalk)
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
-            n = Nodes(walk.over(impacts > 0 and not ended))
+            n = Nodes(walk.run.rows())
             q, v = np.split(walk.run.x[: 2 * plant.n], 2)
             after = plant.momentum(q, v) if len(n.steps) == impacts else None
             judged = supports(walker, n, within.of(plant.description), impacts, after)
             result += [(i, s) for s in judged[: None if ended else impacts]]
+            on = n.rows[n.edges[impacts] :]
+            walk.run.nodes[: len(on)], walk.run["count"] = on, len(on)
         return result
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
