@@ -35,7 +35,7 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
 def judged(walker, t, F_N, finished=True, **more):
     """What `supports` says of it, with an impulse along the normal at its end."""
     n = handmade(walker, t, F_N, **more)
-    after = n.momentum[-1] + ground_axes(walker.slope)[1]
+    after = n.rows[-1, -4:-2] + ground_axes(walker.slope)[1]
     (found,) = supports(walker, n, KNOWN, int(finished), after)
     return found
 
@@ -338,7 +338,9 @@ def beginning(walker, **begins):
 
 def first_in(walker, n, finished=True):
     """The first violation of a single support, with an impulse along the normal at its end."""
-    return first_violation(walker, n, KNOWN, int(finished), n.momentum[-1] + np.array([0.0, 1.0]))
+    return first_violation(
+        walker, n, KNOWN, int(finished), n.rows[-1, -4:-2] + np.array([0.0, 1.0])
+    )
 
 
 @pytest.mark.parametrize("first", LATER)

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.analysis.ground_force import Nodes, demands, impulse_ratios, ratios
 from biped_adrc.analysis.signals import Signals, integrate
@@ -207,7 +206,7 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
     """By how much each single support (S,) lands off its stone [m]; 0 where it did not end in an impact."""
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
-        lengths = n.swing_foot[n.last, 0] / math.cos(walker.slope)
+        lengths = n.rows[n.last, -2] / math.cos(walker.slope)
         for k, step in enumerate(n.steps[:impacts]):
             missed[k] = walker.stones.missed(step, float(lengths[k]))
     return missed
@@ -253,6 +252,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
+    since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
+    inner = (since > ENDS * duration) & (since < (1.0 - ENDS) * duration)
     height = s.swing_foot @ (math.tan(walker.slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
@@ -265,17 +266,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
         friction=math.inf if friction == -math.inf else friction,
         step_length=length,
         old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
-        clearance=float(np.min(height[inner(s.t)])),
+        clearance=float(np.min(height[inner])),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,
         cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )
-
-
-def inner(t: Array) -> NDArray[np.bool_]:
-    """Whether each node, at times t (K,) [s], is away from both ends of the step by more
-    than the share ENDS (K,).
-    """
-    since, last = t - t[0], t[-1] - t[0]
-    result: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
-    return result

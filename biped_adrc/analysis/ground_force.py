@@ -24,8 +24,8 @@ class Nodes:
     """The signals of a walk that feasibility depends on, at its K nodes; forces and points are (x, z)."""
 
     rows: Array
-    """(K, 8 + 3 p): t, step, resultant external force (2,) [N], `StepReading`; those of
-    `engine.batch.BatchWalk.table`."""
+    """(K, 8 + 3 p), as `engine.batch.BatchWalk.table`: t, step, resultant external force (2,) [N], and what
+    `StepReading` has, last m v_com (2,) [N s] and place of the swing foot (2,) [m]."""
 
     @classmethod
     def of(cls, s: Signals) -> Nodes:
@@ -43,16 +43,6 @@ class Nodes:
     def p(self) -> int:
         """Number of joints."""
         return (self.rows.shape[1] - 8) // 3
-
-    @property
-    def momentum(self) -> Array:
-        """m v_com (K, 2) [N s]."""
-        return self.rows[:, -4:-2]
-
-    @property
-    def swing_foot(self) -> Array:
-        """Place of the swing foot relative to the stance foot (K, 2) [m]."""
-        return self.rows[:, -2:]
 
     @property
     def steps(self) -> range:
@@ -103,11 +93,11 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     Infinite where the ground would have had to pull, 0 for those behind the first `impacts`, which end in
     none. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
     """
-    result = np.zeros(len(n.steps))
-    plus = n.momentum[n.edges[1:-1]]
+    result, P = np.zeros(len(n.steps)), n.rows[:, -4:-2]
+    plus = P[n.edges[1:-1]]
     if after is not None:
         plus = np.vstack((plus, after))
-    impulse = plus[:impacts] - n.momentum[n.last[:impacts]]
+    impulse = plus[:impacts] - P[n.last[:impacts]]
     result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.slope)).T, np.inf)
     return result
 

@@ -33,12 +33,6 @@ def largest(x: Array, size: int) -> float:
     return result
 
 
-@inner
-def change(x: Array, k: int, i: int, share: float) -> float:
-    """x at node k less x at the fraction `share` between nodes i and i + 1."""
-    return x[k] - x[i] - share * (x[i + 1] - x[i])
-
-
 @unit
 def demands(
     rows: Array, p: int, first: Ints, supports: int, impacts: int, known: Array, out: Array
@@ -77,8 +71,8 @@ def demands(
                     i += 1
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
                 share = min(max(behind / h, 0.0), 1.0) if h > 0.0 else 0.0
-                F_x = change(P_x, k, i, share) / w
-                F_z = change(P_z, k, i, share) / w + known[1]
+                F_x = (P_x[k] - P_x[i] - share * (P_x[i + 1] - P_x[i])) / w
+                F_z = (P_z[k] - P_z[i] - share * (P_z[i + 1] - P_z[i])) / w + known[1]
                 F_N[k] = F_x * known[6] + F_z * known[7]
                 if not F_N[k] <= 0.0:
                     ratio[k] = abs(F_x * known[4] + F_z * known[5]) / F_N[k]
