@@ -228,7 +228,7 @@ def _strides(
         parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
     strikes = np.vstack(parts)
     times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
-    table = np.vstack(rows) if read else None
+    table = (np.vstack(rows) if len(rows) > 1 else rows[0]) if read else None
     return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)
 
 
