@@ -37,50 +37,45 @@ def largest(x: Array, size: int) -> float:
 def demands(
     rows: Array, p: int, first: Ints, supports: int, impacts: int, known: Array, out: Array
 ) -> None:
-    """out (6, K): mean F_N [N] and |F_T| / F_N over the window that ends at each of K nodes, largest |u_i|
-    [N m], depth of the swing foot [m]; then P - int f dt (2,) [N s].
+    """out (6, K): what `analysis.ground_force.demands` gives at each of K nodes, then P - int f dt (2,) [N s].
 
-    first (S + 1,): first node of each single
-    support, and K; the first `impacts` of them ended in an impact. known: window w [s], weight [N], tan of the
-    slope, share of a step near its ends, axes along the ground and out of it, and for each single support by
-    how much its ground falls [m]. F_N is inf and the ratio -inf where no window ends, the ratio also where the
-    ground does not push. A single support shorter than w is averaged as a whole. Depth is 0 near the ends and
-    before the foot has been above the ground; at the end of a single support without an impact it counts.
+    first (S + 1,): first node of each single support, and K; the first `impacts` of them ended in an impact.
+    known: window w [s], weight [N], tangent of the slope, share of a step that is near its ends, axes (2,)
+    along the ground and out of it; then for each single support by how much its ground falls [m].
     """
     width, count, before = 8 + 3 * p, first[supports], rows
     F_N, ratio, torque, depth = out, shift(out, count), shift(out, 2 * count), shift(out, 3 * count)
     P_x, P_z, pushed_x, pushed_z = shift(out, 4 * count), shift(out, 5 * count), 0.0, 0.0
-    for k in range(count):
-        row = shift(rows, k * width)
-        half = (row[0] - before[0]) / 2.0
-        pushed_x += half * (row[2] + before[2])
-        pushed_z += half * (row[3] + before[3])
-        P_x[k], P_z[k] = row[width - 4] - pushed_x, row[width - 3] - pushed_z
-        torque[k] = largest(shift(row, 4 + p), p)
-        before = row
+    window, weight, tangent, ends = known[0], known[1], known[2], known[3]
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
-        w, end = min(known[0], duration), known[3]
+        w, near = min(window, duration), ends * duration
+        far = (1.0 - ends) * duration if s < impacts else math.inf
         for k in range(first[s], last + 1):
             row = shift(rows, k * width)
-            t, since = row[0], row[0] - start
+            t, since, half = row[0], row[0] - start, 0.5 * (row[0] - before[0])
+            pushed_x += half * (row[2] + before[2])
+            pushed_z += half * (row[3] + before[3])
+            before = row
+            P_x[k], P_z[k] = row[width - 4] - pushed_x, row[width - 3] - pushed_z
             F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0
+            torque[k] = largest(shift(row, 4 + p), p)
             if w > SHORTEST and since >= w:
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
                     i += 1
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
                 share = min(max(behind / h, 0.0), 1.0) if h > 0.0 else 0.0
                 F_x = (P_x[k] - P_x[i] - share * (P_x[i + 1] - P_x[i])) / w
-                F_z = (P_z[k] - P_z[i] - share * (P_z[i + 1] - P_z[i])) / w + known[1]
+                F_z = (P_z[k] - P_z[i] - share * (P_z[i + 1] - P_z[i])) / w + weight
                 F_N[k] = F_x * known[6] + F_z * known[7]
                 if not F_N[k] <= 0.0:
                     ratio[k] = abs(F_x * known[4] + F_z * known[5]) / F_N[k]
-            height = row[width - 1] + known[2] * row[width - 2] + known[8 + s]
-            above = above or height > 0.0
-            inside = s >= impacts or since < (1.0 - end) * duration
-            if above and inside and since > end * duration and not height >= 0.0:
-                depth[k] = -height
+            height = row[width - 1] + tangent * row[width - 2] + known[8 + s]
+            if height > 0.0:
+                above = True
+            elif above and near < since < far:
+                depth[k] = 0.0 - height
 
 
 @unit
