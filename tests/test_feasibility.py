@@ -86,7 +86,7 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
         s = judged(walker, t, np.full(len(t), 100.0), F_T=np.full(len(t), 70.0 * sign))
         assert list(s.infeasible()) == ["friction"]
         assert s.mean_friction == pytest.approx(0.7)
-        assert not replace(s, friction_limit=0.8).infeasible()
+        assert not replace(s, limits=KNOWN._replace(friction=0.8)).infeasible()
     chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))
     s = judged(walker, t, np.full(len(t), 100.0), F_T=chatter)
     assert s.mean_friction < 0.1

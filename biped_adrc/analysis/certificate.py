@@ -72,19 +72,14 @@ class Support(Shown):
     """|F_T| / F_N of the impulse of its impact: infinite where the ground would have
     had to pull, 0 without one.
     """
-    friction_limit: float
-    """mu of the friction cone; infinite on soft ground, where friction is the simulator's."""
-    torque_limit: float
-    """Limit of every motor [N m]."""
-    window: float
-    """Length of the window of the means [s]."""
+    limits: KnownLimits
+    """The limits; on soft ground, where friction is the simulator's, its mu is infinite."""
 
     def infeasible(self) -> dict[str, str]:
         """The numbers that are not within their limits: name in `REASONS` -> text; empty for a
         feasible step.
         """
-        k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
-        numbers = {name: getattr(self, number) for name, number in REASONS.items()}
+        k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
         return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
 
 
@@ -197,9 +192,8 @@ def supports(
     worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
     numbers = (t[n.last] - t[first], *(worst[name] for name in REASONS))
     columns: list[Any] = [n.steps, *(x.tolist() for x in numbers)]
-    names = ("step", "duration", *REASONS.values(), "friction_limit", "torque_limit", "window")
-    rows = ((*row, k.friction, k.torque, k.window) for row in zip(*columns, strict=True))
-    return tuple(Support(**dict(zip(names, row, strict=True))) for row in rows)
+    names, rows = ("step", "duration", *REASONS.values()), zip(*columns, strict=True)
+    return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
@@ -232,9 +226,8 @@ def certificates(
     limits: Limits | KnownLimits | None = None,
 ) -> tuple[Certificate, ...]:
     """Certificate of every single support that ended in an impact; limits None: those of the robot's record."""
-    k = limits
-    if not isinstance(k, KnownLimits):
-        k = (k or Limits()).of(walker.plant.description)
+    k = limits or Limits()
+    k = k.of(walker.plant.description) if isinstance(k, Limits) else k
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     result = supports(walker, Nodes.of(signals), k, len(arcs), after)

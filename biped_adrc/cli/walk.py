@@ -171,7 +171,7 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
             ", ".join(name.replace("_", " ") for name in s.infeasible()),
         )
     console.print(table)
-    for window in {s.window for s in supports}:
+    for window in {s.limits.window for s in supports}:
         console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 
 
