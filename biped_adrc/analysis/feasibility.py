@@ -94,8 +94,6 @@ class Feasibility(Shown):
     """How the simulation ended."""
     supports: tuple[Support, ...]
     """The single supports, in order."""
-    limits: KnownLimits
-    """The limits that `reasons` refers to."""
     touchdowns: int
     """Number of the supports that ended in a touchdown."""
 

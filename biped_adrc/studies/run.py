@@ -149,7 +149,7 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
         if walked.status is Status.COMPLETED:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
-        result = counted(n, Feasibility(walked.status, judged, k, walked.impacts))
+        result = counted(n, Feasibility(walked.status, judged, walked.impacts))
     else:
         return row
     weighed = plant.weight * float(row.get("distance") or 0.0)
