@@ -30,11 +30,11 @@ PLAN = Plan(quick=True)
 SUPPORT = {"step": 1, "duration": 0.4, "scuffing": 0.0, "slip": 0.0, "missed_stone": 0.0}
 FORCES = {"least_normal_force": 200.0, "friction": 0.4, "impulse_ratio": 0.5, "peak_torque": 100.0}
 MEANS = {"mean_normal_force": 200.0, "mean_friction": 0.4}
-LIMITS = {"friction_limit": 0.6, "torque_limit": 150.0, "window": 5e-3}
+LIMITS = {"limits": KnownLimits(0.6, 150.0, 5e-3)}
 STEP = {"step_length": 0.3, "old_foot_velocity": 0.1, "clearance": 0.01, "cost_of_transport": 0.3}
 ENERGY = {"joint_work": 10.0, "energy_lost": 10.0}
 CERTIFICATE = Certificate(**SUPPORT, **FORCES, **MEANS, **LIMITS, **STEP, **ENERGY)
-FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150.0, 5e-3), 1)
+FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), 1)
 
 
 def figure(value, change=1e-3):

@@ -19,13 +19,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
+from biped_adrc.analysis.ground_force import Nodes, demands, impulse_ratios, ratios
 from biped_adrc.analysis.signals import Signals, integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
@@ -42,6 +41,8 @@ REASONS = {
     IMPULSE: "impulse_ratio",
 }
 """Reason why a single support is not feasible, a key of `Support.infeasible` -> its field of `Support`."""
+AT_NODES = ("normal_force", "friction", "torque", "scuffing")
+"""Reasons whose numbers are those of `ground_force.demands`."""
 
 
 @dataclass(frozen=True)
@@ -71,19 +72,14 @@ class Support(Shown):
     """|F_T| / F_N of the impulse of its impact: infinite where the ground would have
     had to pull, 0 without one.
     """
-    friction_limit: float
-    """mu of the friction cone; infinite on soft ground, where friction is the simulator's."""
-    torque_limit: float
-    """Limit of every motor [N m]."""
-    window: float
-    """Length of the window of the means [s]."""
+    limits: KnownLimits
+    """The limits; on soft ground, where friction is the simulator's, its mu is infinite."""
 
     def infeasible(self) -> dict[str, str]:
         """The numbers that are not within their limits: name in `REASONS` -> text; empty for a
         feasible step.
         """
-        k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
-        numbers = {name: getattr(self, number) for name, number in REASONS.items()}
+        k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
         return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
 
 
@@ -159,26 +155,18 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
 
 def series(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
-) -> dict[str, tuple[Array, Indices, Array]]:
-    """The numbers that limits apply to, over time: name in `REASONS` -> times (M,) [s], single
-    supports (M,), numbers (M,).
+) -> dict[str, Array]:
+    """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
+    at the end of each single support.
 
-    Slips are not among them. The single supports are indices from 0. Friction ratios are -inf where
-    the mean force does not push. impacts, after: as for `impulse_ratios`; where friction is not
-    limited, on soft ground, impulses are 0.
+    Slips are not among them. Normal forces are inf and friction ratios -inf where no mean force ends or, the
+    latter, it does not push. impacts, after: as for `impulse_ratios`; where friction is not limited, on soft
+    ground, impulses are 0.
     """
-    first, last, of = n.supports
-    means, impulses = mean_forces(walker, n, k.window), np.zeros(len(first))
+    at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
     if k.friction < math.inf:
-        impulses = impulse_ratios(walker, n, impacts, after)
-    return {
-        "normal_force": (means.t, means.of, means.F[:, 1]),
-        "friction": (means.t, means.of, ratios(means.F, -np.inf)),
-        "torque": (n.t, of, np.max(np.abs(n.u), axis=1, initial=0.0)),
-        "scuffing": (n.t, of, depths(walker, n, impacts)),
-        "stones": (n.t[last], np.arange(len(first)), missed_stones(walker, n, impacts)),
-        IMPULSE: (n.t[last], np.arange(len(first)), impulses),
-    }
+        at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
+    return dict(zip(AT_NODES, demands(walker, n, k.window, impacts), strict=True)) | at_ends
 
 
 def supports(
@@ -194,64 +182,28 @@ def supports(
     k: limits. after: as for `impulse_ratios`. slips: slip of each single support on soft ground [m], in place
     of the friction cone; None on the rigid plant.
     """
-    first, last, _ = n.supports
     k = k if slips is None else k._replace(friction=math.inf)
-    worst = {name: np.zeros(len(first)) for name in REASONS}
-    worst["normal_force"] += np.inf
-    worst["friction"] -= np.inf
-    edges = np.arange(len(first) + 1)
-    for name, (_, of, x) in series(walker, n, k, impacts, after).items():
-        at = np.searchsorted(of, edges)
-        some = at[:-1] < at[1:]
-        with np.errstate(invalid="ignore"):  # NaN stays, and is judged
-            extreme = np.minimum if name == "normal_force" else np.maximum
-            worst[name][some] = extreme.reduceat(x, at[:-1][some])
+    first, t, worst = n.edges[:-1], n.t, series(walker, n, k, impacts, after)
+    for name in AT_NODES:
+        extreme = np.minimum if name == "normal_force" else np.maximum
+        worst[name] = extreme.reduceat(worst[name], first)
     never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)  # has a mean force pushed
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
-    worst["slip"] += 0.0 if slips is None else slips
-    columns = {"step": n.step[first], "duration": n.t[last] - n.t[first]}
-    columns |= {REASONS[name]: x for name, x in worst.items()}
-    limits: dict[str, Any] = {
-        "friction_limit": k.friction,
-        "torque_limit": k.torque,
-        "window": k.window,
-    }
-    rows = zip(*(x.tolist() for x in columns.values()), strict=True)
-    return tuple(Support(**dict(zip(columns, row, strict=True)), **limits) for row in rows)
+    worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
+    numbers = (t[n.last] - t[first], *(worst[name] for name in REASONS))
+    columns: list[Any] = [n.steps, *(x.tolist() for x in numbers)]
+    names, rows = ("step", "duration", *REASONS.values()), zip(*columns, strict=True)
+    return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
-    """By how much each single support (M,) lands off its stone [m]; 0 where it did not end in an impact."""
-    first, last, _ = n.supports
-    missed = np.zeros(len(first))
+    """By how much each single support (S,) lands off its stone [m]; 0 where it did not end in an impact."""
+    missed = np.zeros(len(n.steps))
     if walker.stones is not None:
-        for k in range(min(impacts, len(first))):
-            length = n.swing_foot[last[k], 0] / math.cos(walker.slope)
-            missed[k] = walker.stones.missed(int(n.step[first[k]]), float(length))
+        lengths = n.rows[n.last, -2] / math.cos(walker.slope)
+        for k, step in enumerate(n.steps[:impacts]):
+            missed[k] = walker.stones.missed(step, float(lengths[k]))
     return missed
-
-
-def depths(walker: Walker, n: Nodes, impacts: int) -> Array:
-    """Depth of the swing foot below the ground at the nodes (K,) [m], 0 near the ends of a single support.
-
-    The ground is taken at the height of the lower of the two footholds. Depth counts once the foot has been
-    above it, since the foot may come from lower ground. It also counts at the end of a single support that did
-    not end in an impact, one behind the first `impacts`.
-    """
-    first, last, of = n.supports
-    drops = np.array([max(walker.drop(int(step)), 0.0) for step in n.step[first]])
-    height = heights(walker, n) + drops[of]
-    since, duration = n.t - n.t[first][of], (n.t[last] - n.t[first])[of]
-    counts = since > ENDS * duration
-    counts &= (of >= impacts) | (since < (1.0 - ENDS) * duration)
-    at = np.arange(len(of))
-    rises = np.minimum.reduceat(np.where(height > 0.0, at, len(at)), first)
-    return np.where(counts & (at >= rises[of]), np.maximum(-height, 0.0), 0.0)
-
-
-def heights(walker: Walker, n: Nodes) -> Array:
-    """Height (K,) [m] of the swing foot above the line of the ground through the stance foot, vertically."""
-    return n.swing_foot[:, 1] + math.tan(walker.slope) * n.swing_foot[:, 0]
 
 
 def ended_in_impact(arc: Arc) -> bool:
@@ -274,9 +226,8 @@ def certificates(
     limits: Limits | KnownLimits | None = None,
 ) -> tuple[Certificate, ...]:
     """Certificate of every single support that ended in an impact; limits None: those of the robot's record."""
-    k = limits
-    if not isinstance(k, KnownLimits):
-        k = (k or Limits()).of(walker.plant.description)
+    k = limits or Limits()
+    k = k.of(walker.plant.description) if isinstance(k, Limits) else k
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     result = supports(walker, Nodes.of(signals), k, len(arcs), after)
@@ -294,7 +245,9 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
-    height = heights(walker, Nodes.of(s)) + walker.drop(support.step)
+    since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
+    inner = (since > ENDS * duration) & (since < (1.0 - ENDS) * duration)
+    height = s.swing_foot @ (math.tan(walker.slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
@@ -306,17 +259,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
         friction=math.inf if friction == -math.inf else friction,
         step_length=length,
         old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
-        clearance=float(np.min(height[inner(s.t)])),
+        clearance=float(np.min(height[inner])),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,
         cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )
-
-
-def inner(t: Array) -> NDArray[np.bool_]:
-    """Whether each node, at times t (K,) [s], is away from both ends of the step by more
-    than the share ENDS (K,).
-    """
-    since, last = t - t[0], t[-1] - t[0]
-    result: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
-    return result

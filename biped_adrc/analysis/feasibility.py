@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.certificate import (
+    AT_NODES,
     IMPULSE,
     Support,
     after_last_impact,
@@ -93,8 +94,6 @@ class Feasibility(Shown):
     """How the simulation ended."""
     supports: tuple[Support, ...]
     """The single supports, in order."""
-    limits: KnownLimits
-    """The limits that `reasons` refers to."""
     touchdowns: int
     """Number of the supports that ended in a touchdown."""
 
@@ -128,6 +127,7 @@ class Feasibility(Shown):
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least mean F_N [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest mean |F_T| / F_N [1].")
     scuffing = _over_steps(np.max, "scuffing", "Largest depth of scuffing [m].")
+    peak_torque = _over_steps(np.max, "peak_torque", "Largest |u_i| [N m].")
     impulse_ratio = _over_steps(
         np.max, "impulse_ratio", "Largest |F_T| / F_N of an impulse, 0 without impact."
     )
@@ -157,9 +157,11 @@ def first_violation(
     impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
     """
     result = []
-    for name, (t, of, x) in series(walker, n, k, impacts, after).items():
+    for name, x in series(walker, n, k, impacts, after).items():
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
-            result.append(Violation(float(t[i]), int(of[i]), violation(name, x[i], k)))
+            at = i if name in AT_NODES else n.last[i]
+            support = int(np.searchsorted(n.last, at))
+            result.append(Violation(float(n.t[at]), support, violation(name, x[i], k)))
     return min(result, default=None, key=lambda one: one.t)
 
 

@@ -152,7 +152,7 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
     header = (Column(name, min_width=widths.get(name)) for name in rows[0])
     cells = (row.values() for row in rows)
     console.table(header, cells, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    for window in {s.window for s in supports}:
+    for window in {s.limits.window for s in supports}:
         console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 
 

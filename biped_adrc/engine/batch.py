@@ -100,7 +100,7 @@ class BatchWalk(Shown):
     t_start: float = 0.0
     """Start of the walk [s]."""
     table: Array | None = None
-    """Of the compiled walk of a case with a curve, in columns: t, step, force from outside (2,), `StepReading`;
+    """Of the compiled walk of a case with a curve, in rows: t, step, force from outside (2,), `StepReading`;
     one at each step of integration, after the sample instant there, and at the end of each single support.
     """
     trajectory: Trajectory | None = None
@@ -220,7 +220,7 @@ def _strides(
         parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
     strikes = np.vstack(parts)
     times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()
-    table = np.ascontiguousarray(np.vstack(rows).T) if read else None
+    table = (np.vstack(rows) if len(rows) > 1 else rows[0]) if read else None
     return BatchWalk(status, "", times, before, after, run["t"], COMPILED, mode.start, table)
 
 

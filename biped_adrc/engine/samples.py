@@ -89,7 +89,7 @@ class CompiledWalk:
         curve: Reference | None,
         judged: bool,
     ) -> Self:
-        """From x (nx,). curve: what `law` refers to. judged: whether the table is kept, for `over`.
+        """From x (nx,). curve: what `law` refers to. judged: whether nodes are kept.
 
         Raises NotCompiled for a part without machine code.
         """
@@ -102,13 +102,6 @@ class CompiledWalk:
         run["torque"] = run["K"] + 8 * torque_place(compiled.program.numbers)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
         return cls(compiled, run)
-
-    def over(self, on: bool) -> Array:
-        """The table; where the walk goes on, nodes of the single support in which it is stay there."""
-        run, rows = self.run, self.run.rows().copy()
-        stay = rows[np.searchsorted(rows[:, 1], run["step"]) :] if on else rows[:0]
-        run.nodes[: len(stay)], run["count"] = stay, len(stay)
-        return np.ascontiguousarray(rows.T)
 
     @property
     def at(self) -> At:

@@ -217,7 +217,7 @@ class Walk(Shown):
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
-        return Feasibility(run.status, judged, k, impacts)
+        return Feasibility(run.status, judged, impacts)
 
     @cached_property
     def touchdowns(self) -> Noticed:

@@ -121,9 +121,10 @@ class Stepper:
         self._kernels = kernels()
         self.addresses = np.zeros(count, dtype=np.int64)
         self._walks = self.addresses.ctypes.data, count
-        self._inputs = np.zeros((count, self.p + 2))
+        self.inputs = np.zeros((count, self.p + 2))
+        """Torque (p,) [N m] and force (2,) [N] from outside in the next sample."""
         self._impacts = np.zeros(count, dtype=np.int64)
-        """In the last sample."""
+        """In the last sample; -1 for a walk that did not go on in machine code."""
         self.codes = np.full(count, -1, dtype=np.int64)
         """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
@@ -160,7 +161,9 @@ class Stepper:
         """Walk i as `reset` has it."""
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
-            s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
+            mode = Mode(s.run.first_step)
+            if seed is not None:
+                s = s.model_copy(update={"run": s.run.replace(seed=seed)})
             walker, outside = with_inputs(self.walker_of(s, self.scene))
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
@@ -189,7 +192,7 @@ class Stepper:
         _, t, x, mode = walk.at
         if not self.rows.size:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
-            arrays = (self._inputs, self.rows, self.codes, self._impacts)
+            arrays = (self.inputs, self.rows, self.codes, self._impacts)
             self._states = self.rows.shape[1], *(x.ctypes.data for x in arrays)
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
@@ -207,42 +210,42 @@ class Stepper:
         """
         if self.codes.min() < 0:
             raise InputError("there is a walk that has not begun; call reset() first")
-        inputs = np.zeros((len(self.walks), self.p + 2))
-        if torque is not None:
-            inputs[:, : self.p] = finite_numbers("torque", torque, inputs[:, : self.p].shape)
-        if force is not None:
-            inputs[:, self.p :] = finite_numbers("force", force, inputs[:, self.p :].shape)
-        self.move(inputs)
+        parts = (
+            ("torque", torque, self.inputs[:, : self.p]),
+            ("force", force, self.inputs[:, self.p :]),
+        )
+        for name, values, part in parts:
+            part[:] = 0.0 if values is None else finite_numbers(name, values, part.shape)
+        self.move()
         return self.sample
 
-    def move(self, inputs: Array) -> None:
-        """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
-        before = self.codes.copy()
-        self._inputs[:] = inputs
+    def move(self) -> None:
+        """As `step`, of walks that have begun, under `inputs`, not checked."""
         ends = self._kernels.samples(*self._walks, *self._states)
-        self.over = self._judged(before) if ends > 0 and self.within is not None else []
+        self.over = self._judged() if ends > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk) and self.codes[i] == 0:
-                after, status, over = walk.sample(inputs[i])
+                after, status, over = walk.sample(self.inputs[i])
                 self._put(i, after, STATUS.index(status))
                 self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
 
-    def _judged(self, before: Ints) -> list[tuple[int, Support]]:
+    def _judged(self) -> list[tuple[int, Support]]:
         """What the single supports needed that have just ended in machine code, each with the number of its
         walk.
-
-        before: codes (N,) of the walks before this sample.
         """
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
-        for i, walk in enumerate(self.walks):
-            impacts, ended = int(self._impacts[i]), self.codes[i] != 0
-            if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
-                walker, plant = walk.compiled.walker, walk.compiled.walker.plant
-                q, v = np.split(walk.run.x[: 2 * plant.n], 2)
-                n = Nodes.of_table(walk.over(impacts > 0 and not ended), plant.p)
-                after = plant.momentum(q, v) if len(n.supports.first) == impacts else None
-                judged = supports(walker, n, within.of(plant.description), impacts, after)
-                result += [(i, s) for s in judged[: None if ended else impacts]]
+        moved = self._impacts >= 0
+        for i in np.flatnonzero(moved & ((self._impacts > 0) | (self.codes != 0))).tolist():
+            walk, impacts, ended = self.walks[i], int(self._impacts[i]), self.codes[i] != 0
+            assert isinstance(walk, CompiledWalk)
+            walker, plant = walk.compiled.walker, walk.compiled.walker.plant
+            n = Nodes(walk.run.rows())
+            q, v = np.split(walk.run.x[: 2 * plant.n], 2)
+            after = plant.momentum(q, v) if len(n.steps) == impacts else None
+            judged = supports(walker, n, within.of(plant.description), impacts, after)
+            result += [(i, s) for s in judged[: None if ended else impacts]]
+            on = n.rows[n.edges[impacts] :]
+            walk.run.nodes[: len(on)], walk.run["count"] = on, len(on)
         return result
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:

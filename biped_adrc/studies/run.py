@@ -25,14 +25,13 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
-from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.ground_force import Nodes, totals
 from biped_adrc.analysis.soft_steps import contact_errors
 from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
-from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, left_by, run_case
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
@@ -48,8 +47,12 @@ WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 Function = Callable[[Sequence[Record]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
-OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
+OF_FEASIBILITY = (
+    *("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque"),
+)
 """Columns that `Feasibility` has under the same names."""
+OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
+"""Columns of `analysis.ground_force.totals`."""
 AT_ONCE = 160
 """Impacts of the walks that are in memory together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
@@ -142,11 +145,11 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
-        n, k, after = Nodes.of_table(walked.table, plant.p), limits(s).of(plant.description), None
+        n, k, after = Nodes(walked.table), limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
-        result = counted(n, Feasibility(walked.status, judged, k, walked.impacts))
+        result = counted(n, Feasibility(walked.status, judged, walked.impacts))
     else:
         return row
     weighed = plant.weight * float(row.get("distance") or 0.0)
@@ -155,20 +158,10 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
 
 
 def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
-    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground.
-
-    Root mean squares are over nodes and joints.
-    """
-    held = (np.diff(n.t) > 0.0).astype(float)  # a jump weighs nothing
-    work = n.u[:-1] * np.diff(n.q_b, axis=0)
+    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground."""
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
-        "peak_error": _largest(n.error),
-        "rms_error": _rms(n.error, held),
-        "peak_torque": _largest(n.u),
-        "rms_torque": _rms(n.u, held),
-        "work": float(np.sum(held * np.sum(np.abs(work), axis=1))),
-        "net_work": float(np.sum(held * np.sum(work, axis=1))),
+        **dict(zip(OF_TOTALS, totals(n), strict=True)),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
@@ -203,21 +196,6 @@ def _on_the_ground(walk: Walk) -> WalkRow:
         "double_support": max(step.double_support for step in steps),
         "penetration": max(step.depth for step in steps),
     }
-
-
-def _largest(x: Array) -> float:
-    """Largest absolute value, 0 of nothing."""
-    return float(np.max(np.abs(x), initial=0.0))
-
-
-def _rms(x: Array, weights: Array) -> float:
-    """Root of the mean square of x (K, p) over columns and all nodes but the last, by weights (K - 1,)."""
-    total = float(np.sum(weights)) * x.shape[1]
-    return (
-        math.sqrt(float(np.sum(weights * np.sum(x[:-1] ** 2, axis=1))) / total)
-        if total > 0.0
-        else 0.0
-    )
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:

@@ -120,10 +120,11 @@ def samples(
 
     walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N].
     codes (count,) become those of `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it,
-    as they were where a walk has ended. impacts (count,) are those made.
+    as they were where a walk has ended. impacts (count,) are those made, -1 for a walk that is not moved.
     """
     over = 0
     for i in range(count):
+        impacts[i] = -1
         if codes[i] == COMPLETED and walks[i] != 0:
             r = run_at(walks[i])
             u = shift(inputs, i * (r.p + 2))

@@ -37,6 +37,7 @@ FILES = (
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",
     f"{_HERE}.arc",
+    f"{_HERE}.nodes",
 )
 """Their modules, in the order in which they need each other."""
 _LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
@@ -44,8 +45,8 @@ _LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
 ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
-ARGUMENTS = {"stride": 3, "samples": 7, "looks": 5}
-"""The units of `kernels.arc` that Python calls; how many whole numbers and addresses each takes."""
+ARGUMENTS = {"stride": 3, "samples": 7, "looks": 5, "demands": 7, "totals": 4}
+"""The units that Python calls; how many whole numbers and addresses each takes."""
 
 
 def kernels() -> Any:

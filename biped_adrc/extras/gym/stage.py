@@ -151,10 +151,13 @@ class Stage:
         self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
         self.scene = self.stepper.scene
         self.limits = task.limits(self.scene)
-        self.task = replace(task, scenario=self._limited(task.scenario))
+        limited = task.scenario.replace({"hardware.torque_limit": self.limits.torque})
+        self.task = replace(task, scenario=limited)
+        self.stepper.what = limited
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
+        self.cost = task.effort / (p * self.limits.torque**2)
         self.highest = np.concatenate(
             (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
         )
@@ -166,14 +169,8 @@ class Stage:
 
     def _walker(self, s: Scenario, scene: RobotAndGait) -> Walker:
         """Build the walker of a scenario; with actions as the whole torque it has no controller of its own."""
-        walker = build(self._limited(s), scene)
+        walker = build(s, scene)
         return walker if self.task.action == ADDED else replace(walker, controller=Passive())
-
-    def _limited(self, s: Scenario) -> Scenario:
-        """The scenario with a torque limit, of which actions are shares: its own, or
-        that of the robot's record.
-        """
-        return s.replace({"hardware.torque_limit": self.limits.torque})
 
     def _fastest(self) -> Array:
         """Bounds (2 n + 2 p,) of the measured q, q', e and e', one after the other."""
@@ -191,9 +188,8 @@ class Stage:
 
     def move(self, actions: Array) -> None:
         """Walk one sample of all walks under actions (N, p), shares of the motors' limit [1]."""
-        inputs = np.zeros((len(actions), self.plant.p + 2))
-        inputs[:, :-2] = self.limits.torque * actions
-        self.stepper.move(inputs)
+        np.multiply(actions, self.limits.torque, out=self.stepper.inputs[:, :-2])
+        self.stepper.move()
         self._seen = np.zeros(0)
         for i, support in self.stepper.over:
             feasible, friction, normal, torque = self.needs[i]
@@ -223,16 +219,14 @@ class Stage:
     def observations(self) -> Array:
         """Observations (N, first + 1), limited to their bounds."""
         view = self.view
-        result = np.empty((len(view), self.first + 1))
-        result[:, :-1] = view[:, : self.first]
+        result = view[:, : self.first + 1].copy()
         result[:, -1] = np.vecdot(view[:, : self.plant.n], self.phase)
         return np.minimum(np.maximum(result, -self.highest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
         """Rewards (N,) [1] of the last sample."""
-        task, (e, u) = self.task, self.view[:, self.first + 2 : self.first + 4].T
-        e, u = e / NEAR**2, u / (self.plant.p * self.limits.torque**2)
-        paid = task.alive + task.tracking / (1.0 + e) - task.effort * u
+        close, u = self.view[:, self.first + 2 :].T
+        paid = self.task.alive + self.task.tracking * close - self.cost * u
         return np.where(self.stepper.codes == 0, paid, 0.0)
 
     def ended(self) -> tuple[Flags, Flags]:
@@ -241,21 +235,21 @@ class Stage:
         fallen = self.stepper.codes != 0
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= view[:, self.first + 1] >= run.first_step + run.impacts
-        return fallen, late & ~fallen
+        return fallen, late > fallen
 
     def infos(self) -> dict[str, Any]:
         """Further numbers by name, (N,) each: time, step, seed, feasibility with its extremes so far,
         status.
         """
-        at, rows = self.view[:, self.first :], self.needs
+        at, rows = self.view[:, self.first :], self.needs.T.copy()
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),
             "seed": self.seeds.copy(),
-            "feasible": rows[:, 0] > 0.0,
-            "friction": rows[:, 1].copy(),
-            "normal_force": rows[:, 2].copy(),
-            "peak_torque": rows[:, 3].copy(),
+            "feasible": rows[0] > 0.0,
+            "friction": rows[1],
+            "normal_force": rows[2],
+            "peak_torque": rows[3],
             "status": NAMES[self.stepper.codes],
         }
 
@@ -275,8 +269,8 @@ class LearnerView(NamedTuple):
     """Torque (p,) that has acted [N m]."""
     at: Array
     """Time [s], and number of the single support, (2,)."""
-    squares: Array
-    """|q_b - q_d|^2 of the true state [rad^2], and |u|^2 [N^2 m^2], (2,)."""
+    paid: Array
+    """1 / (1 + |e|^2 / e_1^2) of the true state [1], and |u|^2 [N^2 m^2], (2,)."""
 
 
 def learner_view(
@@ -309,5 +303,5 @@ def learner_view(
         de=state.v[:p] - r.dq_d,
         u=motor_torque(line),
         at=np.array([t, mode.step]),
-        squares=np.array([e @ e, u @ u]),
+        paid=np.array([1.0 / (1.0 + e @ e / NEAR**2), u @ u]),
     )
