@@ -24,7 +24,7 @@ WHOLE = 1e-9
 SAME_INSTANT = 1e-9
 """Times that differ by less are the same instant up to round-off [s], in both engines."""
 PeriodFloat = Annotated[
-    float, Range(f"a number from {LEAST} s to {LONGEST} s", lambda T: LEAST <= T <= LONGEST)
+    float, Range(f"at least {LEAST} s, at most {LONGEST} s", lambda T: LEAST <= T <= LONGEST)
 ]
 
 

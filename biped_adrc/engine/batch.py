@@ -212,8 +212,7 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        longest, size = compiled.walker.max_step_time, 3 * compiled.walker.plant.p + 4
-        run.keep(longest, min(impacts, AT_ONCE), read, size)
+        run.keep(compiled.walker.max_step_time, min(impacts, AT_ONCE), read)
     status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
     while left > 0 and status is Status.COMPLETED:
         status, part = run.stride(min(left, AT_ONCE) if read else left)

@@ -97,7 +97,7 @@ class CompiledWalk:
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
             look = compiled.program.reading(step_reading).addresses["reading"]
-            run.keep(walker.max_step_time, 1, look, 3 * walker.plant.p + 4)
+            run.keep(walker.max_step_time, 1, look)
         assert walker.disturbance is not None
         run["torque"] = run["K"] + 8 * torque_place(compiled.program.numbers)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
