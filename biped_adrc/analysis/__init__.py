@@ -2,7 +2,8 @@
 
 Of a finished walk:
 - `signals`                        all time series of a walk, and integrals and means of them
-- `certificate`, `feasibility`     whether a real robot could have made these steps
+- `certificate`, `feasibility`     whether a real robot could have made these steps, by `ground_force` and the
+                                 compiled loops in `demands`
 - `touchdowns`                     when they were noticed
 - `soft_steps`                     what the feet did on soft ground, and what that does to the error
 - `statistics`                     shares and medians over many walks

@@ -1,6 +1,6 @@
 """Nodes of a walk, and what they demand of the ground: the force in the mean, the impulse of an impact.
 
-The mean force is that of `engine.kernels.nodes`; the impulse is the change of the robot's momentum.
+The mean force is that of `analysis.demands`; the impulse is the change of the robot's momentum.
 """
 
 from __future__ import annotations
@@ -8,13 +8,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS
 
@@ -60,6 +61,17 @@ class Nodes:
         return self.edges[1:] - 1
 
 
+LOOPS = (
+    *(f"biped_adrc.engine.kernels.{name}" for name in ("record", "call")),
+    "biped_adrc.analysis.demands",
+)
+
+
+def loops() -> Any:
+    """The compiled loops over nodes."""
+    return compiled(LOOPS, demands=7, totals=4)
+
+
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     """F_N [N] and |F_T| / F_N in the mean over the window [s] that ends at each node, largest |u_i| [N m] and
     depth of the swing foot below the ground [m] (4, K).
@@ -73,7 +85,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     known = [window, walker.plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
     result, numbers = np.empty((6, len(n.rows))), np.array([*known, *falls])
     rows, first, numbers_at, out = (x.ctypes.data for x in (n.rows, n.edges, numbers, result))
-    kernels().demands(rows, n.p, first, len(falls), impacts, numbers_at, out)
+    loops().demands(rows, n.p, first, len(falls), impacts, numbers_at, out)
     return result[:4]
 
 
@@ -82,7 +94,7 @@ def totals(n: Nodes) -> list[float]:
     nothing; int |u_i| |dq_i| and int u_i dq_i [J], summed over motors.
     """
     out = np.zeros(6)
-    kernels().totals(n.rows.ctypes.data, n.p, len(n.rows), out.ctypes.data)
+    loops().totals(n.rows.ctypes.data, n.p, len(n.rows), out.ctypes.data)
     out[2:4] = np.sqrt(out[2:4] / max(out[1] * n.p, 1.0))
     return [out[0], *out[2:]]
 

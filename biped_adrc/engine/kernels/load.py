@@ -1,7 +1,7 @@
 """The march of a walk through time (`hybrid.march`) and what is around it, as compiled functions to call.
 
-numba translates the modules in FILES into LLVM's text once. The text is kept on disk, and is used again until
-one of them changes.
+numba translates modules, those in FILES or others, into LLVM's text once. It is kept on disk, and is used
+again until one of them changes.
 
 The sources are joined into one text of Python, without their imports of each other. The reason is
 `hybrid.march`: it calls operations such as `flow` and `add` by name. In Python they are those of
@@ -37,57 +37,61 @@ FILES = (
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",
     f"{_HERE}.arc",
-    f"{_HERE}.nodes",
 )
-"""Their modules, in the order in which they need each other."""
-_LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
-"""Imports that are left out: what is there, and the march's operations of Python."""
+"""The modules of the march, in the order in which they need each other."""
 ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
-ARGUMENTS = {"stride": 3, "samples": 7, "looks": 5, "demands": 7, "totals": 4}
-"""The units that Python calls; how many whole numbers and addresses each takes."""
-
 
 def kernels() -> Any:
-    """The loops by name, during which other threads of Python run; the first thread that asks loads them, or
-    compiles them where they are not on disk.
+    """The march by the names of its units, `compiled`."""
+    return compiled(FILES, stride=3, samples=7, looks=5)
+
+
+def compiled(files: tuple[str, ...], **arguments: int) -> Any:
+    """The units of modules by name, during which other threads of Python run; the first thread that asks loads
+    them, or compiles them where they are not on disk.
+
+    arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
     """
     with LOCK:
-        return _loaded()
+        return _loaded(files, tuple(arguments.items()))
 
 
 @cache
-def _loaded() -> SimpleNamespace:
-    """As `kernels`; `owner` keeps them in memory."""
-    code = load_or_compile(loops(), [*ARGUMENTS])
+def _loaded(files: tuple[str, ...], arguments: tuple[tuple[str, int], ...]) -> SimpleNamespace:
+    """As `compiled`; `owner` keeps them in memory."""
+    code = load_or_compile(loops(files), [name for name, _ in arguments])
     calls = {
         name: CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
-        for name, size in ARGUMENTS.items()
+        for name, size in arguments
     }
     return SimpleNamespace(owner=code, **calls)
 
 
-def loops() -> str:
+def loops(files: tuple[str, ...] = FILES) -> str:
     """All units in one text for LLVM, each under its own name, from the disk where it is there."""
     root = Path(__file__).parents[3]
-    paths = [*(root / f"{name.replace('.', '/')}.py" for name in FILES), Path(__file__)]
+    paths = [*(root / f"{name.replace('.', '/')}.py" for name in files), Path(__file__)]
     *texts, own = [path.read_text(encoding="utf-8") for path in paths]
     text = "\n".join(texts)
     key = key_of(f"{text}\0{own}")
     code = stored(key)
     if code is None:
-        code = _written(source(text)).encode()
+        code = _written(source(text, files)).encode()
         keep(key, code)
     return code.decode()
 
 
-def source(text: str) -> str:
-    """The text of all files, one after the other, without their imports of each other."""
+def source(text: str, files: tuple[str, ...]) -> str:
+    """The text of files, one after the other, without their imports of each other and of the march's operations
+    of Python.
+    """
+    left_out = ("__future__", *files, "biped_adrc.hybrid.on_arrays")
     kept = [
         statement
         for statement in ast.parse(text).body
-        if not (isinstance(statement, ast.ImportFrom) and statement.module in _LEFT_OUT)
+        if not (isinstance(statement, ast.ImportFrom) and statement.module in left_out)
     ]
     return "from __future__ import annotations\n" + ast.unparse(ast.Module(kept, []))
 
