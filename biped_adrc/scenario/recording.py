@@ -45,7 +45,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.robot_toml import Limits
-from biped_adrc.scenario.edges import course_remarks, edge_remarks, step_remarks
+from biped_adrc.scenario.edges import remarks
 
 if TYPE_CHECKING:
     import pandas
@@ -277,8 +277,7 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        made = self.walker, self.trajectory
-        return (*edge_remarks(*made), *step_remarks(*made), *course_remarks(*made))
+        return tuple(dict.fromkeys(remarks(self.walker, self.trajectory)))
 
     @property
     def controller_name(self) -> str:
