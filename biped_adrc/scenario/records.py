@@ -149,13 +149,7 @@ class Described(NamedTuple):
 class Record(BaseModel):
     """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
 
-    model_config = ConfigDict(
-        frozen=True,
-        extra="forbid",
-        allow_inf_nan=False,
-        protected_namespaces=(),
-        defer_build=True,
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
     APART: ClassVar[tuple[tuple[str, str], ...]] = ()
