@@ -255,12 +255,7 @@ def walk_scenario(
     walker = build(s, scene)
     if controller is not None:
         walker = replace(walker, controller=controller)
-    if scene.gait:
-        begin = scene.start(s)
-    else:
-        from biped_adrc.scenario.cycle import cycle_start
-
-        begin = cycle_start(scene.biped, walker.slope)
+    begin = scene.start(s)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:
