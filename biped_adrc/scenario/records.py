@@ -42,8 +42,6 @@ from biped_adrc.scenario.registry import construct, find, known_name, portable, 
 from biped_adrc.scenario.units import in_si, quantity
 
 _T = TypeVar("_T")
-NONE = "none"
-"""Text for no value."""
 SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
 """Of the ends of a range, by their names in `operator`."""
 
@@ -98,7 +96,7 @@ class Described(NamedTuple):
 
     name: str
     types: tuple[type, ...]
-    """float, int, bool, str, tuple, dict and NoneType; empty for a value that only the user's part knows."""
+    """float, int, bool, str, tuple, dict, NoneType; object for a record; none where only the user's part knows."""
     limits: tuple[tuple[str, float], ...] = ()
     """Of the range: (ge, gt, le or lt, value)."""
     default: Any = None
@@ -121,8 +119,8 @@ class Described(NamedTuple):
 
     def check(self, x: Any) -> None:
         """Raise ValueError for a value of another type, or out of its range."""
-        wrong = self.types and not isinstance(x, (*self.types, *((int,) * self.number)))
-        wrong = wrong or (self.number and isinstance(x, bool))
+        known = (*self.types, int) if float in self.types else self.types
+        wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
             kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
@@ -187,10 +185,9 @@ class Record(BaseModel):
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
         name = str(info.field_name)
         what = described(cls, name)
-        x = read(what, plain(x))
-        if record_in(cls, name) is None:
-            what.check(x)
-        return x
+        result = read(what, plain(x))
+        what.check(result)
+        return result
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
@@ -322,7 +319,7 @@ def read(what: Described, x: Any) -> Any:
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
-        if x == NONE and NoneType in types:
+        if x == "none" and NoneType in types:
             return None
         if what.kind:
             return known_name(what.kind, x)
@@ -353,6 +350,8 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
+    if record_in(cls, name):
+        types = (object, *types)
     more: Any = info.json_schema_extra
     default = info.get_default(call_default_factory=True)
     return Described(place or name, types, default=default, choices=choices, **more)
@@ -379,7 +378,6 @@ def _members(hint: Any) -> tuple[Any, ...]:
     return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
 
 
-@lru_cache(maxsize=1024)
 def record_in(cls: type[Record], name: str) -> type[Record] | None:
     """The class of the record, or of the records, that a field holds; None for a value."""
     for kind in _members(cls.model_fields[name].annotation):
