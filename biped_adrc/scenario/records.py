@@ -96,7 +96,7 @@ class Described(NamedTuple):
 
     name: str
     types: tuple[type, ...]
-    """float, int, bool, str, tuple, dict, NoneType; object for a record; none where only the user's part knows."""
+    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty of a value of the user's own."""
     limits: tuple[tuple[str, float], ...] = ()
     """Of the range: (ge, gt, le or lt, value)."""
     default: Any = None
@@ -108,17 +108,13 @@ class Described(NamedTuple):
     """Of the registry, where it is a name of it."""
 
     @property
-    def number(self) -> bool:
-        """Whether it may be a number."""
-        return bool({int, float} & set(self.types))
-
-    @property
     def in_brackets(self) -> str:
         """Its unit behind a name, as " [s]"; empty without one."""
         return "" if self.unit in ("1", "") else f" [{self.unit}]"
 
-    def check(self, x: Any) -> None:
-        """Raise ValueError for a value of another type, or out of its range."""
+    def read(self, x: Any) -> Any:
+        """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
+        x = converted(self, plain(x))
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
@@ -127,15 +123,14 @@ class Described(NamedTuple):
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
                 raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
+        return x
 
     def taken(self, x: Any) -> Any:
-        """A value as the field takes it, checked. Raises Misfit."""
+        """The same, with its name in the error: raises Misfit."""
         try:
-            result = read(self, plain(x))
-            self.check(result)
+            return self.read(x)
         except ValueError as error:
             raise Misfit(self.name, str(error)) from None
-        return result
 
     @property
     def range_text(self) -> str:
@@ -183,11 +178,7 @@ class Record(BaseModel):
     @classmethod
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
-        name = str(info.field_name)
-        what = described(cls, name)
-        result = read(what, plain(x))
-        what.check(result)
-        return result
+        return described(cls, str(info.field_name)).read(x)
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
@@ -313,9 +304,9 @@ def plain(x: Any) -> Any:
     return x
 
 
-def read(what: Described, x: Any) -> Any:
-    """A value as a field takes it. Raises ValueError with what was found and expected."""
-    types, number = set(what.types), what.number
+def converted(what: Described, x: Any) -> Any:
+    """A value without its unit and in the field's type, where it is a text. Raises ValueError."""
+    types = what.types
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
@@ -326,7 +317,7 @@ def read(what: Described, x: Any) -> Any:
         if not types:
             result = in_si(x)
             return x if result is None else result
-        if number:
+        if int in types or float in types:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
