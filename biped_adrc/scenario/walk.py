@@ -224,8 +224,8 @@ def walk(
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:
-        usual = methods_of(RunRecord.model_construct(engine=engine), walker)
-        methods = usual if method is None else (method, None)
+        usual = RunRecord.model_construct(engine=engine)
+        methods = methods_of(usual, walker) if method is None else (method, None)
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
     result = Walk(walker, gait, run)
