@@ -138,17 +138,15 @@ Table = dict[str, Sequence[object]]
 
 def tables(r: Results) -> dict[str, Table]:
     """All tables by title."""
-    poles = {"paper, rounded": PRINTED_TABLE_I, "here, 180 x 1.8^k": TABLE_I}
-    constants = [["K_p [1/s^2]", 5000, TABLE_II.K_p], ["K_d [1/s]", 50, TABLE_II.K_d]]
+    poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
+    constants = ("K_p [1/s^2]", 5000, TABLE_II.K_p), ("K_d [1/s]", 50, TABLE_II.K_d)
     return {
-        "Table I: observer eigenvalues [rad/s]": {
-            "columns": list(poles),
-            "rows": list(zip(*poles.values(), strict=True)),
-        },
-        "Table II: controller constants": {
-            "columns": ["constant", "paper", "here"],
-            "rows": constants,
-        },
+        "Table I: observer eigenvalues [rad/s]": table(
+            {"paper, rounded": a, "here, 180 x 1.8^k": b} for a, b in poles
+        ),
+        "Table II: controller constants": table(
+            {"constant": name, "paper": a, "here": b} for name, a, b in constants
+        ),
         "Runs": table(_run(name, o) for name, o in r.run_twice.items()),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(r),

@@ -21,8 +21,6 @@ from biped_adrc.engine.run import PINOCCHIO
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
-Values = dict[str, Any]
-"""Of a scenario, by its records and dotted names."""
 CONTROLLERS = ("NPD", "ADRC")
 """The two that the paper compares, in the order of every pair: PD with inertia decoupling, and ADRC."""
 SOLVED, RESET = "controller.solve_theta", "controller.observer.reset"
@@ -150,7 +148,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         late = {"first_step": declared()["torso"]["first_step"], "impacts": 9}
         runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), run={**late, "fine": fine})
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
-        sampled: Values = {"hardware.period": 1e-3, "run.h": 1e-3}
+        sampled: dict[str, Any] = {"hardware.period": 1e-3, "run.h": 1e-3}
         runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, **sampled)
         for kind, factors in KINDS.items():
             runs[f"heavier, {kind} {c}"] = loose(c, p, run=EIGHT, errors=factors)
@@ -168,7 +166,7 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     for policy, limit in itertools.product(k["resets"], (None, 150.0)):
         h = k["diverging_step" if policy == "none" and limit is None else "reset_step"]
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-        values: Values = {RESET: policy, "hardware.torque_limit": limit, "run.impacts": 2}
+        values: dict[str, Any] = {RESET: policy, "hardware.torque_limit": limit, "run.impacts": 2}
         runs[name] = loose("ADRC", preset, h, **values)
     return runs
 
@@ -248,7 +246,7 @@ class Member:
         k, steps, joints = declared()["push"], declared()["steps"], ",".join(self.joints)
         push = Push(joints=joints, torque=self.amplitude, onset=self.onset, rise=self.rise, **k)
         zero = self.start == "zero" and controller == "ADRC"
-        usual: Values = {
+        usual: dict[str, Any] = {
             "gait": self.gait,
             "pushes": (push,) if pushed else (),
             "run.first_step": push.step,
@@ -304,7 +302,7 @@ class MapPush:
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
         push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)
         run = {"first_step": 19, "impacts": 4, "h": 1e-3}
-        more: Values = {"hardware.torque_limit": self.torque_limit, "gait.continued": True}
+        more: dict[str, Any] = {"hardware.torque_limit": self.torque_limit, "gait.continued": True}
         return scenario(controller, self.preset, pushes=(push,), run=run, **more)
 
 

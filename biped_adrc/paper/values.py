@@ -186,12 +186,11 @@ def noise_spectrum() -> Array:
 
 def of_printed(r: Results) -> dict[str, object]:
     """The printed multipliers, what a tracking error does, and what noise gives."""
-    least = min(PUBLISHED_MULTIPLIERS)
     return {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
         "decay": math.exp(-0.2 * float(np.max(TABLE_II.K_d))),
-        "least": least,
-        "longest": 1e3 * m.longest_step(least),
+        "least": m.LEAST_PRINTED,
+        "longest": 1e3 * m.longest_step(m.LEAST_PRINTED),
         "period": 1e3 * min(x["period"] for x in r.jumps.values()),
         "noise": ", ".join(f"{v:.2f}" for v in noise_spectrum()),
     }

@@ -105,9 +105,14 @@ class RobotAndGait:
     def start(self, s: Scenario) -> tuple[Array, Array]:
         """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with a scenario's offsets.
 
-        First random offsets of every coordinate, then the rates scaled by `speed`, then the values of
-        single coordinates. Raises InputError for a coordinate that the robot does not have.
+        Without motors after that of the cycle on the scenario's slope, which Newton's method finds. Else first
+        random offsets of every coordinate, then the rates scaled by `speed`, then the values of single
+        coordinates. Raises InputError for a coordinate that the robot does not have.
         """
+        if self.cycle is not None:
+            from biped_adrc.scenario.cycle import cycle_start
+
+            return cycle_start(self.biped, self.cycle.slope + s.ground.slope)
         q, v = self.on_orbit
         x, random = s.start, np.random.default_rng(drawn(s, "start"))
         q = q + x.spread * random.standard_normal(len(q))

@@ -28,34 +28,29 @@ LONGER = 1.1
 """Largest step over the observer's shortest time constant; a little above 1 for round-off in its poles."""
 
 
-def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
-    """A sentence for each push that did not act, that an impact cuts off, or with an edge at an impact.
+def remarks(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
+    """Sentences on the pushes of a walk, on its steps beside their edges, and on what is behind its last stone.
 
-    An edge within `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it
-    is how "from the impact on" is written.
+    A push is named that did not act, that an impact cuts off, or with an edge at an impact. An edge within
+    `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
+    the impact on" is written.
     """
-    result = list[str]()
     for part in () if walker.disturbance is None else summands(walker.disturbance):
         edges = {
             step: sorted(s for k, s in part.switches if k == step) for step, _ in part.switches
         }
-        remarks = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
-        if not remarks and not _acted(part, trajectory, walker.plant.n):
+        found = [x for step, times in edges.items() for x in _of_edges(step, times, trajectory)]
+        yield from found
+        if not found and not _acted(part, trajectory, walker.plant.n):
             names = [_name(step, times) for step, times in edges.items()]
             name = names[0] if names else f"the push {type(part).__name__}"
-            remarks = [f"{name} did not act: it was zero at every instant of the walk"]
-        result += remarks
-    return tuple(dict.fromkeys(result))
-
-
-def course_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
-    """A sentence where a walk goes on behind its last stone."""
+            yield f"{name} did not act: it was zero at every instant of the walk"
+    yield from _of_steps(walker, trajectory)
     count = 0 if walker.stones is None else len(walker.stones.lengths)
-    if not 0 < count < trajectory.arcs[-1].mode.step:
-        return ()
-    return (
-        f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole",
-    )
+    if 0 < count < trajectory.arcs[-1].mode.step:
+        yield (
+            f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole"
+        )
 
 
 def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
@@ -67,7 +62,7 @@ def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
     )
 
 
-def _remarks(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
+def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
     """Sentences on the edges of one push, times [s] from the start of the single support, of the walk at 0."""
     name, arcs = _name(step, times), trajectory.arcs
     starts = [0.0] if step == 0 else [arc.mode.start for arc in arcs if arc.mode.step == step]
@@ -94,7 +89,7 @@ def _remarks(step: int, times: list[float], trajectory: Trajectory) -> Iterator[
         yield f"{name} {begun} the impact at {own[0]:.4f} s"
 
 
-def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
+def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     """A sentence where steps of a fixed length are too long for the observer's transient after an edge.
 
     In the coordinates of `Walker.split` the observer's error decays with its poles. Where the step is longer
@@ -103,22 +98,21 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     error.
     """
     if walker.disturbance is None or "rtol" in trajectory.settings.get("method", ""):
-        return ()
+        return
     split = walker.split(Mode())
     if split is None:
-        return ()
+        return
     edges = {step for part in summands(walker.disturbance) for step, _ in part.switches}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
     # an edge of step 0 is in time of the walk: it may be in any single support
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
     longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
-    if longest <= LONGER * constant:
-        return ()
-    return (
-        f"the step of {1e3 * longest:.3g} ms beside the edges of the push is longer than the shortest time "
-        f"constant of the observer ({1e3 * constant:.2g} ms): the largest errors may be mostly errors of "
-        "integration; give a step as short as that, or the compiled engine and no step",
-    )
+    if longest > LONGER * constant:
+        yield (
+            f"the step of {1e3 * longest:.3g} ms beside the edges of the push is longer than the shortest time "
+            f"constant of the observer ({1e3 * constant:.2g} ms): the largest errors may be mostly errors of "
+            "integration; give a step as short as that, or the compiled engine and no step"
+        )
 
 
 def _name(step: int, times: list[float]) -> str:

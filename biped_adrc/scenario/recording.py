@@ -45,7 +45,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.edges import course_remarks, edge_remarks, step_remarks
+from biped_adrc.scenario.edges import remarks
 
 if TYPE_CHECKING:
     import pandas
@@ -278,12 +278,10 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        made, gait = (self.walker, self.trajectory), self.gait
-        result = (*edge_remarks(*made), *step_remarks(*made), *course_remarks(*made))
-        own = gait and f"{gait.robot} {gait.preset}"
-        if gait is None or self.note.endswith(f", {own}"):
-            return result
-        return (*result, f"gait '{gait.name}' was made for {own}")
+        result, gait = [*remarks(self.walker, self.trajectory)], self.gait
+        if gait is not None and not self.note.endswith(f", {gait.robot} {gait.preset}"):
+            result.append(f"gait '{gait.name}' was made for {gait.robot} {gait.preset}")
+        return tuple(dict.fromkeys(result))
 
     @property
     def controller_name(self) -> str:

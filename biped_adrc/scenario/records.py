@@ -42,8 +42,6 @@ from biped_adrc.scenario.registry import construct, find, known_name, portable, 
 from biped_adrc.scenario.units import in_si, quantity
 
 _T = TypeVar("_T")
-NONE = "none"
-"""Text for no value."""
 SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
 """Of the ends of a range, by their names in `operator`."""
 
@@ -98,7 +96,7 @@ class Described(NamedTuple):
 
     name: str
     types: tuple[type, ...]
-    """float, int, bool, str, tuple, dict and NoneType; empty for a value that only the user's part knows."""
+    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty of a value of the user's own."""
     limits: tuple[tuple[str, float], ...] = ()
     """Of the range: (ge, gt, le or lt, value)."""
     default: Any = None
@@ -110,34 +108,29 @@ class Described(NamedTuple):
     """Of the registry, where it is a name of it."""
 
     @property
-    def number(self) -> bool:
-        """Whether it may be a number."""
-        return bool({int, float} & set(self.types))
-
-    @property
     def in_brackets(self) -> str:
         """Its unit behind a name, as " [s]"; empty without one."""
         return "" if self.unit in ("1", "") else f" [{self.unit}]"
 
-    def check(self, x: Any) -> None:
-        """Raise ValueError for a value of another type, or out of its range."""
-        wrong = self.types and not isinstance(x, (*self.types, *((int,) * self.number)))
-        wrong = wrong or (self.number and isinstance(x, bool))
+    def read(self, x: Any) -> Any:
+        """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
+        x = converted(self, plain(x))
+        known = (*self.types, int) if float in self.types else self.types
+        wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
             kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
                 raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
+        return x
 
     def taken(self, x: Any) -> Any:
-        """A value as the field takes it, checked. Raises Misfit."""
+        """The same, with its name in the error: raises Misfit."""
         try:
-            result = read(self, plain(x))
-            self.check(result)
+            return self.read(x)
         except ValueError as error:
             raise Misfit(self.name, str(error)) from None
-        return result
 
     @property
     def range_text(self) -> str:
@@ -149,13 +142,7 @@ class Described(NamedTuple):
 class Record(BaseModel):
     """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
 
-    model_config = ConfigDict(
-        frozen=True,
-        extra="forbid",
-        allow_inf_nan=False,
-        protected_namespaces=(),
-        defer_build=True,
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
     APART: ClassVar[tuple[tuple[str, str], ...]] = ()
@@ -191,12 +178,7 @@ class Record(BaseModel):
     @classmethod
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
-        name = str(info.field_name)
-        what = described(cls, name)
-        x = read(what, plain(x))
-        if record_in(cls, name) is None:
-            what.check(x)
-        return x
+        return described(cls, str(info.field_name)).read(x)
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
@@ -322,20 +304,20 @@ def plain(x: Any) -> Any:
     return x
 
 
-def read(what: Described, x: Any) -> Any:
-    """A value as a field takes it. Raises ValueError with what was found and expected."""
-    types, number = set(what.types), what.number
+def converted(what: Described, x: Any) -> Any:
+    """A value without its unit and in the field's type, where it is a text. Raises ValueError."""
+    types = what.types
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
-        if x == NONE and NoneType in types:
+        if x == "none" and NoneType in types:
             return None
         if what.kind:
             return known_name(what.kind, x)
         if not types:
             result = in_si(x)
             return x if result is None else result
-        if number:
+        if int in types or float in types:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
@@ -359,6 +341,8 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
+    if record_in(cls, name):
+        types = (object, *types)
     more: Any = info.json_schema_extra
     default = info.get_default(call_default_factory=True)
     return Described(place or name, types, default=default, choices=choices, **more)
@@ -385,7 +369,6 @@ def _members(hint: Any) -> tuple[Any, ...]:
     return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
 
 
-@lru_cache(maxsize=1024)
 def record_in(cls: type[Record], name: str) -> type[Record] | None:
     """The class of the record, or of the records, that a field holds; None for a value."""
     for kind in _members(cls.model_fields[name].annotation):

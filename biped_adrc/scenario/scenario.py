@@ -298,13 +298,12 @@ def read_scenario(path: Path) -> Scenario:
         return Scenario(**tomllib.loads(path.read_text(encoding="utf-8")))
 
 
-def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
+def write_scenario(path: Path, s: Scenario, comment: str) -> None:
     """Write the values of a scenario that differ from the defaults, and whom it is of. Raises OutputError.
 
-    comment: lines at the top of the file.
+    comment: the line at the top of the file.
     """
-    lines = [f"# {one_line(line)}" for line in comment.splitlines()] + scenario_lines(s)
-    write_text(path, "\n".join(lines) + "\n")
+    write_text(path, "\n".join([f"# {one_line(comment)}", *scenario_lines(s), ""]))
 
 
 def scenario_lines(s: Scenario) -> list[str]:
@@ -323,14 +322,7 @@ DRAWN = (
     *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
     *("touchdown", "stones"),
 )
-"""What is random in a walk. The place in this list selects the stream, so new names go to its end.
-
-start: offsets of coordinates and speed. onset: time of a push. joints: factors of a push on random joints.
-noise: a push that is noise. sensors: noise of encoders. model: errors of masses, centres, inertias and
-friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that is
-named by `sensor`, apart from that of the encoders. touchdown: which ones are missed. stones:
-their places.
-"""
+"""What is random in a walk. The place in this list selects the stream, so new names go to its end."""
 
 
 def drawn(s: Scenario, what: str, item: int = 0) -> int:
@@ -338,6 +330,12 @@ def drawn(s: Scenario, what: str, item: int = 0) -> int:
 
     The streams are independent: a scenario with one random thing more keeps the draws of all others, so that
     two scenarios differ by what was changed and not by luck.
+
+    start: offsets of coordinates and speed. onset: time of a push. joints: factors of a push on random joints.
+    noise: a push that is noise. sensors: noise of encoders. model: errors of masses, centres, inertias and
+    friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that
+    is named by `sensor`, apart from that of the encoders. touchdown: which ones are missed. stones: their
+    places.
     """
     key = (DRAWN.index(what), item) if item else (DRAWN.index(what),)
     words = np.random.SeedSequence(s.run.seed, spawn_key=key).generate_state(1, np.uint64)

@@ -224,8 +224,8 @@ def walk(
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:
-        usual = methods_of(RunRecord.model_construct(engine=engine), walker)
-        methods = usual if method is None else (method, None)
+        usual = RunRecord.model_construct(engine=engine)
+        methods = methods_of(usual, walker) if method is None else (method, None)
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
     result = Walk(walker, gait, run)
@@ -255,12 +255,7 @@ def walk_scenario(
     walker = build(s, scene)
     if controller is not None:
         walker = replace(walker, controller=controller)
-    if scene.gait:
-        begin = scene.start(s)
-    else:
-        from biped_adrc.scenario.cycle import cycle_start
-
-        begin = cycle_start(scene.biped, walker.slope)
+    begin = scene.start(s)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:

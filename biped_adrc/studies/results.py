@@ -111,11 +111,8 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     if not mark and not db.execute("SELECT 1 FROM sqlite_master").fetchone():
         record = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
         with db:
-            db.execute("BEGIN IMMEDIATE")
-            for statement in SCHEMA.split(";")[:-1]:
-                db.execute(statement)
+            db.executescript(f"BEGIN IMMEDIATE; {SCHEMA} PRAGMA application_id = {APPLICATION};")
             db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", record)
-            db.execute(f"PRAGMA application_id = {APPLICATION}")
         return ""
     if mark != APPLICATION:
         return "is a database of another program"

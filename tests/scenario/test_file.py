@@ -24,4 +24,4 @@ def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
     path = tmp_path / "s.toml"
     write_scenario(path, s, "two\nlines")
     assert read_scenario(path) == s
-    assert path.read_text().startswith("# two\n# lines\ncontroller.name = ")
+    assert path.read_text().startswith("# two\\nlines\ncontroller.name = ")

@@ -138,7 +138,7 @@ def test_mistakes_of_a_search_are_named_by_their_place(change, message):
 
 def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
     path, controller = tmp_path / "s.toml", {"name": "LESO", "observer": {"bandwidth": 77.0}}
-    write_scenario(path, ba.Scenario(controller=controller, run={"impacts": 3}))
+    write_scenario(path, ba.Scenario(controller=controller, run={"impacts": 3}), "short")
     grid = {"controller.observer.bandwidth": [1.0, 2.0]}
     tables = {"name": "s", "scenario": str(path), "grid": grid}
     base = read_study(tables | {"base": {"run.impacts": 5}}).base
