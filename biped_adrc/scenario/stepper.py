@@ -18,7 +18,6 @@ machine code; the others one by one (`engine.samples`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -74,9 +73,9 @@ Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
 class Stepper:
     """`count` walks of a scenario, or of a walker, in sampled time.
 
-    walker_of(scenario, robot and gait): the walker in place of `scenario.build`. within: limits by which the
-    single supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
-    scenario with `run.fine`, a robot without motors, and parts that do not fit together.
+    within: limits by which the single supports of a scenario are judged when they end, for `over`. Raises
+    InputError for continuous time, a scenario with `run.fine`, a robot without motors, and parts that do not
+    fit together.
 
     >>> stepper = ba.Stepper(ba.Scenario("NPD", hardware={"period": 1e-3}), count=2)
     >>> stepper.reset(seed=1).t
@@ -85,16 +84,10 @@ class Stepper:
     array([0.001, 0.001])
     """
 
-    def __init__(
-        self,
-        what: Scenario | Walker,
-        count: int = 1,
-        walker_of: Callable[[Scenario, RobotAndGait], Walker] = build,
-        within: Limits | None = None,
-    ):
+    def __init__(self, what: Scenario | Walker, count: int = 1, within: Limits | None = None):
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
-        self.what, self.walker_of = what, walker_of
+        self.what = what
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
@@ -164,7 +157,7 @@ class Stepper:
             mode = Mode(s.run.first_step)
             if seed is not None:
                 s = s.model_copy(update={"run": s.run.replace(seed=seed)})
-            walker, outside = with_inputs(self.walker_of(s, self.scene))
+            walker, outside = with_inputs(build(s, self.scene))
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:

@@ -22,7 +22,7 @@ many is the same as alone, bit for bit.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -30,7 +30,6 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import labelled, noticed, parts
-from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement, Passive
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
@@ -41,7 +40,7 @@ from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.model.robots.limits import KnownLimits
-from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
+from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
@@ -148,12 +147,14 @@ class Stage:
     """
 
     def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
-        self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
+        self.stepper = Stepper(task.scenario, count, limits(task.scenario))
         self.scene = self.stepper.scene
-        self.limits = task.limits(self.scene)
-        limited = task.scenario.replace({"hardware.torque_limit": self.limits.torque})
-        self.task = replace(task, scenario=limited)
-        self.stepper.what = limited
+        self.task, self.limits = task, task.limits(self.scene)
+        values: dict[str, object] = {"hardware.torque_limit": self.limits.torque}
+        own = {"controller": f"{Passive.__module__}:{Passive.__name__}"}
+        self.stepper.what = task.scenario.replace(
+            values | own if task.action == TORQUES else values
+        )
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
@@ -166,11 +167,6 @@ class Stage:
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
         self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
-
-    def _walker(self, s: Scenario, scene: RobotAndGait) -> Walker:
-        """Build the walker of a scenario; with actions as the whole torque it has no controller of its own."""
-        walker = build(s, scene)
-        return walker if self.task.action == ADDED else replace(walker, controller=Passive())
 
     def _fastest(self) -> Array:
         """Bounds (2 n + 2 p,) of the measured q, q', e and e', one after the other."""
