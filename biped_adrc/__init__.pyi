@@ -11,9 +11,9 @@ from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import Measurement as Measurement
 from biped_adrc.control.base import Passive as Passive
+from biped_adrc.control.finite_time import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.footstep import Footstep as Footstep
 from biped_adrc.control.npd import NPDController as NPDController
-from biped_adrc.control.output_npd import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.reference_reset import ReferenceReset as ReferenceReset
 from biped_adrc.control.stride import StridePI as StridePI
 from biped_adrc.control.tracking import TABLE_II as TABLE_II
@@ -27,13 +27,13 @@ from biped_adrc.core.part import derived as derived
 from biped_adrc.core.timing import ContinuousTime as ContinuousTime
 from biped_adrc.core.timing import SampledTime as SampledTime
 from biped_adrc.disturbances.base import Disturbance as Disturbance
-from biped_adrc.disturbances.base import TorqueNoise as TorqueNoise
-from biped_adrc.disturbances.base import TorquePulse as TorquePulse
-from biped_adrc.disturbances.base import TorqueSine as TorqueSine
-from biped_adrc.disturbances.base import TorqueStep as TorqueStep
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
 from biped_adrc.disturbances.force import HipForce as HipForce
 from biped_adrc.disturbances.force import OnLink as OnLink
+from biped_adrc.disturbances.waves import TorqueNoise as TorqueNoise
+from biped_adrc.disturbances.waves import TorquePulse as TorquePulse
+from biped_adrc.disturbances.waves import TorqueSine as TorqueSine
+from biped_adrc.disturbances.waves import TorqueStep as TorqueStep
 from biped_adrc.engine.batch import Case as Case
 from biped_adrc.engine.batch import simulate_many as simulate_many
 from biped_adrc.extras.export.export import export_c as export_c
@@ -65,7 +65,7 @@ from biped_adrc.model.ground import StepDown as StepDown
 from biped_adrc.model.ground import uneven_ground as uneven_ground
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf
-from biped_adrc.model.robots.robot_toml import Limits as Limits
+from biped_adrc.model.robots.limits import Limits as Limits
 from biped_adrc.observers.base import ChainObserver as ChainObserver
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy

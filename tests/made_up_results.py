@@ -9,7 +9,7 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.robots.robot_toml import KnownLimits
+from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.pushes import MemberOutcome, MemberWalk, PushCell
 from biped_adrc.paper.runs import Order, Results, Start
 from biped_adrc.paper.scenarios import (

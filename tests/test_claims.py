@@ -194,8 +194,12 @@ def test_the_cycle_after_the_push(rate, word):
     [
         ([("fell", "feasible")], "replicated", "lost in 1 of 1"),
         ([("fell", "feasible"), ("ended", "fell")], "depends", "lost in 2 of 2"),
-        ([("fell", "infeasible")], "contradicted", "walks on in 1, feasible in 0"),
-        ([("fell", "but_impact")], "replicated", "feasible in 1"),
+        (
+            [("fell", "infeasible")],
+            "contradicted",
+            "walks on in 1, feasible, the impact aside, in 0",
+        ),
+        ([("fell", "but_impact")], "replicated", "feasible, the impact aside, in 1"),
         ([("fell", "fell"), ("feasible", "fell")], "contradicted", "alone is lost in 1"),
         ([("feasible", "feasible")], "not testable", "lost in 0 of 1"),
     ],

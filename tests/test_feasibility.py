@@ -12,7 +12,7 @@ from biped_adrc.analysis.feasibility import first_violation, outcome_of
 from biped_adrc.analysis.ground_force import Nodes, mean_forces
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepUp, ground_axes
-from biped_adrc.model.robots.robot_toml import KnownLimits
+from biped_adrc.model.robots.limits import KnownLimits
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0

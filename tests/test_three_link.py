@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.output_npd import FiniteTimeController, OutputNPDController
+from biped_adrc.control.finite_time import FiniteTimeController
+from biped_adrc.control.output_npd import OutputNPDController
 from validation.three_link import END, P2, P3, TO_Q, ZERO, EndsAtPhase, cycle, outputs, robot, step
 
 ROBOT = robot()

@@ -22,7 +22,8 @@ from scipy.optimize import newton
 
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
-from biped_adrc.control.output_npd import FiniteTimeController, OutputNPDController
+from biped_adrc.control.finite_time import FiniteTimeController
+from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.types import Array

@@ -28,7 +28,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.robot_toml import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
 
 IMPULSE = "impulse"
 """Name of the reason that is counted apart: the impulse at impact alone leaves the friction cone."""

@@ -42,7 +42,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.robot_toml import ENDS, WINDOW, KnownLimits
+from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""

@@ -37,7 +37,7 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
 
-FORCE, PLACE, SPEED = NAMES
+FORCE, PLACE, SPEED, _ = NAMES
 """Names of the feet's readings in an arc's `read`, (K, 4) each: forces [N], places [m], velocities [m/s]."""
 LONG = 2000
 """Number of nodes from which on compiling the signals is faster than NumPy."""

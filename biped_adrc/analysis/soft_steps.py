@@ -33,7 +33,7 @@ from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.robot_toml import SLIP
+from biped_adrc.model.robots.limits import SLIP
 
 AT_CONE = 0.99
 """Share of mu F_N [1] from which on a tangential force is at the cone; the solver does not come closer."""
@@ -83,8 +83,7 @@ def soft_steps(
     plant: Any = loop.plant
     apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
     return tuple(
-        step_of(r, plant.ground.friction, axes, plant.levels(r.row[:, 2 * plant.n :]))
-        for r in (readings(loop, arc, apart) for arc in run.arcs)
+        step_of(readings(loop, arc, apart), plant.ground.friction, axes) for arc in run.arcs
     )
 
 
@@ -120,18 +119,15 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 def _recorded(arc: Arc) -> Readings:
     """Readings of the feet that a run has stored at the nodes of an arc; fields without readings stay empty."""
-    force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
-    none = np.zeros((len(arc.t), 0))
-    return Readings(arc.t, none, none, none, force, place, speed)
+    (*feet, level), none = (arc.read[name] for name in NAMES), np.zeros((len(arc.t), 0))
+    force, place, speed = (x.reshape(-1, 2, 2) for x in feet)
+    return Readings(arc.t, none, none, none, force, place, speed, level)
 
 
-def step_of(
-    r: Readings, friction: float, axes: tuple[Array, Array], level: Array | float = 0.0
-) -> SoftStep:
+def step_of(r: Readings, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     """Measure one single support, from readings at K times.
 
-    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]:
-    of the ground under each foot.
+    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
     """
     along, out = axes
     w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
@@ -145,7 +141,7 @@ def step_of(
         double_support=float(w @ (feet == 2)),
         flight=float(w @ (feet == 0)),
         slip=_pair(w @ (slips * speed)),
-        depth=float(max(0.0, np.max(level * out[1] - r.place @ out))),
+        depth=float(max(0.0, np.max(r.level * out[1] - r.place @ out))),
         friction_used=float(np.max(used)),
     )
 

@@ -42,9 +42,10 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
+from biped_adrc.hybrid.integrators import Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 
 VARIATIONAL, CENTRAL = "variational equation", "central differences"
 """Names of the methods."""
@@ -56,6 +57,9 @@ INVARIANCE = 1e-6
 """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
 SETTLES = 1e-9
 """Largest residual of Newton's method [rad, rad/s]; with feet of 1e-7 of the hip's mass round-off is 1e-10."""
+
+APART = 1e-3
+"""Longest step of a method with step control in `nominal_step` [s]."""
 
 
 @dataclass(frozen=True)
@@ -252,7 +256,10 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     """
     P, walker = cycle.P, cycle.P.walker
     start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
-    run = simulate(walker, *start, P.method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
+    method = P.method  # means over 5 ms take the momentum as linear between nodes
+    if isinstance(method, Adaptive | Stiff):
+        method = replace(method, max_step=APART)
+    run = simulate(walker, *start, method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)

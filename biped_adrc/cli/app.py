@@ -100,14 +100,14 @@ class Terminal(Console):
 
     @contextmanager
     def bar(self, name: str) -> Iterator[Callable[[int, int | None, str], None]]:
-        """Context with a progress bar; shown(done, of how many, what is done now)."""
+        """Context with a progress bar, from its first call: shown(done, of how many, what is done now)."""
         text = progress.TextColumn("{task.description:<44.44}", markup=False)
         counts = progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn()
         left = progress.TextColumn("left"), progress.TimeRemainingColumn()
         with progress.Progress(text, *counts, *left, console=self) as shown:
-            task = shown.add_task(name, total=None)
+            task = shown.add_task(name, total=None, visible=False)
             yield lambda done, total, now: shown.update(
-                task, completed=done, total=total, description=now
+                task, completed=done, total=total, description=now, visible=True
             )
 
 

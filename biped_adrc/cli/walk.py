@@ -114,7 +114,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)
     run, about = walk.trajectory, walk.note
-    if half is not None:
+    if half is not None and run.t_end > run.t_start:
         each = (walk, half)
         ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
         about = (

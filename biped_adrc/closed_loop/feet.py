@@ -25,8 +25,9 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
 AGAIN = 1e-6
 """Largest difference of a state come to again, relative to the largest of its numbers."""
-NAMES = ("foot_force", "foot_place", "foot_speed")
-"""What `with_readings` records: `Feet`, (K, 4) each, x and z of the stance foot before those of the other."""
+NAMES = ("foot_force", "foot_place", "foot_speed", "foot_level")
+"""What `with_readings` records: `Feet`, (K, 4) each, x and z of the stance foot before those of the other, and
+heights of the ground (K, 2)."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,8 @@ class Readings(Shown):
     """Of the foot points (K, 2, 2) [m]."""
     speed: Array
     """Of the points that touch the ground (K, 2, 2) [m/s]."""
+    level: Array
+    """Heights of the ground under the feet (K, 2) [m]."""
 
     def __post_init__(self) -> None:
         freeze(self, *(f.name for f in fields(self)))
@@ -80,7 +83,7 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
     arcs = []
     for arc in run.arcs:
         r = readings(loop, arc)
-        feet = zip(NAMES, (r.force, r.place, r.speed), strict=True)
+        feet = zip(NAMES, (r.force, r.place, r.speed, r.level), strict=True)
         read = {name: x.reshape(len(x), -1) for name, x in feet}
         acting = {"u": r.u, "zeta": r.zeta}  # which an arc that failed at once has not
         arcs.append(replace(arc, read={**acting, **arc.read, **read}))

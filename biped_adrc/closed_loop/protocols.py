@@ -188,6 +188,8 @@ class Feet(NamedTuple):
     """Of the foot points (2, 2) [m]."""
     speed: Array
     """Of the points that touch the ground, or would (2, 2) [m/s]."""
+    level: Array
+    """Heights of the ground under the feet (2,) [m]; 0 on ground without steps."""
 
 
 @runtime_checkable

@@ -187,7 +187,7 @@ def returned(
         found = _numbers_returned(found, shape, part, method, field)
     if finite and not all(map(math.isfinite, found.ravel().tolist())):
         shown = " ".join(str(found).split())
-        raise NotFiniteError(f"{_sentence(part, method, field)} {shown}")
+        raise NotFiniteError(f"{_sentence(part, method, field)} {shown}, expected finite numbers")
     return found
 
 

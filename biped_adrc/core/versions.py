@@ -38,9 +38,9 @@ def packages(names: Iterable[str]) -> dict[str, str]:
     return result
 
 
-def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
-    """Text on the differences of two sets of versions, `found` ("there") and `expected`
-    ("here"); empty if equal.
+def differences(found: Mapping[str, object], expected: Mapping[str, object]) -> str:
+    """Text on the differences of two sets of values, `found` ("there") and `expected` ("here"); empty if
+    equal.
     """
     names = sorted({*found, *expected})
     pairs = [(name, found.get(name), expected.get(name)) for name in names]

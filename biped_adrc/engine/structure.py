@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.core.checks import LIBRARIES, is_users
+from biped_adrc.core.checks import LIBRARIES, PACKAGE, is_users
 from biped_adrc.core.part import content, is_part
 from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.machine import hash_of
@@ -122,9 +122,9 @@ def _snapshot(value: Any) -> object:
 
 
 def is_library(module: types.ModuleType) -> bool:
-    """Whether a module is neither the user's nor of this package."""
+    """Whether a module is neither the user's nor of this package, which may be installed among libraries."""
     file = getattr(module, "__file__", None)
-    return file is None or file.startswith(LIBRARIES)
+    return file is None or (file.startswith(LIBRARIES) and not file.startswith(PACKAGE))
 
 
 def changes(module: str | None, file: str | None) -> bool:

@@ -18,7 +18,7 @@ All observers of the package share a chain of integrators per coordinate in scal
 with x1 position, x2 velocity, x3 disturbance and its derivatives. In x itself the observer matrix of Table I
 has condition number 3e29; scaled it has 5e6. `lead` integrators lie between disturbance and measurement: two
 from an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and
-reset, which do not depend on how the gains were chosen; `gpi`, `high_gain_kalman` and `momentum` add their
+reset, which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and `momentum` add their
 flow.
 """
 

@@ -29,8 +29,8 @@ C = (1, 0, ...), at exp(s T) for each pole s, by Ackermann's formula. To hold y 
 instead would be unstable with the poles of Table I at T = 1 ms; this form is stable there.
 
 m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
-follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain_kalman` has
-the same observer with gains from other considerations.
+follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain`
+and `kalman` have the same observer with gains from other considerations.
 """
 
 from __future__ import annotations

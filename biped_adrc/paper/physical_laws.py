@@ -178,6 +178,6 @@ def numerics_laws(preset: str) -> dict[str, float]:
         "the same by (23) as printed [s^2]": printed,
         "order of continuous against sampled control in the period": sampling_order(preset),
         "order of the exponential method, Table I times 0.05": exponential_order(preset, 0.05)[0],
-        "order of the exponential method with Table I itself": etd_table,
+        "order of the exponential method with Table I, whose poles these steps do not resolve": etd_table,
         "error of the exponential method with Table I at 0.5 ms over 0.1 s [rad]": error,
     }

@@ -187,6 +187,10 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
     }
 
 
+NO_MULTIPLIERS = "of n states on a section of n - 1 dimensions: no multipliers"
+"""Remark on a regression (27) whose samples span all directions, by round-off or an observer."""
+
+
 def _multipliers(r: Results) -> Table:
     """Multipliers by method: central differences, delta^2 of the zero dynamics, the regression
     (27), the paper.
@@ -200,7 +204,10 @@ def _multipliers(r: Results) -> Table:
     result["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
     for c, head in r.headline.items():
         test = regression_of(head.outcome)
-        result[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
+        result[f"regression (27) on the pushed walk, {c}"] = (
+            test.magnitudes.tolist(),
+            test.warning or NO_MULTIPLIERS,
+        )
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(
         {"method": method, "magnitudes": z, "remark": remark}
@@ -223,6 +230,10 @@ def _recipe(r: Results) -> Table:
     return table(rows)
 
 
+COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step"}
+"""Headings of words of the map that do not speak for themselves."""
+
+
 def _map(cells: list[PushCell]) -> Table:
     """How many pushes of the map ended how, by preset, torque limit and controller."""
     fates = [
@@ -231,6 +242,6 @@ def _map(cells: list[PushCell]) -> Table:
     count = Counter(fates)
     return table(
         {"preset, torque limit": name, "controller": c}
-        | {word: count[name, c, word] for word in WORDS}
+        | {COLUMN.get(word, word): count[name, c, word] for word in WORDS}
         for name, c in dict.fromkeys(fate[:2] for fate in fates)
     )

@@ -45,7 +45,7 @@ from biped_adrc.model.ground import (
     uneven_ground,
 )
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.hardware import EncoderRecord
 from biped_adrc.scenario.push import RANDOM, Push

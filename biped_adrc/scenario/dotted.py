@@ -56,8 +56,9 @@ def flat(
 
 
 def unknown(name: str, known: Iterable[str]) -> str:
-    """The sentence for a name that does not exist: those that end alike, the nearest ones, or all."""
-    known, last = list(known), name.rpartition(".")[2]
+    """The sentence for a name that does not exist: alike ends, near ones, or all of its record."""
+    known, (record, dot, last) = list(known), name.rpartition(".")
+    beside = [whole for whole in known if dot and whole.startswith(record + dot)]
     ends: dict[str, list[str]] = {}
     for whole in known:
         parts = whole.split(".")
@@ -67,6 +68,8 @@ def unknown(name: str, known: Iterable[str]) -> str:
         *get_close_matches(name, known, 2, 0.8),
         *(ends[end][0] for end in get_close_matches(last, ends, 2)),
     ]
+    if last not in ends and beside:
+        known, near = beside, [x for x in near if x in beside]
     near = list(dict.fromkeys(near))[:3]
     if near:
         return f"unknown name; did you mean {' or '.join(map(repr, near))}?"

@@ -44,7 +44,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import remarks
 
 if TYPE_CHECKING:
@@ -140,9 +140,10 @@ class Walk(Shown):
     def note(self) -> str:
         """One line on what walked: controller, gait, robot and preset; without motors robot and slope [rad]."""
         plant, gait = self.walker.plant, self.gait
+        robot = f"{plant.description.name} {plant.preset}"
         if gait is None:
-            return f"{plant.description.name} {plant.preset} without motors, slope {self.walker.slope:g} rad"
-        return f"{self.controller_name} on gait '{gait.name}', {gait.robot} {gait.preset}"
+            return f"{robot} without motors, slope {self.walker.slope:g} rad"
+        return f"{self.controller_name} on gait '{gait.name}', {robot}"
 
     @cached_property
     def signals(self) -> Signals:
@@ -277,7 +278,11 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        return tuple(dict.fromkeys(remarks(self.walker, self.trajectory)))
+        gait, result = self.gait, tuple(dict.fromkeys(remarks(self.walker, self.trajectory)))
+        own = gait and f"{gait.robot} {gait.preset}"
+        if gait is None or self.note.endswith(f", {own}"):
+            return result
+        return (*result, f"gait '{gait.name}' was made for {own}")
 
     @property
     def controller_name(self) -> str:

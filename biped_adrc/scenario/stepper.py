@@ -44,7 +44,7 @@ from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario

@@ -48,7 +48,8 @@ def quantity(text: str, unit: str) -> float:
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        raise ValueError(f"found '{text}', expected a number [{unit}] or a number and its unit")
+        with_unit = "" if unit in ("", "1") else f" [{unit}] or a number and its unit"
+        raise ValueError(f"found '{text}', expected a finite number{with_unit}")
     number, own_unit = float(match[1]), match[2]
     if own_unit:
         result = unit_of(own_unit)

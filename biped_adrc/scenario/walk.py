@@ -43,7 +43,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_around, soft_loop
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import FREE, RunRecord, Scenario

@@ -56,7 +56,7 @@ def is_counted(row: Row) -> bool:
 def _known(column: str) -> str:
     """Raises ValueError for a column that there is not."""
     if column not in MEASURED:
-        raise ValueError(unknown(column, MEASURED))
+        raise ValueError(f"'{column}' is an {unknown(column, MEASURED)}")
     return column
 
 

@@ -29,6 +29,7 @@ from biped_adrc.core.errors import InputError, OutputError, optional
 from biped_adrc.core.files import check_folder, check_place, output_path, replacing
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.versions import differences
+from biped_adrc.scenario.dotted import flat
 from biped_adrc.studies.build import NO_WALK
 from biped_adrc.studies.measure import is_counted, is_made
 from biped_adrc.studies.run import COLUMNS
@@ -115,10 +116,10 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
         return ""
     if mark != APPLICATION:
         return "is a database of another program"
-    name, key, before = db.execute("SELECT name, hash, versions FROM study").fetchone()
+    key, old, before = db.execute("SELECT hash, study, versions FROM study").fetchone()
     if key != study.hash:
-        there, here = f"'{name}' ({key[:8]})", f"'{study.name}' ({study.hash[:8]})"
-        return f"holds the rows of the study {there}, and the study is {here}"
+        there, here = (flat(json.loads(text)) for text in (old, study.model_dump_json()))
+        return f"holds the rows of the study '{there['name']}', another one: {differences(there, here)}"
     other = differences(json.loads(before), versions)
     return other and f"was made with other versions, and numbers may differ: {other}"
 

@@ -35,7 +35,7 @@ from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, left_by, run_case
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.robots.robot_toml import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.adrc import OutputADRCController
 from biped_adrc.control.around import Hold
 from biped_adrc.control.impact_invariant import ImpactInvariant
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.npd import PDGravityController
+from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.build import build
 

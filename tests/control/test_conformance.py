@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.adrc import OutputADRCController
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.npd import JointGains
+from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.core.errors import InputError
 from biped_adrc.disturbances.force import AddedForce

@@ -9,9 +9,10 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import InputError
-from biped_adrc.disturbances.base import Sum, TorqueNoise
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import HipForce, OnLink
 from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.disturbances.waves import TorqueNoise
 from biped_adrc.engine.program import push_code
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground

@@ -8,17 +8,19 @@ from scipy.optimize import brentq
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode, Walker
-from biped_adrc.control.adrc import ADRCController, OutputADRCController
+from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.around import Around
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.npd import NPDController, PDGravityController
+from biped_adrc.control.npd import NPDController
 from biped_adrc.control.npid import NPIDController
+from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.observers.high_gain_kalman import HighGainObserver
+from biped_adrc.observers.high_gain import HighGainObserver
 
 from .off_orbit import off_orbit, output_acceleration
 

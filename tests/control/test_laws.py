@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.adrc import OutputADRCController
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.core.part import derived
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate

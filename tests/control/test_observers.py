@@ -10,7 +10,7 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.observers.high_gain_kalman import KalmanObserver
+from biped_adrc.observers.kalman import KalmanObserver
 from biped_adrc.observers.momentum import MomentumObserver
 
 POLES = [(-3.0, -5.0), (-10 + 5j, -10 - 5j, -40.0, -8.0), TABLE_I]

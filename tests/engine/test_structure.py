@@ -3,12 +3,14 @@
 import sys
 import types
 from dataclasses import dataclass
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.checks import LIBRARIES
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
@@ -134,6 +136,24 @@ def test_two_pairs_in_one_process(biped, gait):
         )
         assert one.settings["engine"] == "compiled"
         np.testing.assert_allclose(one.final_state, two.final_state, rtol=0, atol=1e-9)
+
+
+@dataclass(frozen=True)
+class Linearising(ba.Controller):
+    reference: ba.Reference
+
+    def output(self, s, m):
+        r = self.reference(m.t, m.q, m.v)
+        f = ba.feedback(ba.TABLE_II, r, m.q_b, m.v_b)
+        return m.terms.kappa_inverse @ (ba.solved_acceleration(r, m.terms, f) - m.terms.xi)
+
+
+def test_functions_of_the_package_compile_also_where_it_is_installed(biped, gait, monkeypatch):
+    """As by `pip install .`: the package is then in a folder of libraries."""
+    folder = str(Path(ba.__file__).parents[1])
+    monkeypatch.setattr("biped_adrc.engine.structure.LIBRARIES", (*LIBRARIES, folder))
+    walk = ba.walk(ba.Walker(biped, Linearising(gait.constraint)), gait, 1)
+    assert walk.trajectory.settings["engine"] == "compiled"
 
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])

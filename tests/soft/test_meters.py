@@ -95,7 +95,9 @@ def test_a_block_that_slides_to_rest():
     speed[:, 0, 0] = v
     place = np.full((len(t), 2, 2), -2e-4)
     none = np.zeros((len(t), 1))
-    found = step_of(Readings(t, none, none - 7.0, none, force, place, speed), mu, FLAT)
+    found = step_of(
+        Readings(t, none, none - 7.0, none, force, place, speed, np.zeros((len(t), 2))), mu, FLAT
+    )
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
 

@@ -13,7 +13,7 @@ import umsgpack
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.core.errors import InputError
-from biped_adrc.disturbances.base import TorquePulse
+from biped_adrc.disturbances.waves import TorquePulse
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped

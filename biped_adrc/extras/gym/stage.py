@@ -40,7 +40,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read
-from biped_adrc.model.robots.robot_toml import KnownLimits
+from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
 from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario

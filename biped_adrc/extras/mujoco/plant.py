@@ -254,7 +254,7 @@ class MuJoCoPlant(Checked, Shown):
             spin, centre = moves[1], moves[[3, 5]]
             place[i] = body.xpos[[0, 2]]
             speed[i] = centre - spin * np.array([up[1], -up[0]])
-        return Feet(force, place, speed)
+        return Feet(force, place, speed, self.levels(row[2 * self.n :]))
 
     def landed(self, t: float, row: Array) -> Array:
         """The row just after a touchdown at t [s]: coordinates, motors and levels of the ground relabelled."""

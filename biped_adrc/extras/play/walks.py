@@ -23,8 +23,9 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Sum, TorqueStep
+from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import OnLink
+from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.record import FUNCTIONS, PLACES, Ints

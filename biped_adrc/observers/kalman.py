@@ -1,19 +1,4 @@
-"""The observer (17) with gains from other considerations: one small number, or the intensities of two noises.
-
-*High gain*: gains alpha_i / eps^i, with one number eps [s] to choose.
-
-    x1^' = x2^      + alpha_1 / eps   (y - x1^)
-    x2^' = x3^ + kappa u + alpha_2 / eps^2 (y - x1^)
-     ...
-    x_(m+2)^' =       alpha_(m+2) / eps^(m+2) (y - x1^)
-
-s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is Hurwitz; its roots divided by eps are the poles. As eps falls
-the loop recovers what it does with the state and the disturbance known, and the peaking of the estimates
-after a jump grows as eps^-(k-1): limit the torque, and start again at impact. Freidovich, Khalil, IEEE TAC
-53(10), 2008; Khalil, High-Gain Observers in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17)
-in another parametrisation, with states scaled by 1 / eps.
-
-*Kalman*: the gains of a steady-state filter, from the intensities of two noises.
+"""The chain of integrators with the gains of a steady-state Kalman filter, from the intensities of two noises.
 
     x_1' = x_2,   x_2' = x_3 + kappa u,   ...,   x_(m+2)' = w,      y = x_1 + r
 
@@ -34,70 +19,16 @@ Kalman, Bucy, J. Basic Engineering 83(1), 1961; for the poles Kwakernaak, Sivan,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import comb, factorial
+from math import factorial
 
 import numpy as np
 from scipy.linalg import solve_discrete_are
 
-from biped_adrc.core.checks import numbers
-from biped_adrc.core.errors import InputError, check_positive, check_whole
-from biped_adrc.core.part import derived
+from biped_adrc.core.errors import check_positive, check_whole
 from biped_adrc.core.types import Array
 from biped_adrc.observers.gpi import InjectedChain
-
-
-@dataclass(frozen=True)
-class HighGainObserver(InjectedChain):
-    """The extended high-gain observer, the same for every joint. Make it with `from_epsilon`."""
-
-    alpha: tuple[float, ...] = ()
-
-    @classmethod
-    def from_epsilon(
-        cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1
-    ) -> HighGainObserver:
-        """The observer with epsilon [s] and alpha_1 .. alpha_(m+2), dimensionless; those
-        of (s + 1)^(m+2) if None.
-
-        Raises InputError for an epsilon that is not positive, m below 1, and alphas that are not those of a
-        stable polynomial of degree m + 2.
-        """
-        check_positive(epsilon, f"epsilon is {epsilon} s", " as 0.002")
-        check_whole(m, f"the order m of a high-gain observer is {m!r}", 1)
-        if alpha is None:
-            alpha = [comb(m + 2, i) for i in range(1, m + 3)]
-        return cls(int(m), 1.0 / float(epsilon), _hurwitz(alpha, m))
-
-    @property
-    def epsilon(self) -> float:
-        """eps [s]: all poles are of the order of 1 / eps."""
-        return 1.0 / self.scale
-
-    @cached_property
-    def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (m + 2,) [rad/s]; round-off scatters m + 2 equal ones."""
-        return tuple(complex(root) * self.scale for root in np.roots([1.0, *self.alpha]))
-
-    @derived
-    def scaled_gains(self) -> Array:
-        """The coefficients alpha (m + 2,)."""
-        return np.array(self.alpha)
-
-
-def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
-    """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz
-    polynomial of degree m + 2.
-    """
-    a = numbers(alpha, "alpha")
-    if a.shape != (m + 2,) or not np.isfinite(a).all() or np.roots([1.0, *a]).real.max() >= 0.0:
-        raise InputError(
-            f"alpha is {a}, expected {m + 2} numbers for m = {m}: the roots of s^{m + 2} + alpha_1 "
-            f"s^{m + 1} + ... must have negative real parts; try those of (s + 1)^{m + 2}"
-        )
-    return tuple(a.tolist())
 
 
 @dataclass(frozen=True)

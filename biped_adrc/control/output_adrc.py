@@ -1,0 +1,95 @@
+"""ADRC in output form: the observer estimates the disturbance of the output, not of the joints.
+
+    y   = q_b - q_d
+    y'' = L u + xi_y,   L = (I - H_b - H_N A_N) kappa
+    u   = L^-1 (-K_p y^ - K_d y'^ - xi_y^)
+
+With q_d'' = drift + H q'' and the split (12), (13) the nominal model gives xi_y = M xi - drift - H_N a_N, with
+M = I - H_b - H_N A_N. It is not used between impacts: the reference's own acceleration, and the effect of the
+unactuated coordinate on it through Theta'', are estimated together with model error and external forces. In
+the joint form (20) q_d'' comes from the model, and an error of the model's Theta'' is an error of the
+reference that no observer of q_b'' can see. L is J D^-1 B for the Jacobian J of y.
+
+Han, IEEE Trans. Industrial Electronics 56(3), 2009, for the total disturbance of an output; Westervelt,
+Grizzle, Koditschek, IEEE TAC 48(1), 2003, for y.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from biped_adrc.control.base import Measurement, measured
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    ObservingController,
+    orthogonal_to,
+    output_matrix,
+    rate_error_change,
+)
+from biped_adrc.core.linear import solve
+from biped_adrc.core.types import Array
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.observers.gpi import GPIObserver
+
+
+@dataclass(frozen=True)
+class OutputADRCController(ObservingController):
+    """ADRC of the output y = q_b - q_d, with an observer of y that is the whole state.
+
+    gains: K_p [1/s^2] and K_d [1/s] of y'' = -K_p y - K_d y', Table II by default as in the joint form. reset:
+    of the observer at impact, where MODEL takes y, y' from the measurement and xi_y from the model. There is
+    no form for the exponential method: in continuous time with Table I take RK4(5e-5).
+    """
+
+    reference: Reference
+    observer: Observer = field(default_factory=GPIObserver.from_poles)
+    gains: Gains = TABLE_II
+    reset: ResetPolicy = ResetPolicy.MODEL
+
+    def measured_output(self, m: Measurement) -> Estimate:
+        """y [rad], y' [rad/s] and the nominal model's xi_y [rad/s^2], each (p,)."""
+        r, x, terms = self.point(m), measured(m), m.terms
+        p = len(r.q_d)
+        xi_y = output_matrix(r, terms) @ terms.xi - r.drift - r.H[:, p:] @ terms.a_N
+        return Estimate(x.position - r.q_d, x.velocity - r.dq_d, xi_y)
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """Input of the observer for the torque u (p,) [N m]: L u (p,) [rad/s^2]."""
+        return output_matrix(self.point(m), m.terms) @ (m.terms.kappa @ u)
+
+    def torque(
+        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
+    ) -> Array:
+        """u (p,) [N m] for estimates x of the output; a (n, 2): changes of the rates that
+        are projected out of y'.
+
+        Raises SingularError where M is exactly singular, with a pivot of 0.0; near that u grows
+        without bound and without an error.
+        """
+        dy = x.velocity if a is None else orthogonal_to(rate_error_change(r, a)) @ x.velocity
+        w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
+        ddq_b = solve(
+            output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
+        )
+        return m.terms.kappa_inverse @ ddq_b
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """Convert estimates x of the output y = q_b - q_d and of its disturbance to those
+        of the joints, each (p,).
+
+        The part of q_N'' that does not depend on the torque is that of the nominal model.
+        """
+        r, terms = self.point(m), m.terms
+        p = len(r.q_d)
+        xi = solve(
+            output_matrix(r, terms),
+            x.disturbance + r.drift + r.H[:, p:] @ terms.a_N,
+            "the output's decoupling matrix",
+        )
+        return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
+
+    def output_change(self, m: Measurement, a: Array) -> Array:
+        """Change of y' (p, 2) when the rates change by a (n, 2)."""
+        return rate_error_change(self.point(m), a)
