@@ -42,9 +42,8 @@ def observer_command(
     s = scenario_from(values, sets)
     h, scene = s.hardware, RobotAndGait.of(s)
     law: Any = controller(s, scene.walked, scene.biped)
-    what = f"the observer of '{s.controller.name}'"
     observer: Any = getattr(law, "observer", None)
-    check_part(observer, what, ba.GPIObserver)
+    check_part(observer, f"the observer of '{s.controller.name}'", ba.GPIObserver)
     report = observer_report(
         observer,
         law.gains,

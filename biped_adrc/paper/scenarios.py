@@ -77,10 +77,9 @@ class Plan:
         """What this plan does not compute, in words."""
         if self.full:
             return ()
-        words = packaged("biped_adrc.paper", "claims.toml")["left_out"]
-        return tuple(
-            x.format(preset=self.preset) for x in words["quick" if self.quick else "usual"]
-        )
+        kind = "quick" if self.quick else "usual"
+        words = packaged("biped_adrc.paper", "claims.toml")["left_out"][kind]
+        return tuple(x.format(preset=self.preset) for x in words)
 
 
 def on_torso(torque: float) -> Push:
@@ -119,11 +118,8 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
-    run = {
-        "first_step": plan.pushes[0].step,
-        "impacts": 1,
-        "h": declared()["walks"]["engines_step"],
-    }
+    first, h = plan.pushes[0].step, declared()["walks"]["engines_step"]
+    run = {"first_step": first, "impacts": 1, "h": h}
     one = scenario(controller, plan.preset, pushes=plan.pushes, run=run)
     return one.replace({"run.engine": PINOCCHIO}), one
 
