@@ -119,10 +119,10 @@ def rate_of_law(walker: Walker) -> float:
                 return 0.0
             u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
             ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
-    except Exception:  # whatever a method may raise: the walk itself says what is wrong with it
+        J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
+        return float(np.max(np.abs(np.linalg.eigvals(J))))
+    except Exception:  # whatever a method may raise or give: the walk itself says what is wrong with it
         return 0.0
-    J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
-    return float(np.max(np.abs(np.linalg.eigvals(J)))) if np.all(np.isfinite(J)) else 0.0
 
 
 def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | None]:
