@@ -163,11 +163,9 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        reference: what readings of the program refer to.
-        in_python: sample instants and impacts by the walker's own methods, in sampled time.
-        Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
-        Raises NotCompiled where a part or the method cannot be compiled, InputError for a
-        method without the coordinates that it needs.
+        reference: what readings of the program refer to. in_python: sample instants and impacts by the walker's
+        own methods, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
+        NotCompiled where a part or the method cannot be compiled, InputError for a method without coordinates.
         """
         if not isinstance(method, RK4 | Exponential):
             raise NotCompiled(
