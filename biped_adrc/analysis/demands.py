@@ -80,8 +80,8 @@ def demands(
 
 @unit
 def totals(rows: Array, p: int, count: int, out: Array) -> None:
-    """out (6,): largest |e_i| [rad]; of the nodes with a later one behind them their number, the sums of |e|^2
-    [rad^2], |u|^2 [N^2 m^2], and of |u_i| |dq_i| and u_i dq_i [J] until that."""
+    """out (6,): largest |e_i| [rad]; number of nodes that a later time follows; over these nodes the sums of
+    |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i [J], dq_i the change to the next node."""
     width = 8 + 3 * p
     for k in range(count):
         row = shift(rows, k * width)

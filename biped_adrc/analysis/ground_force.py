@@ -33,7 +33,7 @@ class Nodes:
         """Take the nodes from the signals of a walk."""
         q_b = s.q[:, : s.u.shape[1]]
         parts = (s.t, s.step, s.outside, s.error, s.u, q_b, s.momentum, s.swing_foot)
-        return cls(np.column_stack(parts))
+        return cls(np.ascontiguousarray(np.column_stack(parts)))
 
     @property
     def t(self) -> Array:

@@ -14,7 +14,7 @@ from typing import Annotated
 from biped_adrc.core.checks import Checked, Range
 from biped_adrc.core.errors import InputError
 
-LEAST, LONGEST = 1e-9, 0.1
+LEAST_PERIOD, LONGEST_PERIOD = 1e-9, 0.1
 """Sampling periods accepted [s]: shorter ones could not be counted exactly in floats, and a body with the hip
 0.8 m high falls with sqrt(l / g) = 0.29 s."""
 LONGEST_DELAY = 100
@@ -24,7 +24,11 @@ WHOLE = 1e-9
 SAME_INSTANT = 1e-9
 """Times that differ by less are the same instant up to round-off [s], in both engines."""
 PeriodFloat = Annotated[
-    float, Range(f"at least {LEAST} s, at most {LONGEST} s", lambda T: LEAST <= T <= LONGEST)
+    float,
+    Range(
+        f"at least {LEAST_PERIOD} s, at most {LONGEST_PERIOD} s",
+        lambda T: LEAST_PERIOD <= T <= LONGEST_PERIOD,
+    ),
 ]
 
 
@@ -52,7 +56,7 @@ class SampledTime(Checked):
     delay_known: the controller's observer is fed with the torque that acts until the next sample
     instant (known delay), instead of the one just computed (unknown delay).
 
-    Raises InputError for a period shorter than `LEAST` or longer than `LONGEST`, and for a
+    Raises InputError for a period shorter than `LEAST_PERIOD` or longer than `LONGEST_PERIOD`, and for a
     delay that is negative or longer than `LONGEST_DELAY` periods.
 
     >>> timing = ba.SampledTime(1e-3, delay=0.5e-3, delay_known=True)

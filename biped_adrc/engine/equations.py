@@ -72,7 +72,7 @@ class SymbolicLoop(NamedTuple):
     nominal: PlanarRobot
     """The controller's model, on symbols; the same ones where it is the plant."""
     numbers: WalkerNumbers
-    """All of them, on symbols."""
+    """All numbers of the walker, on symbols."""
     trace: Tracer
     """Makes copies of functions for symbols, and keeps the pivots."""
     calls: ControlLaw
@@ -80,7 +80,7 @@ class SymbolicLoop(NamedTuple):
     held: HeldParts | None
     """Parameters of what is held between sample instants, None in continuous time."""
     torques: list[Scalar]
-    """All torques so far that must not be beyond it."""
+    """All torques so far; none may be beyond `numbers.strongest`."""
     zeta: Array
     force: Array
     """From outside on the robot as a whole."""

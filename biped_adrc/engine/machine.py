@@ -93,11 +93,16 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     return bytes(host.emit_object(module))
 
 
+_ENGINES: list[object] = []
+"""LLVM's engines, never freed: runs hold addresses of their functions."""
+
+
 def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     """Object code of a text in memory, with the addresses of these functions."""
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
+    _ENGINES.append(engine)
     addresses = {name: int(engine.get_function_address(name)) for name in names}
     return LoadedCode(addresses, engine, text)
 

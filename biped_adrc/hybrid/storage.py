@@ -29,7 +29,7 @@ from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 Stored = NDArray[Any]
 """An array of a file, of numbers or text."""
 
-FORMAT = "biped_adrc run 1"
+FORMAT = "biped_adrc run 2"
 """Version of the layout; a file of another one is refused."""
 BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""

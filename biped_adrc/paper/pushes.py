@@ -231,7 +231,8 @@ class PushCell(NamedTuple):
         result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility
-            forces = {x: getattr(f, x) for x in FORCES}
+            numbers = {x: getattr(f, x) for x in FORCES}
+            forces = {name: x if math.isfinite(x) else None for name, x in numbers.items()}
             said = {"outcome": f.outcome, "status": o.status, "reasons": list(f.reasons)}
             result |= {name: said | forces, f"{name}_word": word_of(o)}
         return result

@@ -279,7 +279,8 @@ class Walk(Shown):
         if self.recorded is not None:
             return self.stored_remarks
         result, gait = [*remarks(self.walker, self.trajectory)], self.gait
-        if gait is not None and not self.note.endswith(f", {gait.robot} {gait.preset}"):
+        own = self.walker.plant.description.name, self.walker.plant.preset
+        if gait is not None and (gait.robot, gait.preset) != own:
             result.append(f"gait '{gait.name}' was made for {gait.robot} {gait.preset}")
         return tuple(dict.fromkeys(result))
 

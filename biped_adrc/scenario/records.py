@@ -42,6 +42,17 @@ from biped_adrc.scenario.registry import construct, find, known_name, portable, 
 from biped_adrc.scenario.units import in_si, quantity
 
 _T = TypeVar("_T")
+KINDS = {
+    float: "a number",
+    int: "a whole number",
+    bool: "true or false",
+    str: "a text",
+    tuple: "a list",
+    dict: "a table",
+    object: "a record",
+    NoneType: "none",
+}
+"""Words for the types of values."""
 SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
 """Of the ends of a range, by their names in `operator`."""
 
@@ -96,7 +107,7 @@ class Described(NamedTuple):
 
     name: str
     types: tuple[type, ...]
-    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty of a value of the user's own."""
+    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty for one of the user's own."""
     limits: tuple[tuple[str, float], ...] = ()
     """Of the range: (ge, gt, le or lt, value)."""
     default: Any = None
@@ -118,11 +129,11 @@ class Described(NamedTuple):
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
-            kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
-            raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
+            kinds = " or ".join(self.choices or (KINDS[kind] for kind in self.types))
+            raise ValueError(f"found {x!r}, expected {kinds}{self.in_brackets}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
-                raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
+                raise ValueError(f"found {x!r}, expected {self.range_text}{self.in_brackets}")
         return x
 
     def taken(self, x: Any) -> Any:
@@ -135,7 +146,9 @@ class Described(NamedTuple):
     @property
     def range_text(self) -> str:
         """Its range, or its choices, in a few words."""
-        parts = [f"{SIGNS[sign]} {x:g}" for sign, x in self.limits]
+        parts = [
+            f"{SIGNS[sign]} {x if isinstance(x, int) else f'{x:g}'}" for sign, x in self.limits
+        ]
         return " or ".join(self.choices) or ", ".join(parts)
 
 
@@ -182,7 +195,9 @@ class Record(BaseModel):
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
-        """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
+        """Dotted names of all values. A list of records gives those of its first record; a record in one of its
+        own class gives its name alone.
+        """
         result = []
         for name, info in cls.model_fields.items():
             inner = record_in(cls, name)
@@ -317,6 +332,8 @@ def converted(what: Described, x: Any) -> Any:
         if not types:
             result = in_si(x)
             return x if result is None else result
+        if int in types and x.strip().isdecimal():
+            return int(x)
         if int in types or float in types:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):

@@ -87,6 +87,8 @@ class Stepper:
     def __init__(self, what: Scenario | Walker, count: int = 1, within: Limits | None = None):
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
+        if within is not None:
+            check_part(within, "within", Limits)
         self.what = what
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
@@ -256,8 +258,20 @@ class Stepper:
         return walker, walk.copy(), int(self.codes[i])
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
-        """Walk i goes on from where a walk, this or another one, was saved."""
-        self.walkers[i], walk, code = snapshot
+        """Walk i goes on from where a walk, this or another one, was saved.
+
+        Raises InputError for a walk of another state, and for one whose nodes were not kept, to be judged.
+        """
+        walker, walk, code = snapshot
+        if self.rows.size and 2 + len(walk.at[2]) != self.rows.shape[1]:
+            raise InputError(
+                f"the walk has {len(walk.at[2])} states, expected {self.rows.shape[1] - 2}"
+            )
+        if self.within and isinstance(walk, CompiledWalk) and not walk.run.nodes.size:
+            raise InputError(
+                "the walk was saved by a Stepper without `within`, and here walks are judged"
+            )
+        self.walkers[i] = walker
         self._put(i, walk.copy(), code)
 
     def read(self, view: Reading) -> Array:

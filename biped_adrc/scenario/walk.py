@@ -121,9 +121,7 @@ def rate_of_law(walker: Walker) -> float:
             ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
         J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
         return float(np.max(np.abs(np.linalg.eigvals(J))))
-    except (
-        Exception
-    ):  # whatever a method may raise or give: the walk itself says what is wrong with it
+    except Exception:  # whatever a method may raise: the walk itself says what is wrong
         return 0.0
 
 

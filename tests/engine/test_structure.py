@@ -1,5 +1,6 @@
 """Code in memory is found by structure: new numbers compile nothing, what a method reaches counts."""
 
+import gc
 import sys
 import types
 from dataclasses import dataclass
@@ -154,6 +155,35 @@ def test_functions_of_the_package_compile_also_where_it_is_installed(biped, gait
     monkeypatch.setattr("biped_adrc.engine.structure.LIBRARIES", (*LIBRARIES, folder))
     walk = ba.walk(ba.Walker(biped, Linearising(gait.constraint)), gait, 1)
     assert walk.trajectory.settings["engine"] == "compiled"
+
+
+def gust(t):
+    return np.sin(3.0 * t)
+
+
+@dataclass(frozen=True)
+class Wind(ba.Disturbance):
+    def torque(self, t, step, t_start, q, v):
+        return gust(t) * np.ones(len(q))
+
+
+def test_a_run_outlives_a_function_that_is_written_again(biped, gait, monkeypatch):
+    """As in a notebook: the older run goes on in the code that it began with."""
+
+    def stepper():
+        law = ba.NPDController(gait.constraint)
+        made = ba.Stepper(ba.Walker(biped, law, Wind(), timing=ba.SampledTime(1e-3)))
+        made.reset(start=gait.start(biped))
+        return made
+
+    old = stepper()
+    monkeypatch.setattr(sys.modules[__name__], "gust", lambda t: 2.0 * np.cos(3.0 * t))
+    others = [stepper() for _ in range(20)]
+    gc.collect()
+    for _ in range(300):
+        sample = old.step()
+    assert sample.status[0] is ba.Status.COMPLETED
+    assert not others[0].why
 
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])

@@ -17,8 +17,8 @@ from __future__ import annotations
 import ast
 import re
 import sys
+from collections.abc import Mapping
 from ctypes import CFUNCTYPE, c_int64, c_void_p
-from functools import cache
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -49,24 +49,26 @@ def kernels() -> Any:
 
 
 def compiled(files: tuple[str, ...], **arguments: int) -> Any:
-    """The units of modules by name, during which other threads of Python run; the first thread that asks loads
+    """The units of modules, by name. Other threads of Python run while one is called. The first call loads
     them, or compiles them where they are not on disk.
 
     arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
     """
-    with LOCK:
-        return _loaded(files, tuple(arguments.items()))
+    if files not in _PROGRAMS:
+        with LOCK:
+            _PROGRAMS[files] = _PROGRAMS.get(files) or _loaded(files, arguments)
+    return _PROGRAMS[files]
 
 
-@cache
-def _loaded(files: tuple[str, ...], arguments: tuple[tuple[str, int], ...]) -> SimpleNamespace:
-    """As `compiled`; `owner` keeps them in memory."""
-    code = load_or_compile(loops(files), [name for name, _ in arguments])
-    calls = {
-        name: CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
-        for name, size in arguments
-    }
-    return SimpleNamespace(owner=code, **calls)
+_PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
+"""Units in memory, by the modules that have them."""
+
+
+def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
+    """As `compiled`."""
+    at = load_or_compile(loops(files), [*arguments]).addresses
+    calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
+    return SimpleNamespace(**calls)
 
 
 def loops(files: tuple[str, ...] = FILES) -> str:

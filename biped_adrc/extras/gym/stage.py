@@ -147,14 +147,12 @@ class Stage:
     """
 
     def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
-        self.stepper = Stepper(task.scenario, count, limits(task.scenario))
-        self.scene = self.stepper.scene
-        self.task, self.limits = task, task.limits(self.scene)
+        self.task, self.limits = task, task.limits(RobotAndGait.of(task.scenario))
         values: dict[str, object] = {"hardware.torque_limit": self.limits.torque}
-        own = {"controller": f"{Passive.__module__}:{Passive.__name__}"}
-        self.stepper.what = task.scenario.replace(
-            values | own if task.action == TORQUES else values
-        )
+        if task.action == TORQUES:
+            values["controller"] = f"{Passive.__module__}:{Passive.__name__}"
+        self.stepper = Stepper(task.scenario.replace(values), count, limits(task.scenario))
+        self.scene = self.stepper.scene
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p

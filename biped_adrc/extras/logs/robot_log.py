@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.timing import LONGEST, SAME_INSTANT, SampledTime
+from biped_adrc.core.timing import LONGEST_PERIOD, SAME_INSTANT, SampledTime
 from biped_adrc.core.types import Array, Indices, read_only, relabelled
 from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.hardware.touchdown import belief_of
@@ -178,10 +178,10 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             "grow; leave doubled rows out"
         )
     period = float(np.median(ways[same])) if np.count_nonzero(same) > 1 else math.nan
-    if not SHORTEST_PERIOD <= period <= LONGEST:
+    if not SHORTEST_PERIOD <= period <= LONGEST_PERIOD:
         raise InputError(
             f"the log has {len(t)} rows that are {period:g} s apart, expected three of one single support or "
-            f"more, {SHORTEST_PERIOD} to {LONGEST} s apart; if its times are in another unit, say so in "
+            f"more, {SHORTEST_PERIOD} to {LONGEST_PERIOD} s apart; if its times are in another unit, say so in "
             "the name of the column, as 't [ms]'"
         )
     late = ways > (1.0 + GAP) * period
