@@ -185,8 +185,8 @@ def compiled_biped(biped: Biped) -> CompiledBiped:
     """A robot with its formulas in machine code, remembered for the last robots. Raises ModelError for one that
     is no planar tree.
     """
-    given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
-    return CompiledBiped(**given, robot=robot_of(biped))
+    values = {f.name: getattr(biped, f.name) for f in fields(Biped)}
+    return CompiledBiped(**values, robot=robot_of(biped))
 
 
 def compiled_references(part: object, n: int) -> Any:

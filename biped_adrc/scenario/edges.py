@@ -1,4 +1,5 @@
-"""Remarks on a finished walk: pushes that an impact cut off, and integration steps too long beside their edges.
+"""Remarks on a finished walk: pushes that an impact cut off, steps of integration too long beside their edges,
+and the last stone.
 
 A window of a push is given in the time of one single support. When the impacts come is known only once the walk
 is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it

@@ -273,8 +273,8 @@ class Walk(Shown):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
-        edge.
+        """Sentences to know before using its numbers: those of `edges.remarks`, and a gait that was made for
+        another robot or preset.
         """
         if self.recorded is not None:
             return self.stored_remarks

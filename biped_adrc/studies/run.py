@@ -48,7 +48,11 @@ WalkRow = dict[str, float | int | str | None]
 Function = Callable[[Sequence[Record]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
 OF_FEASIBILITY = (
-    *("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque"),
+    "feasible_impacts",
+    "mean_normal_force",
+    "mean_friction",
+    "scuffing",
+    "peak_torque",
 )
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")

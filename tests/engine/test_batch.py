@@ -17,7 +17,7 @@ from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
 
-from .test_simulate import Rooted
+from .test_run import Rooted
 
 simulate = partial(simulate_by, "compiled")
 

@@ -378,7 +378,7 @@ def test_in_continuous_time(biped, gait, python, method):
 def test_disturbances_without_machine_code(biped, gait):
     hip = ba.HipForce(biped, (-2.0, 0.0))
     walker = ba.Walker(biped, npd(gait), Falling() + hip, ba.SampledTime(1e-3))
-    in_part(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, "Falling.torque (test_simulate")
+    in_part(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, "Falling.torque (test_run")
 
 
 # -- what goes wrong in Python ---------------------------------------------------------------------
@@ -422,7 +422,7 @@ def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, s
     python, partly = runs(walker, gait, ba.RK4(1e-3))
     assert python.status is status
     assert partly.status is status
-    place = r"Jumping\.jump \(test_simulate\.py:\d+.*\) raised KeyError: "
+    place = r"Jumping\.jump \(test_run\.py:\d+.*\) raised KeyError: "
     said = rf"{place}'the jump'" if raises is KeyError else "the jump"
     assert re.fullmatch(said, python.detail)
     assert partly.detail == python.detail
@@ -500,9 +500,7 @@ def test_what_cannot_be_compiled_runs_in_python_and_names_class_line_and_code(bi
     python, partly = runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None)
     in_part(python, partly, TICKS, IN_PYTHON[cls])
     lines, first = getsourcelines(cls.output)
-    place = (
-        rf"{cls.__name__}.output \(test_simulate.py:{first + 1}, `{re.escape(lines[1].strip())}`\)"
-    )
+    place = rf"{cls.__name__}.output \(test_run.py:{first + 1}, `{re.escape(lines[1].strip())}`\)"
     assert re.match(place + " cannot be compiled: ", partly.settings["why"])
 
 
