@@ -96,6 +96,19 @@ def signals_at(
     )
 
 
+def controller_inputs(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint] | None,
+) -> tuple[Array, ...]:
+    """q and v, the nominal model's terms there, and the parts of the reference, where there is one."""
+    q, v, s, _ = parts(loop, x)
+    m = loop.measure(t, q, v, mode)
+    return (q, v, *m.terms, *(reference(s, m) if reference else ()))
+
+
 class StepReading(NamedTuple):
     """What judging a single support reads at one instant."""
 

@@ -71,15 +71,23 @@ def parts(loop: Loop, x: Array) -> tuple[Array, Array, Array, Array]:
     return x[:n], x[n : 2 * n], x[2 * n : end], x[end:]
 
 
-def measurement(loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool) -> Measurement:
+def measurement(
+    loop: Loop,
+    t: float,
+    q: Array,
+    v: Array,
+    mode: Mode,
+    body: bool,
+    terms: Reduction | None = None,
+) -> Measurement:
     """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
 
-    The nominal model's terms are computed here once and passed on; `body` adds gravity and ground
-    force for controllers that ask for them (`Controller.needs_body`). All of it is
+    The nominal model's `terms` are computed here once, where they are not known, and passed on; `body` adds
+    gravity and ground force for controllers that ask for them (`Controller.needs_body`). All of it is
     read-only: a controller that writes into it would change the motion.
     """
     q, v = frozen(q), frozen(v)
-    terms, of_body = loop.nominal.reduction(q, v), None
+    terms, of_body = loop.nominal.reduction(q, v) if terms is None else terms, None
     if body:
         of_body = frozen(loop.nominal.body_terms(q, v))
     if terms.D.flags.writeable:

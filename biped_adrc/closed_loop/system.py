@@ -158,6 +158,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
         def kept(name: str, finite: bool = True) -> Callable[..., Array]:
             method = getattr(law, name)
+            if getattr(type(law), name) is getattr(Controller, name):
+                return method
 
             def after(s: Array, m: Measurement, *more: Array) -> Array:
                 result = method(s, m, *map(frozen, more))

@@ -44,6 +44,8 @@ def frozen(value: T) -> T:
     For arrays handed to a user's code, or stored: the array itself stays writable for its owner.
     """
     if isinstance(value, np.ndarray):
+        if not value.flags.writeable:
+            return value
         view = value.view()
         view.setflags(write=False)
         return view

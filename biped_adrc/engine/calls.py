@@ -14,6 +14,7 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import accumulate
@@ -39,7 +40,7 @@ from biped_adrc.engine.program import COMPILED, Program, numbers_of, push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
-from biped_adrc.gait.reference import Reference
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
@@ -50,6 +51,12 @@ Shape = tuple[int, ...]
 
 _C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """Called with the lock of Python held: to let go of it would cost as much as a call."""
+
+
+def pointer_call(machine: LoadedCode, name: str) -> Callable[[int, int, int], None]:
+    """A generated function, for the addresses of K, inp and out."""
+    function: Callable[[int, int, int], None] = _C(machine.addresses[name])
+    return function
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -73,7 +80,7 @@ class Call:
         """K (size,): its parameters; inputs, outputs: how many numbers."""
         self.owner, self.K = machine, K
         self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
-        self._function = _C(machine.addresses[name])
+        self._function = pointer_call(machine, name)
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self) -> Array:
@@ -189,31 +196,41 @@ def compiled_biped(biped: Biped) -> CompiledBiped:
     return CompiledBiped(**values, robot=robot_of(biped))
 
 
-def compiled_references(part: object, n: int) -> Any:
+class CompiledReference:
+    """A reference for n coordinates in machine code, called as the reference itself is. Raises NotCompiled."""
+
+    def __init__(self, reference: Reference, n: int):
+        self.reference = reference
+        self._point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
+        self.known: tuple[float, Array, Array, ReferencePoint] | None = None
+        """t, q, v and the point there, to be returned for these very arrays, which are read-only."""
+
+    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        known = self.known
+        if known is not None and q is known[1] and v is known[2] and t == known[0]:
+            return known[3]
+        return cast(ReferencePoint, self._point(t, q, v))
+
+
+def compiled_references(part: object, n: int, references: list[CompiledReference]) -> Any:
     """A controller, or a part of one, with the references in its fields compiled, for n coordinates.
 
-    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. What cannot be compiled
-    stays as it is.
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. `references` is extended by
+    them. What cannot be compiled stays as it is.
     """
     if isinstance(part, Reference):
-        return _in_code(part, n)
+        with suppress(NotCompiled):
+            references.append(CompiledReference(part, n))
+            kind = new_class(type(part).__name__, (type(part),))
+            setattr(kind, "__call__", staticmethod(references[-1]))  # noqa: B010
+            return with_content(part, content(part), kind)
+        return part
     if not is_dataclass(part) or isinstance(part, type | Biped):
         return part
     values = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
-    parts = {name: compiled_references(value, n) for name, value in values.items()}
+    parts = {name: compiled_references(value, n, references) for name, value in values.items()}
     changed = {name: value for name, value in parts.items() if value is not values[name]}
     return replace(part, **changed) if changed else part
-
-
-def _in_code(reference: Reference, n: int) -> Reference:
-    """The reference, still of its class, called in machine code; itself where it cannot be compiled."""
-    try:
-        point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
-    except NotCompiled:
-        return reference
-    kind = new_class(type(reference).__name__, (type(reference),))
-    setattr(kind, "__call__", staticmethod(point))  # noqa: B010
-    return with_content(reference, content(reference), kind)
 
 
 def compiled_readings(

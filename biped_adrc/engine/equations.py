@@ -53,7 +53,7 @@ from biped_adrc.engine.symbols import (
     where,
 )
 from biped_adrc.engine.tracer import Located, Tracer, run
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.gait.reference import Reference
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.planar_robot import PlanarRobot
 
@@ -276,11 +276,8 @@ class Equations:
 
     def view(self, read: Reading) -> SymbolicFunction:
         """The parts of what `read` says, one after the other."""
-        at = self.at()
-
-        def tracked(s: Array, m: Measurement) -> ReferencePoint:
-            return run(at.loop.trace, tracked_point, self.symbols[1].curve, s, m)
-
+        at, curve = self.at(), self.symbols[1].curve
+        tracked = None if curve is None else partial(run, at.loop.trace, tracked_point, curve)
         return self.function(at.inp, *at.does(read, tracked))
 
     def impact(self) -> SymbolicFunction:

@@ -83,7 +83,7 @@ class CompiledLoop(SteppingLoop):
         except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
-            values["controller"] = compiled_references(self.controller, self.plant.n)
+            values["controller"] = compiled_references(self.controller, self.plant.n, [])
             if isinstance(self.model, Biped):
                 with suppress(ModelError):  # of a robot that is no planar tree
                     values["model"] = compiled_biped(self.model)

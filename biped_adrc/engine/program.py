@@ -7,22 +7,21 @@ where they are on disk; only for a new structure is anything traced and compiled
 In a `CompiledWalker` three things come together: the program (flow, tick, impact, ..), the matrices of the
 method (`hybrid.exponential`), and the terms of the disturbance, which are compiled by themselves so that
 another disturbance does not recompile the walker. What cannot be compiled raises `NotCompiled` with the reason;
-in sampled time the march then calls its sample instants and impacts in Python (`PythonTicks`), and the plant
+in sampled time the march then calls its sample instants and impacts in Python (`engine.ticks`), and the plant
 moves in machine code between them.
 """
 
 from __future__ import annotations
 
-import ctypes
 import math
-from collections.abc import Callable, Hashable
+from collections.abc import Hashable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, partial
 
 import numpy as np
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.core.timing import SampledTime
@@ -148,9 +147,6 @@ class CompiledWalker:
     plan: CompiledRun
     """A run that has not begun: sizes, addresses and settings."""
 
-    ticks: PythonTicks | None = None
-    """What carries out sample instants and impacts in Python; None where machine code does."""
-
     @classmethod
     def of(
         cls,
@@ -163,8 +159,8 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        reference: what readings of the program refer to. in_python: sample instants and impacts by the walker's
-        own methods, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
+        reference: what readings of the program refer to. in_python: sample instants and impacts are those of
+        `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
         NotCompiled where a part or the method cannot be compiled, InputError for a method without coordinates.
         """
         if not isinstance(method, RK4 | Exponential):
@@ -208,48 +204,4 @@ class CompiledWalker:
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         fields |= {name: program.address(name) for name in FUNCTIONS}
-        ticks = PythonTicks(walker, nx) if in_python else None
-        if ticks is not None:
-            fields |= ticks.addresses
-        return cls(walker, program, plan(tables, fields), ticks)
-
-
-_FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-
-
-@lru_cache(maxsize=64)
-def _numbers_at(address: int, size: int) -> Array:
-    """The numbers (size,) at an address, as a view."""
-    numbers: Array = np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
-    return numbers
-
-
-class PythonTicks:
-    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states; without q''.
-
-    What a method raises is kept as `error`; the march ends as NOT_FINITE.
-    """
-
-    def __init__(self, walker: Walker, nx: int):
-        self.nx = nx
-        self.error: BaseException | None = None
-
-        def tick(t: float, step: float, start: float, *x: float) -> Array:
-            return walker.tick(t, np.array(x), Mode(int(step), start))
-
-        def impact(t: float, step: float, *x: float) -> Array:
-            return walker.impact(t, np.array(x[:nx]), Mode(int(step) - 1))[0]
-
-        self.functions = [_FUNCTION(partial(self._called, f)) for f in (tick, impact)]
-        at = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
-        self.addresses = dict(zip(("tick", "impact"), at, strict=True))
-
-    def _called(self, method: Callable[..., Array], K: int, inp: int, out: int) -> None:
-        """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
-        raises.
-        """
-        result = _numbers_at(out, self.nx + 1)
-        try:
-            result[:] = *method(*_numbers_at(inp, 3 + self.nx).tolist()), 1.0
-        except BaseException as error:  # goes on where the march was called
-            self.error, result[:] = error, math.nan
+        return cls(walker, program, plan(tables, fields))

@@ -6,7 +6,7 @@ fits:
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
 - compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
-  (`engine.program`);
+  (`engine.ticks`);
 - compiled plant otherwise: the loop of `hybrid.simulator` on compiled dynamics;
 - Pinocchio, for a robot that is no planar tree.
 
@@ -24,9 +24,10 @@ import numpy as np
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.calls import compiled_biped, compiled_references
+from biped_adrc.engine.calls import CompiledReference, compiled_biped, compiled_references
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.ticks import PythonTicks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
@@ -95,19 +96,28 @@ def run_compiled(
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
         why = f"{reason}; it runs in Python on the compiled plant"
-    walker, result = compiled_plant(walker), None
+    (walker, references), result = compiled_plant(walker), None
     if walker.sampled:
         with suppress(NotCompiled):
             compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
-            result = simulate_compiled(compiled, x0, mode, method, options)
+            ticks = PythonTicks(compiled, walker, references)
+            result = simulate_compiled(compiled, x0, mode, method, options, ticks)
     result = result or simulator.run(walker, x0, mode, method, options)
     return replace(result, settings={**result.settings, "engine": COMPILED_PLANT, "why": why})
 
 
 def simulate_compiled(
-    compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+    compiled: CompiledWalker,
+    x0: Array,
+    mode: Mode,
+    method: OneStepMethod,
+    options: RunOptions,
+    ticks: PythonTicks | None = None,
 ) -> Trajectory:
-    """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
+    """The run of a walker that is compiled already, from x0 (nx,), in any thread.
+
+    ticks: its sample instants and impacts in Python; None where machine code has them.
+    """
     run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
     longest, left = compiled.walker.max_step_time, options.t_end - options.t0
     run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
@@ -124,8 +134,8 @@ def simulate_compiled(
             event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
         at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
         arc = Arc(mode, at[:, 0], x, dx, event)
-        if compiled.ticks is not None and compiled.ticks.error is not None:
-            return _ended_by(compiled.ticks.error, arc)
+        if ticks is not None and ticks.error is not None:
+            return _ended_by(ticks.error, arc)
         detail = f"after t = {arc.t[-1]:.6g} s" if status in simulator.FAILURES else ""
         status = Status.COMPLETED if status is Status.TIME_OUT else status
         return FlownArc(arc, status, detail, outcome)
@@ -163,9 +173,10 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     return result.detail if run.detail in result.detail else f"{run.detail}: {result.detail}"
 
 
-def compiled_plant(walker: Walker) -> Walker:
-    """The walker with compiled dynamics and references. Raises ModelError."""
-    controller = compiled_references(walker.controller, walker.plant.n)
+def compiled_plant(walker: Walker) -> tuple[Walker, list[CompiledReference]]:
+    """The walker with compiled dynamics and references, and these references. Raises ModelError."""
+    references = list[CompiledReference]()
+    controller = compiled_references(walker.controller, walker.plant.n, references)
     model = None if walker.model is None else compiled_biped(walker.model)
     plant = compiled_biped(walker.plant)
-    return replace(walker, plant=plant, model=model, controller=controller)
+    return replace(walker, plant=plant, model=model, controller=controller), references

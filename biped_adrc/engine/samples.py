@@ -144,7 +144,7 @@ class PythonWalk:
         """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
         p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
-            loop = compiled_plant(loop)
+            loop, _ = compiled_plant(loop)
         elif isinstance(loop, CompiledLoop):
             loop, _ = loop.prepared(loop.controller_size(x))
             if loop.program is not None:

@@ -1,0 +1,117 @@
+"""Sample instants and impacts in Python, of a walker that otherwise moves in machine code.
+
+The march calls them by address, as it calls the compiled ones. Where nothing but the torque is held, what a
+controller gets is one call of machine code too: the measurement's terms, and the controller's reference there,
+which is returned when the controller asks for it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
+
+import numpy as np
+
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.instant_signals import controller_inputs
+from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.control.outer_loop import tracked_point
+from biped_adrc.core.types import Array, frozen
+from biped_adrc.engine.calls import CompiledReference, Shape, parts_of, pointer_call
+from biped_adrc.engine.program import CompiledWalker, Program
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.model.reduction import Reduction
+
+_FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+BLOCK, TERMS = 256, len(Reduction._fields)
+"""Sample instants whose inputs lie in one array; parts of the terms."""
+HEAD = 3 * 8
+"""Where x is among the inputs of a sample instant [bytes], behind t, step and t_start."""
+
+
+@lru_cache(maxsize=64)
+def _numbers_at(address: int, size: int) -> Array:
+    """The numbers (size,) at an address, as a view."""
+    numbers: Array = np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
+    return numbers
+
+
+class PythonTicks:
+    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker's own methods; without q''.
+
+    What a method raises is kept as `error`; the march ends as NOT_FINITE.
+    """
+
+    def __init__(
+        self, compiled: CompiledWalker, walker: Walker, references: Sequence[CompiledReference]
+    ):
+        """walker: whose methods are called, with its references compiled."""
+        self.walker, self.nx = walker, compiled.program.nx
+        self.error: BaseException | None = None
+        ideal = walker.sensors is None and walker.motors is None and walker.behind == walker.plant.p
+        tick = self._measured(compiled.program, references[:1]) if ideal else self._tick
+        self.functions = [_FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
+        for name, function in zip(("tick", "impact"), self.functions, strict=True):
+            compiled.plan[name] = ctypes.cast(function, ctypes.c_void_p).value or 0
+
+    def _called(self, method: Callable[[int, Array], None], K: int, inp: int, out: int) -> None:
+        """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
+        raises.
+        """
+        result = _numbers_at(out, self.nx + 1)
+        try:
+            method(inp, result)
+            result[-1] = 1.0
+        except BaseException as error:  # goes on where the march was called
+            self.error, result[:] = error, math.nan
+
+    def _tick(self, inp: int, result: Array) -> None:
+        t, step, start, *x = _numbers_at(inp, 3 + self.nx).tolist()
+        result[:-1] = self.walker.tick(t, np.array(x), Mode(int(step), start))
+
+    def _impact(self, inp: int, result: Array) -> None:
+        t, step, *x = _numbers_at(inp, 2 + self.nx).tolist()
+        result[:-1] = self.walker.impact(t, np.array(x), Mode(int(step) - 1))[0]
+
+    def _measured(
+        self, program: Program, references: Sequence[CompiledReference]
+    ) -> Callable[[int, Array], None]:
+        """As `_tick`, where the torque alone is held. references: one at most, whose point is known then."""
+        walker, nx, n = self.walker, self.nx, self.walker.plant.n
+        curve = references[0].reference if references else None
+        program = replace(program, numbers=program.numbers._replace(curve=curve))
+        tracked = partial(tracked_point, curve) if curve else None
+        example = controller_inputs(walker, 0.0, np.zeros(nx), Mode(), tracked)
+        self.code, self.K = program.reading(controller_inputs), program.K
+        function, rows = pointer_call(self.code, "reading"), rows_of(tuple(map(np.shape, example)))
+        body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
+
+        def tick(inp: int, result: Array) -> None:
+            row, (q, v, *parts) = next(rows)
+            function(K, inp, row)
+            (t, step, start), x = _numbers_at(inp, 3).tolist(), _numbers_at(inp + HEAD, nx)
+            mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
+            for r in references:
+                r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
+            m = semantics.measurement(walker, t, q, v, mode, body, terms)
+            s, u = semantics.command(walker, frozen(x[2 * n : end].copy()), m)
+            result[: 2 * n], result[end:nx] = x[: 2 * n], u
+            result[2 * n : end] = walker.calls.predict(s, m, u)
+
+        return tick
+
+
+def rows_of(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
+    """Room for arrays of these shapes, one after the other: an address, and the arrays there, read-only.
+
+    Never used again, since a controller may keep them.
+    """
+    while True:
+        block = np.zeros((BLOCK, sum(map(math.prod, shapes))))
+        block.setflags(write=False)
+        parts = zip(*parts_of(block, shapes), strict=True)
+        starts = block.ctypes.data + block.strides[0] * np.arange(BLOCK)
+        yield from zip(starts.tolist(), parts, strict=True)
