@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, fields, is_dataclass
+from dataclasses import field, fields
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
@@ -75,7 +75,7 @@ def setup(default: Any) -> Any:
 
 def is_part(x: object) -> bool:
     """Whether x is an object of a dataclass."""
-    return is_dataclass(x) and not isinstance(x, type)
+    return hasattr(type(x), "__dataclass_fields__")
 
 
 def content(part: Any) -> dict[str, Any]:

@@ -28,10 +28,10 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.equations import Reading, WalkerNumbers
+from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.on_plant import CompiledLoop
-from biped_adrc.engine.program import CompiledWalker
+from biped_adrc.engine.program import CompiledWalker, Program
 from biped_adrc.engine.run import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
@@ -64,10 +64,10 @@ def _trunk(biped: Biped) -> LinkPoint:
     return link_point(biped, biped.description.trunk)
 
 
-def torque_place(numbers: WalkerNumbers) -> int:
-    """Where the torque from outside is among the numbers of a walker with inputs."""
-    inner = cast(AddedTorque, numbers.controller).inner
-    return len(floats((numbers.plant, numbers.model, inner)))
+def torque_place(program: Program) -> int:
+    """Where the torque from outside, the last number of the controller, is in K of a walker with inputs."""
+    behind = program.numbers._replace(plant=None, model=None, controller=None)
+    return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,10 @@ class CompiledWalk:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look)
         assert walker.disturbance is not None
-        run["torque"] = run["K"] + 8 * torque_place(compiled.program.numbers)
+        run["torque"] = run["K"] + 8 * torque_place(compiled.program)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
+        run["pulled"] = any(term.pulls for term in walker.disturbance.terms[:-1])
+        run["n_parts"] -= 1
         return cls(compiled, run)
 
     @property
@@ -148,7 +150,7 @@ class PythonWalk:
         elif isinstance(loop, CompiledLoop):
             loop, _ = loop.prepared(loop.controller_size(x))
             if loop.program is not None:
-                at = torque_place(loop.program.numbers)
+                at = torque_place(loop.program)
                 places.append((loop.program.K[at : at + p], slice(p)))
             if loop.pushes is not None:
                 places.append((loop.pushes[-1].K[:2], slice(p, None)))

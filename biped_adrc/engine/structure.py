@@ -22,7 +22,7 @@ from biped_adrc.core.checks import LIBRARIES, PACKAGE, is_users
 from biped_adrc.core.part import content, is_part
 from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.machine import hash_of
-from biped_adrc.engine.symbols import HIDDEN, NotCompiled
+from biped_adrc.engine.symbols import HIDDEN, LISTS, REALS, NotCompiled
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:
@@ -30,7 +30,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
     Raises NotCompiled for an object whose content cannot be compared.
     """
-    if isinstance(tree, float | np.floating) and not exact:
+    if isinstance(tree, REALS) and not exact:
         return float
     if isinstance(tree, np.ndarray):
         numbers = tree.dtype.kind == "f" and not exact
@@ -39,7 +39,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
         return "hidden", type(tree)
     if is_part(tree):
         return type(tree), *((name, structure(x, exact)) for name, x in content(tree).items())
-    if isinstance(tree, tuple | list):
+    if isinstance(tree, LISTS):
         return type(tree), *(structure(x, exact) for x in tree)
     if isinstance(tree, dict):
         return dict, *((name, structure(x, True)) for name, x in tree.items())

@@ -20,7 +20,6 @@ import functools
 import math
 import random
 from collections.abc import Callable, Iterator, Sequence
-from itertools import chain
 from typing import Any, TypeVar, Union
 
 import casadi as ca
@@ -39,6 +38,8 @@ class NotCompiled(InputError):
     """What has no machine code, such as a method that branches on the value of a number; the text names it."""
 
 
+REALS, LISTS = (float, np.floating), (tuple, list)
+"""Classes, as tuples: to write float | np.floating makes a new object each time."""
 Number = Union["Scalar", float]
 """A symbol, or a number that the structure fixes."""
 
@@ -297,13 +298,13 @@ class Vector:
     def like(self, tree: T) -> T:
         """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
         result: Any = tree
-        if isinstance(tree, tuple | list):
+        if isinstance(tree, LISTS):
             result = rebuilt(tree, [self.like(x) for x in tree])
         elif isinstance(tree, np.ndarray):
             result = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         elif is_part(tree) and not isinstance(tree, HIDDEN):
             result = with_content(tree, {name: self.like(x) for name, x in content(tree).items()})
-        elif isinstance(tree, float | np.floating):
+        elif isinstance(tree, REALS):
             result = self.take()
         return result
 
@@ -318,11 +319,11 @@ def symbols_of(example: T) -> tuple[ca.SX, T]:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, float | np.floating):
+    if isinstance(tree, REALS):
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
+    return [number for _, x in inside(tree) for number in floats(x)]
 
 
 def paths(tree: object) -> list[str]:
@@ -333,22 +334,19 @@ def paths(tree: object) -> list[str]:
 
 def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
     """Numbers and arrays of numbers in a tree, each with its name."""
-    if isinstance(tree, float | np.floating) or (
-        isinstance(tree, np.ndarray) and tree.dtype.kind == "f"
-    ):
+    if isinstance(tree, REALS) or (isinstance(tree, np.ndarray) and tree.dtype.kind == "f"):
         yield name, tree
     for part, x in inside(tree):
-        yield from leaves(x, name + part if name or part[0] == "[" else part[1:])
+        place = f"[{part}]" if isinstance(part, int) else f".{part}" if name else part
+        yield from leaves(x, name + place)
 
 
-def inside(tree: object) -> Iterator[tuple[str, object]]:
-    """The parts of a tuple, list or part, each with .name or [place]."""
+def inside(tree: object) -> Iterator[tuple[str | int, object]]:
+    """The parts of a tuple, list or part, each with its name or place."""
     if is_part(tree) and not isinstance(tree, HIDDEN):
-        yield from ((f".{name}", x) for name, x in content(tree).items())
-    elif isinstance(tree, tuple | list):
-        names = getattr(tree, "_fields", None)
-        for i, x in enumerate(tree):
-            yield f"[{i}]" if names is None else f".{names[i]}", x
+        yield from content(tree).items()
+    elif isinstance(tree, LISTS):
+        yield from zip(getattr(tree, "_fields", range(len(tree))), tree, strict=True)
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:

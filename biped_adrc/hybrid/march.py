@@ -427,7 +427,7 @@ def through(r: Run, t_next: float) -> int:
         pass_on(r)
         r.t = t = t1
         # the next stretch begins with the same, but for a force that jumps
-        if r.look != 0 and (t < t_next or t >= r.t_end or r.pulled != 0):
+        if r.look != 0 and (t < t_next or r.pulled != 0):
             node(r, t, r.x0, r.dx0)
     return 0
 

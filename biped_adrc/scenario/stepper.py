@@ -193,8 +193,8 @@ class Stepper:
         self.walks[i], self.codes[i] = walk, code
         self.addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
-        for laws, _, _ in self._laws.values():
-            laws[i] = 0
+        for view, (laws, _, _) in self._laws.items():
+            laws[i] = self._law(i, view)
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
         """One sample of every walk that goes on.
@@ -235,7 +235,7 @@ class Stepper:
             assert isinstance(walk, CompiledWalk)
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
             n = Nodes(walk.run.rows())
-            q, v = np.split(walk.run.x[: 2 * plant.n], 2)
+            q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
             after = plant.momentum(q, v) if len(n.steps) == impacts else None
             judged = supports(walker, n, within.of(plant.description), impacts, after)
             result += [(i, s) for s in judged[: None if ended else impacts]]
@@ -284,18 +284,20 @@ class Stepper:
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
             size = len(reading(first, view, self.curve))
-            laws = np.zeros(len(self.walks), dtype=np.int64)
+            laws = np.array([self._law(i, view) for i in range(len(self.walks))], dtype=np.int64)
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
-        laws, result, at = self._laws[view]
-        for i in np.flatnonzero(laws == 0).tolist():
-            walk = self.walks[i]
-            if isinstance(walk, CompiledWalk):
-                laws[i] = walk.law(view)
-            elif walk is not None:
+        _, result, at = self._laws[view]
+        for i, walk in enumerate(self.walks) if self.in_python else ():
+            if isinstance(walk, PythonWalk):
                 result[i] = reading(walk, view, self.curve)
         self._kernels.looks(*self._walks, *at)
         return result.copy()
+
+    def _law(self, i: int, view: Reading) -> int:
+        """Address of machine code for what `view` says of walk i; 0 for one in Python, or none."""
+        walk = self.walks[i]
+        return walk.law(view) if isinstance(walk, CompiledWalk) else 0
 
 
 def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:

@@ -68,8 +68,12 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
     nx = r.nx
     for count in range(impacts):
         code = go_on(r)
+        if code == COMPLETED:
+            if r.look != 0:
+                node(r, r.t, r.x0, r.dx0)
+            return TIME_OUT
         if code != STRUCK:
-            return TIME_OUT if code == COMPLETED else code
+            return code
         row = shift(strikes, count * (1 + 2 * nx))
         copy(r.x0, shift(row, 1), nx)
         code = land(r)
@@ -106,6 +110,18 @@ def look(r: Run, law: int, out: Array) -> None:
 
 
 @unit
+def push(r: Run, x: float, z: float) -> None:
+    """`force` becomes (x, z) [N], the last term of the disturbance, which counts while it is not zero."""
+    F = r.force
+    if x != F[0] or z != F[1]:
+        if r.look != 0:
+            node(r, r.t, r.x0, r.dx0)
+        r.n_parts += int(x != 0.0 or z != 0.0) - int(F[0] != 0.0 or F[1] != 0.0)
+        F[0], F[1] = x, z
+        load_of(r)
+
+
+@unit
 def samples(
     walks: Ints,
     count: int,
@@ -129,7 +145,7 @@ def samples(
             r = run_at(walks[i])
             u = shift(inputs, i * (r.p + 2))
             copy(u, r.torque, r.p)
-            copy(shift(u, r.p), r.force, 2)
+            push(r, u[r.p], u[r.p + 1])
             step = r.step
             codes[i] = sample(r)
             impacts[i] = int(r.step - step)

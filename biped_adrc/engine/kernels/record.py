@@ -85,7 +85,7 @@ class Run:
     n_parts: int
     """Terms of the disturbance."""
     pulled: int
-    """1 where one of them is a force from outside."""
+    """1 where one of them, other than `force`, is a force from outside."""
     period: float
     """Of sample instants [s]; 0 for continuous time."""
     part: float

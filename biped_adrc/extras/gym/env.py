@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from biped_adrc.core.errors import InputError, check_count
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.extras.gym.stage import Flags, LearnerTask, Stage
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
@@ -151,6 +151,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.generators = [np.random.default_rng() for _ in range(num_envs)]
         self.over: Flags = np.ones(num_envs, dtype=bool)
+        self.there = frozen(np.ones(num_envs, dtype=bool))
         self.picture = Picture(self.stage) if render_mode else None
 
     def reset(
@@ -204,8 +205,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         """The arrays (N,) of `Stage.infos`, each with Gymnasium's mask `_name` of the walks that have
         it: all.
         """
-        result, there = self.stage.infos(), np.ones(self.num_envs, dtype=bool)
-        return result | {f"_{name}": there.copy() for name in result}
+        result = self.stage.infos()
+        return result | dict.fromkeys([f"_{name}" for name in result], self.there)
 
     def render(self) -> tuple[Any, ...] | None:
         """Draw each walk as pixels (height, width, 3), uint8; None without a render_mode."""

@@ -160,7 +160,7 @@ class Stage:
         self.highest = np.concatenate(
             (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
         )
-        self.needs = np.zeros((count, 4))
+        self.lowest, self.needs = -self.highest, np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
         self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
@@ -215,7 +215,7 @@ class Stage:
         view = self.view
         result = view[:, : self.first + 1].copy()
         result[:, -1] = np.vecdot(view[:, : self.plant.n], self.phase)
-        return np.minimum(np.maximum(result, -self.highest, out=result), self.highest, out=result)
+        return np.minimum(np.maximum(result, self.lowest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
         """Rewards (N,) [1] of the last sample."""
