@@ -20,8 +20,8 @@ from biped_adrc.analysis.loops.specification import (
 )
 from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, response, robot_step
 from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.analysis.tick_derivative import _differenced, tick_derivative
 from biped_adrc.core.errors import BipedError
-from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
 from biped_adrc.hardware.sensors import PitchSensor, Sensors
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.cycle import specification_of

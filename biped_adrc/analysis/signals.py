@@ -29,6 +29,7 @@ from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import lapack
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
@@ -140,8 +141,6 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     compiled = trajectory.settings.get("engine") == "compiled"
     tracked = tracked_by(walker.law, reference)
     if compiled or many:
-        from biped_adrc.engine.calls import compiled_readings
-
         result = compiled_readings(walker, trajectory, tracked)
         if result is not None:
             return signals_of(walker, trajectory, result)
@@ -158,6 +157,53 @@ def readings(
         for t, x in zip(arc.seen, arc.x, strict=True)
     ]
     return InstantSignals(*(np.array(column) for column in zip(*rows, strict=True)))
+
+
+def compiled_readings(
+    walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
+) -> InstantSignals | None:
+    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
+
+    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
+    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
+    left.
+    """
+    from biped_adrc.engine.calls import Call, parts_of
+    from biped_adrc.engine.program import COMPILED, Program, numbers_of
+    from biped_adrc.engine.symbols import NotCompiled
+
+    nx = trajectory.arcs[0].x.shape[1]
+    try:
+        program = Program(walker.controller_size(nx), numbers_of(walker, curve=reference))
+        if trajectory.settings.get("engine") != COMPILED:
+            _ = program.machine  # NotCompiled where the controller runs in Python
+        code, K = program.reading(signals_at), program.K
+    except (NotCompiled, ModelError):
+        return None
+    first = trajectory.arcs[0]
+    example = signals_at(
+        walker, first.t[0], first.x[0], first.mode, partial(tracked_point, reference)
+    )
+    shapes = tuple(np.shape(part) for part in example)
+    call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
+    out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
+    return InstantSignals(*parts_of(out, shapes))
+
+
+def _inputs(walker: Walker, arc: Arc) -> Array:
+    """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
+    from biped_adrc.engine.calls import pushes, zeta_rows
+    from biped_adrc.engine.kernels.record import OUTSIDE
+    from biped_adrc.engine.symbols import NotCompiled
+
+    n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
+    q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
+    try:
+        zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
+    except NotCompiled:
+        zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
+    head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)
+    return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
 
 
 def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Signals:

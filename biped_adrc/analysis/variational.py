@@ -12,7 +12,8 @@ the tangent that keeps h = 0, on the section
 Pi is what the impact's time, which depends on s, leaves of a change (Aizerman, Gantmacher, 1958; Leine,
 Nijmeijer, 2004).
 
-The derivative of the torque is that of a sample instant of the same law (`engine.tick_derivative`). Controllers
+The derivative of the torque is that of a sample instant of the same law (`analysis.tick_derivative`).
+Controllers
 with states, sampled time and disturbances are refused.
 """
 
@@ -34,12 +35,12 @@ from biped_adrc.analysis.return_map import (
     not_converged,
     sorted_eigenvalues,
 )
+from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
-from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
 

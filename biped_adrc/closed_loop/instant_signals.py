@@ -1,6 +1,6 @@
 """All signals of a closed loop at one instant, read off its state.
 
-Compiled code traces the same function (`engine.calls`), so that both engines report the same
+Compiled code traces the same function (`analysis.signals`), so that both engines report the same
 quantities.
 """
 

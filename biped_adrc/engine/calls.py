@@ -1,12 +1,8 @@
-"""Generated code that Python calls: methods of parts, terms of a disturbance, signals at all nodes of a run.
+"""Generated code that Python calls: methods of parts, and terms of a disturbance.
 
 For controllers that run in Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine
 code that are asked for at every instant, traced from `model.planar_robot`; kinematics, contact and all else
 stay Pinocchio's. `compiled_references` does the same for the references of a controller.
-
-Signals are not stored with a run but computed again from the states, at tens of thousands of nodes: in machine
-code (`Program.reading` of `closed_loop.instant_signals.signals_at`), or in Python (`analysis.signals`) where
-a part has no compiled form. The disturbance zeta is an input of them, since it may run in Python.
 """
 
 from __future__ import annotations
@@ -24,24 +20,18 @@ from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.outer_loop import OuterLoop, tracked_point
-from biped_adrc.core.errors import ModelError
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import COMPILED, Program, numbers_of, push_code
+from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
@@ -49,14 +39,8 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 Shape = tuple[int, ...]
 """Shape of an array."""
 
-_C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-"""Called with the lock of Python held: to let go of it would cost as much as a call."""
-
-
-def pointer_call(machine: LoadedCode, name: str) -> Callable[[int, int, int], None]:
-    """A generated function, for the addresses of K, inp and out."""
-    function: Callable[[int, int, int], None] = _C(machine.addresses[name])
-    return function
+FUNCTION = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+"""f(K, inp, out), called with the lock of Python held: to let go of it would cost as much as a call."""
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -80,7 +64,7 @@ class Call:
         """K (size,): its parameters; inputs, outputs: how many numbers."""
         self.owner, self.K = machine, K
         self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
-        self._function = pointer_call(machine, name)
+        self._function = FUNCTION(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self) -> Array:
@@ -231,42 +215,3 @@ def compiled_references(part: object, n: int, references: list[CompiledReference
     parts = {name: compiled_references(value, n, references) for name, value in values.items()}
     changed = {name: value for name, value in parts.items() if value is not values[name]}
     return replace(part, **changed) if changed else part
-
-
-def compiled_readings(
-    walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
-) -> InstantSignals | None:
-    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
-
-    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
-    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
-    left.
-    """
-    nx = trajectory.arcs[0].x.shape[1]
-    try:
-        program = Program(walker.controller_size(nx), numbers_of(walker, curve=reference))
-        if trajectory.settings.get("engine") != COMPILED:
-            _ = program.machine  # NotCompiled where the controller runs in Python
-        code, K = program.reading(signals_at), program.K
-    except (NotCompiled, ModelError):
-        return None
-    first = trajectory.arcs[0]
-    example = signals_at(
-        walker, first.t[0], first.x[0], first.mode, lambda s, m: tracked_point(reference, s, m)
-    )
-    shapes = tuple(np.shape(part) for part in example)
-    call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
-    out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
-    return InstantSignals(*parts_of(out, shapes))
-
-
-def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
-    n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
-    q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
-    try:
-        zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
-    except NotCompiled:
-        zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
-    head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)
-    return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))

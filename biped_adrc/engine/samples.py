@@ -66,7 +66,7 @@ def _trunk(biped: Biped) -> LinkPoint:
 
 def torque_place(program: Program) -> int:
     """Where the torque from outside, the last number of the controller, is in K of a walker with inputs."""
-    behind = program.numbers._replace(plant=None, model=None, controller=None)
+    behind = program.numbers[program.numbers._fields.index("controller") + 1 :]
     return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
 
 

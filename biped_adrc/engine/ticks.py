@@ -20,16 +20,13 @@ from biped_adrc.closed_loop.instant_signals import controller_inputs
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.outer_loop import tracked_point
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.calls import CompiledReference, Shape, parts_of, pointer_call
+from biped_adrc.engine.calls import FUNCTION, CompiledReference, Shape, parts_of
 from biped_adrc.engine.program import CompiledWalker, Program
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import Reduction
 
-_FUNCTION = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 BLOCK, TERMS = 256, len(Reduction._fields)
 """Sample instants whose inputs lie in one array; parts of the terms."""
-HEAD = 3 * 8
-"""Where x is among the inputs of a sample instant [bytes], behind t, step and t_start."""
 
 
 @lru_cache(maxsize=64)
@@ -53,7 +50,7 @@ class PythonTicks:
         self.error: BaseException | None = None
         ideal = walker.sensors is None and walker.motors is None and walker.behind == walker.plant.p
         tick = self._measured(compiled.program, references[:1]) if ideal else self._tick
-        self.functions = [_FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
+        self.functions = [FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
         for name, function in zip(("tick", "impact"), self.functions, strict=True):
             compiled.plan[name] = ctypes.cast(function, ctypes.c_void_p).value or 0
 
@@ -86,13 +83,17 @@ class PythonTicks:
         tracked = partial(tracked_point, curve) if curve else None
         example = controller_inputs(walker, 0.0, np.zeros(nx), Mode(), tracked)
         self.code, self.K = program.reading(controller_inputs), program.K
-        function, rows = pointer_call(self.code, "reading"), rows_of(tuple(map(np.shape, example)))
+        function, rows = (
+            FUNCTION(self.code.addresses["reading"]),
+            rows_of(tuple(map(np.shape, example))),
+        )
         body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
 
         def tick(inp: int, result: Array) -> None:
             row, (q, v, *parts) = next(rows)
             function(K, inp, row)
-            (t, step, start), x = _numbers_at(inp, 3).tolist(), _numbers_at(inp + HEAD, nx)
+            t, step, start = _numbers_at(inp, 3).tolist()
+            x = _numbers_at(inp, 3 + nx)[3:]
             mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
             for r in references:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.signals import signals, signals_of
+from biped_adrc.analysis.signals import compiled_readings, signals, signals_of
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.engine.calls import compiled_readings
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.reference import TimeReference
 

@@ -14,7 +14,7 @@ one number: it couples the joints and reaches Theta.
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
 
 z is the walker's state from tick to tick: controller, observer, sensors with their filter, and the torques
-that the controller knows of. The derivative is taken of the methods themselves (`engine.tick_derivative`), so
+that the controller knows of. The derivative is taken of the methods themselves (`analysis.tick_derivative`), so
 that the path of an encoder's error through Theta and Theta' is in it, and no controller has a formula here.
 
 Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
@@ -28,12 +28,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, read_only
-from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hardware.sample_hold import HeldSizes, read

@@ -14,6 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
+from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError
@@ -21,7 +22,6 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.program import controller_numbers
-from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
