@@ -80,13 +80,11 @@ class PythonTicks:
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         curve = references[0].reference if references else None
         program = replace(program, numbers=program.numbers._replace(curve=curve))
-        tracked = partial(tracked_point, curve) if curve else None
+        tracked = None if curve is None else partial(tracked_point, curve)
         example = controller_inputs(walker, 0.0, np.zeros(nx), Mode(), tracked)
         self.code, self.K = program.reading(controller_inputs), program.K
-        function, rows = (
-            FUNCTION(self.code.addresses["reading"]),
-            rows_of(tuple(map(np.shape, example))),
-        )
+        function = FUNCTION(self.code.addresses["reading"])
+        rows = rows_of(tuple(map(np.shape, example)))
         body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
 
         def tick(inp: int, result: Array) -> None:

@@ -352,6 +352,47 @@ def test_tick_by_tick(gait, ticked):
     assert s % 1.0 == 0.0
 
 
+@dataclass(frozen=True)
+class Drifting(ba.Reference):
+    """A curve that moves on with time."""
+
+    h: ba.VirtualConstraint
+
+    def __call__(self, t, q, v):
+        r = self.h(t, q, v)
+        return r._replace(q_d=r.q_d + 0.01 * t, dq_d=r.dq_d + 0.01)
+
+
+@dataclass(frozen=True)
+class Keeping(Controller):
+    """Keeps what it gets, and the reference there, at this time and at a later one."""
+
+    reference: ba.Reference
+    kept: list = field(default_factory=list)
+
+    def output(self, s, m):
+        now, later = (self.reference(t, m.q, m.v) for t in (m.t, m.t + 0.1))
+        self.kept.append((m, now, later))
+        return 2500.0 * (now.q_d - m.q_b) + 120.0 * (now.dq_d - m.v_b)
+
+
+def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
+    reference = Drifting(gait.constraint)
+    walker = ba.Walker(biped, Keeping(reference), timing=ba.SampledTime(1e-3))
+    x0, kept = walker.initial_state(*gait.start(biped)), walker.controller.kept
+    kept.clear()  # where its methods were tried
+    run = simulate(walker, x0, Mode(), ba.RK4(1e-3), t_end=0.3)
+    assert "Keeping.output" in run.settings["why"]
+    at = dict(zip(run.arcs[0].t.tolist(), run.arcs[0].x, strict=True))
+    assert len(kept) > 256
+    for m, *points in kept:
+        assert np.array_equal(np.concatenate((m.q, m.v)), at[m.t][:10])
+        near(m.terms.D, biped.reduction(m.q, m.v).D, SHARP)
+        for t, point in zip((m.t, m.t + 0.1), points, strict=True):
+            near(point.q_d, reference(t, m.q, m.v).q_d, SHARP)
+        assert not any(x.flags.writeable for x in (m.q, m.v, m.terms.D, points[0].q_d))
+
+
 def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
