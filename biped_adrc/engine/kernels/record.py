@@ -158,8 +158,8 @@ class Run:
     """End of the bracket of an event [s], and the event function there."""
     f_far: float
     nodes: Array
-    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end of
-    each arc, at a break just after it, under a force from outside just before it too."""
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end, at
+    a break just after it, where a force from outside may jump just before it too."""
 
     if TYPE_CHECKING:
 
