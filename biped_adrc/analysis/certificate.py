@@ -69,9 +69,8 @@ class Support(Shown):
     peak_torque: float
     """Largest |u_i| [N m]."""
     impulse_ratio: float
-    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have
-    had to pull, 0 without one.
-    """
+    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have had to pull, 0 without
+    one."""
     limits: KnownLimits
     """The limits; on soft ground, where friction is the simulator's, its mu is infinite."""
 
@@ -96,9 +95,8 @@ class Certificate(Support):
     old_foot_velocity: float
     """Velocity of the old stance foot after impact out of the ground [m/s]; positive when it lifts off."""
     clearance: float
-    """Least height [m] of the swing foot, without the first and last 3 % of the step; negative when
-    it scuffs.
-    """
+    """Least height [m] of the swing foot, without the first and last 3 % of the step; negative when it
+    scuffs."""
     joint_work: float
     """int u' q_b' dt, the net work of the motors [J]."""
     energy_lost: float

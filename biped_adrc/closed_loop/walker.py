@@ -90,9 +90,8 @@ def remainder(
 FOOT_STRIKE = "foot_strike"
 """Name of the event function whose zero is the impact."""
 LEAST_STEP = 1e-3
-"""Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground
-in mid-swing, when the swing foot passes the stance foot.
-"""
+"""Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground in
+mid-swing, when the swing foot passes the stance foot."""
 
 
 @dataclass(frozen=True)

@@ -101,8 +101,7 @@ class BatchWalk(Shown):
     """Start of the walk [s]."""
     table: Array | None = None
     """Of the compiled walk of a case with a curve, in rows: t, step, force from outside (2,), `StepReading`;
-    one at each step of integration, after the sample instant there, and at the end of each single support.
-    """
+    one at each step of integration, after the sample instant there, and at the end of each single support."""
     trajectory: Trajectory | None = None
     """All nodes, of a case with a curve whose walk has no table."""
 

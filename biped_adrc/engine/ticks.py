@@ -76,7 +76,9 @@ class PythonTicks:
     def _measured(
         self, program: Program, references: Sequence[CompiledReference]
     ) -> Callable[[int, Array], None]:
-        """As `_tick`, where the torque alone is held. references: one at most, whose point is known then."""
+        """A function as `_tick` for a walker that holds the torque alone; the controller's inputs come from machine
+        code, the point of `references`, one at most, among them.
+        """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         curve = references[0].reference if references else None
         program = replace(program, numbers=program.numbers._replace(curve=curve))

@@ -25,20 +25,17 @@ SAME_STEP = 1e-9
 """Relative difference [1] below which two steps share their matrices."""
 XTOL, XRTOL, ITERATIONS = 1e-15, 9e-16, 10_000
 """Tolerances [s] and [1] of the time of an event, and most iterations of its root finder: an event function
-that touches zero flatly takes more than 100.
-"""
+that touches zero flatly takes more than 100."""
 
 X_ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")
 """Arrays (nx,) of a run: state and slope at both ends of a step; state of a stage, and slopes of RK4; state and
-slope at the event, and after sub-steps towards it.
-"""
+slope at the event, and after sub-steps towards it."""
 Y_ROWS = (
     *("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try"),
     *("N0", "N1", "N_a", "N_b", "N_c", "N_sub"),
 )
 """Arrays (nx,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
-of sub-steps, and of one that is tried.
-"""
+of sub-steps, and of one that is tried."""
 
 
 def is_tick(t: float, start: float, period: float) -> bool:

@@ -81,8 +81,7 @@ class Solver(OneStepMethod):
 
 CROWDED, CROWDED_STEP = 1000, 1e-6
 """So many steps in a row of a method with step control may not be shorter on average than this [s]; on a torque
-that chatters they would go on for days.
-"""
+that chatters they would go on for days."""
 
 
 @dataclass(frozen=True)

@@ -50,9 +50,8 @@ if TYPE_CHECKING:
 
 STATES, SEED = 4, 5
 ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1, eps times its condition [1]; feet of 1e-7 of the hip's mass
-have 1e-8.
-"""
+"""Largest relative round-off in D_s^-1, eps times its condition [1]; feet of 1e-7 of the hip's mass have
+1e-8."""
 _ALONG = 1e-6  # how far an axis may be from y, x or z, dimensionless
 
 

@@ -129,8 +129,7 @@ class MemberWalk(NamedTuple):
     """The same of the error less that of the walk without a push, from the onset on [rad]."""
     rate: AtTwoSteps
     """|Theta'| at the end of the pushed step less that of the walk without a push [rad/s]; infinite without an
-    impact.
-    """
+    impact."""
     longest: AtTwoSteps
     """Duration of the longest step [s]; infinite where not all steps are made."""
     broken: AtTwoSteps

@@ -108,8 +108,7 @@ class Start:
 
     least: float
     """The speed that just reaches the next impact, relative to the gait's, by one quadrature of the zero
-    dynamics.
-    """
+    dynamics."""
     factor: float
     """Speed of this start relative to the least."""
     outcomes: dict[str, Outcome]

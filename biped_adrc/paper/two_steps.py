@@ -72,8 +72,7 @@ NEGLIGIBLE = 1e-6
 """[rad]: a smaller tracking error is none, whatever its digits."""
 PEAK_RESOLUTION = 1e-9
 """Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
-steps.
-"""
+steps."""
 RMS_RESOLUTION = 2e-10
 """The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
 

@@ -97,8 +97,7 @@ class Outcome(Shown):
     """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
     half: Outcome | None = None
     """The same run with every step half as long: the difference of the two is an estimate of the error of
-    integration in every number here, since RK4's error falls by 16. Its own half is None.
-    """
+    integration in every number here, since RK4's error falls by 16. Its own half is None."""
 
     def __post_init__(self) -> None:
         freeze(self, "x_minus", "durations")

@@ -17,6 +17,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
+from collections.abc import Mapping
 from ctypes import CFUNCTYPE, c_int64, c_void_p
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -54,15 +55,20 @@ def compiled(files: tuple[str, ...], **arguments: int) -> Any:
     arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
     """
     if files not in _PROGRAMS:
-        with LOCK:  # a second thread makes the same once more
-            at = load_or_compile(loops(files), [*arguments]).addresses
-            units = {x: CFUNCTYPE(c_int64, *[c_void_p] * n)(at[x]) for x, n in arguments.items()}
-            _PROGRAMS[files] = SimpleNamespace(**units)
+        with LOCK:
+            _PROGRAMS[files] = _PROGRAMS.get(files) or _loaded(files, arguments)
     return _PROGRAMS[files]
 
 
 _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
 """Units in memory, by the modules that have them."""
+
+
+def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
+    """As `compiled`."""
+    at = load_or_compile(loops(files), [*arguments]).addresses
+    calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
+    return SimpleNamespace(**calls)
 
 
 def loops(files: tuple[str, ...] = FILES) -> str:

@@ -158,8 +158,8 @@ class Run:
     """End of the bracket of an event [s], and the event function there."""
     f_far: float
     nodes: Array
-    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end, at
-    a break just after it, where a force from outside may jump just before it too."""
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end,
+    at a break just after it, where a force from outside may jump just before it too."""
 
     if TYPE_CHECKING:
 
@@ -173,8 +173,7 @@ TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
 ROWS = (*("inp", "out", "load", "one"), *("values", "after", "tried"), *(*X_ROWS, *Y_ROWS))
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
-at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`.
-"""
+at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`."""
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}

@@ -49,9 +49,8 @@ class Unknowns(NamedTuple, Generic[T]):
     theta: T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
     after: T
-    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s];
-    it is linear in Theta'-.
-    """
+    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s]; it is linear in
+    Theta'-."""
     impulse: T
     """(F_T, F_N) of that impact (2,) [N s]."""
     rate: T
