@@ -76,8 +76,8 @@ class PythonTicks:
     def _measured(
         self, program: Program, references: Sequence[CompiledReference]
     ) -> Callable[[int, Array], None]:
-        """A function as `_tick` for a walker that holds the torque alone; the controller's inputs come from machine
-        code, the point of `references`, one at most, among them.
+        """A function as `_tick` for a walker that holds the torque alone, with the controller's inputs from
+        machine code; the point of `references`, one at most, is among them.
         """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         curve = references[0].reference if references else None
