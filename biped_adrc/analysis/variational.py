@@ -13,8 +13,7 @@ Pi is what the impact's time, which depends on s, leaves of a change (Aizerman, 
 Nijmeijer, 2004).
 
 The derivative of the torque is that of a sample instant of the same law (`analysis.tick_derivative`).
-Controllers
-with states, sampled time and disturbances are refused.
+Controllers with states, sampled time and disturbances are refused.
 """
 
 from __future__ import annotations

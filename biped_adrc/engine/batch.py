@@ -240,9 +240,6 @@ def strides(
     x (nx,) is the state right after the impact that began the single support `mode`; t_end [s]: longest time
     for one of them.
     """
-
-    def one(start: tuple[Array, Mode]) -> BatchWalk:
-        return _strides(compiled, *start, start[1].start + t_end, 1)
-
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        return list(pool.map(one, starts))
+        runs = [pool.submit(_strides, compiled, x, m, m.start + t_end, 1) for x, m in starts]
+    return [run.result() for run in runs]

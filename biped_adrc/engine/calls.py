@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass, replace
@@ -121,12 +122,14 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
 
     code = generated((method, sizes, structure(part)), {"method": traced})
     called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)
-    places = places_of(sizes)
+    places, one_thread = places_of(sizes), threading.Lock()
 
     def evaluated(*arguments: Array | float) -> Any:
-        for at, x in zip(places, arguments, strict=True):
-            called.inp[at] = x
-        parts = parts_of(called(), shapes)
+        with one_thread:
+            for at, x in zip(places, arguments, strict=True):
+                called.inp[at] = x
+            out = called()
+        parts = parts_of(out, shapes)
         return rebuilt(result, parts) if many else parts[0]
 
     return evaluated
@@ -181,15 +184,26 @@ def compiled_biped(biped: Biped) -> CompiledBiped:
 
 
 class CompiledReference:
-    """A reference for n coordinates in machine code, called as the reference itself is. Raises NotCompiled."""
+    """A reference for n coordinates in machine code. Raises NotCompiled.
+
+    `twin` is of its class and calls the code; a copy of it with other numbers is called in Python.
+    """
 
     def __init__(self, reference: Reference, n: int):
-        self.reference = reference
+        base = type(reference)
+        kind = new_class(base.__name__, (base,))
+        self.reference, self.twin = reference, with_content(reference, content(reference), kind)
         self._point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
         self.known: tuple[float, Array, Array, ReferencePoint] | None = None
-        """t, q, v and the point there, to be returned for these very arrays, which are read-only."""
+        """t, q, v and the point there. A call with these very arrays, which are read-only, and t returns it."""
+
+        def called(this: Reference, t: float, q: Array, v: Array) -> ReferencePoint:
+            return self(t, q, v) if this is self.twin else base.__call__(this, t, q, v)
+
+        setattr(kind, "__call__", called)  # noqa: B010
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The point at t [s], q (n,) [rad], v (n,) [rad/s]."""
         known = self.known
         if known is not None and q is known[1] and v is known[2] and t == known[0]:
             return known[3]
@@ -205,9 +219,7 @@ def compiled_references(part: object, n: int, references: list[CompiledReference
     if isinstance(part, Reference):
         with suppress(NotCompiled):
             references.append(CompiledReference(part, n))
-            kind = new_class(type(part).__name__, (type(part),))
-            setattr(kind, "__call__", staticmethod(references[-1]))  # noqa: B010
-            return with_content(part, content(part), kind)
+            return references[-1].twin
         return part
     if not is_dataclass(part) or isinstance(part, type | Biped):
         return part

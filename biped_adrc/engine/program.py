@@ -58,10 +58,8 @@ class Program(Equations):
         """The numbers as a vector; its last entry is unused, so that it is never empty."""
         K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
-            raise NotCompiled(
-                f"a parameter of {type(self.numbers.controller).__name__} or of what is around it is NaN, of "
-                "which generated code would make 0 where it is multiplied by 0"
-            )
+            name = type(self.numbers.controller).__name__
+            raise NotCompiled(f"a parameter of {name} or of what is around it is NaN")
         return K
 
     @cached_property

@@ -101,7 +101,8 @@ def run_compiled(
         with suppress(NotCompiled):
             compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
             ticks = PythonTicks(compiled, walker, references)
-            result = simulate_compiled(compiled, x0, mode, method, options, ticks)
+            with ticks.interrupted():
+                result = simulate_compiled(compiled, x0, mode, method, options, ticks)
     result = result or simulator.run(walker, x0, mode, method, options)
     return replace(result, settings={**result.settings, "engine": COMPILED_PLANT, "why": why})
 

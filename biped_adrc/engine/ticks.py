@@ -1,15 +1,18 @@
 """Sample instants and impacts in Python, of a walker that otherwise moves in machine code.
 
-The march calls them by address, as it calls the compiled ones. Where nothing but the torque is held, what a
-controller gets is one call of machine code too: the measurement's terms, and the controller's reference there,
-which is returned when the controller asks for it.
+The march calls them by address, as it calls the compiled ones. Where nothing but the torque is held (no
+sensors, motors, delay or detector of touchdowns), what a controller gets is one call of machine code too: the
+measurement's terms, and the controller's reference there, which is returned when the controller asks for it.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
+import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
 
@@ -26,7 +29,7 @@ from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import Reduction
 
 BLOCK, TERMS = 256, len(Reduction._fields)
-"""Sample instants whose inputs lie in one array; parts of the terms."""
+"""Sample instants whose inputs lie in one array; arrays in the terms."""
 
 
 @lru_cache(maxsize=64)
@@ -53,6 +56,24 @@ class PythonTicks:
         self.functions = [FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
         for name, function in zip(("tick", "impact"), self.functions, strict=True):
             compiled.plan[name] = ctypes.cast(function, ctypes.c_void_p).value or 0
+
+    @contextmanager
+    def interrupted(self) -> Iterator[None]:
+        """Within it Ctrl-C just before a method is kept as `error` too; ctypes alone would print it."""
+        before = sys.unraisablehook
+
+        def keep(lost: sys.UnraisableHookArgs) -> None:
+            if isinstance(lost.exc_value, KeyboardInterrupt):
+                self.error = lost.exc_value
+            else:
+                before(lost)
+
+        if threading.current_thread() is threading.main_thread():
+            sys.unraisablehook = keep
+        try:
+            yield
+        finally:
+            sys.unraisablehook = before
 
     def _called(self, method: Callable[[int, Array], None], K: int, inp: int, out: int) -> None:
         """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it

@@ -1,6 +1,7 @@
 """Compiled runs against the Python engine's: the same arcs, nodes, events and statuses."""
 
 import re
+import signal
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -393,6 +394,23 @@ def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
         assert not any(x.flags.writeable for x in (m.q, m.v, m.terms.D, points[0].q_d))
 
 
+def test_an_interrupt_is_not_lost(gait, ticked):
+    """Most come while machine code runs, and are raised as the next method is called, before its first line."""
+    x0 = ticked.initial_state(*gait.start(ticked.plant))
+    walk = partial(simulate, ticked, x0, Mode(), ba.RK4(1e-3), t_end=0.2)
+    whole, before = walk(), signal.signal(signal.SIGALRM, signal.default_int_handler)
+
+    def walks(seconds):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        for _ in range(500):
+            assert np.array_equal(walk().final_state, whole.final_state)
+
+    for k in range(8):
+        with pytest.raises(KeyboardInterrupt):
+            walks(0.02 + 0.003 * k)
+    signal.signal(signal.SIGALRM, before)
+
+
 def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
@@ -615,3 +633,59 @@ def test_all_nodes_of_the_longest_single_support_are_kept(biped, gait, h):
     python, compiled = runs(walker, gait, ba.RK4(h), impacts=1)
     assert compiled.status is ba.Status.STALLED
     assert compiled.arcs[0].t == pytest.approx(python.arcs[0].t, abs=1e-12)
+
+
+@dataclass(frozen=True)
+class Free(Controller):
+    """u = 0, in Python, since it branches."""
+
+    def output(self, s, m):
+        return np.zeros(len(m.terms.kappa)) * (1.0 if m.v[0] < 1e9 else 2.0)
+
+
+@pytest.mark.parametrize("robot", ["compass", "rimless_wheel", "simplest"])
+def test_a_robot_without_motors_under_a_controller_in_python(robot):
+    biped = ba.Biped.load(robot)
+    cycle = passive_cycle(biped)
+    walker = ba.Walker(biped, Free(), slope=cycle.slope, timing=ba.SampledTime(1e-3))
+    x0 = walker.initial_state(cycle.q_plus, cycle.v_plus)
+    python, compiled = (
+        simulate_by(engine, walker, x0, Mode(), ba.RK4(1e-3), t_end=0.5)
+        for engine in ("pinocchio", "compiled")
+    )
+    assert compiled.settings["engine"] == "compiled plant"
+    near(compiled.final_state, python.final_state, SHARP)
+
+
+@dataclass(frozen=True)
+class Raised(ba.Reference):
+    """A curve, raised by k [rad]."""
+
+    h: ba.VirtualConstraint
+    k: float = 0.0
+
+    def __call__(self, t, q, v):
+        r = self.h(t, q, v)
+        return r._replace(q_d=r.q_d + self.k)
+
+
+@dataclass(frozen=True)
+class Raising(Controller):
+    """Tracks a copy of its reference that it raises with time."""
+
+    reference: Raised
+
+    def output(self, s, m):
+        r = replace(self.reference, k=0.02 * m.t)(m.t, m.q, m.v)
+        u = 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b)
+        return u if m.v[0] < 1e9 else np.zeros(4)
+
+
+def test_a_controller_in_python_that_changes_its_reference(biped, gait):
+    walker = ba.Walker(biped, Raising(Raised(gait.constraint)), timing=ba.SampledTime(1e-3))
+    x0 = walker.initial_state(*gait.start(biped))
+    python, compiled = (
+        simulate_by(engine, walker, x0, Mode(), ba.RK4(1e-3), t_end=0.2)
+        for engine in ("pinocchio", "compiled")
+    )
+    near(compiled.final_state, python.final_state, 1e-9)

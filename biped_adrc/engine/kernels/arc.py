@@ -47,6 +47,7 @@ def land(r: Run) -> int:
     """
     r.inp[0], r.inp[1] = r.t, r.step + 1.0
     copy(r.x0, shift(r.inp, 2), r.nx)
+    r.x_e[0] = math.nan
     call(r.impact, r.K, r.inp, r.x_e)
     if r.x_e[r.nx] == 0.0:
         return SINGULAR
@@ -68,12 +69,10 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
     nx = r.nx
     for count in range(impacts):
         code = go_on(r)
-        if code == COMPLETED:
-            if r.look != 0:
-                node(r, r.t, r.x0, r.dx0)
-            return TIME_OUT
+        if code == COMPLETED and r.look != 0:
+            node(r, r.t, r.x0, r.dx0)
         if code != STRUCK:
-            return code
+            return TIME_OUT if code == COMPLETED else code
         row = shift(strikes, count * (1 + 2 * nx))
         copy(r.x0, shift(row, 1), nx)
         code = land(r)
@@ -111,7 +110,8 @@ def look(r: Run, law: int, out: Array) -> None:
 
 @unit
 def push(r: Run, x: float, z: float) -> None:
-    """`force` becomes (x, z) [N], the last term of the disturbance, which counts while it is not zero."""
+    """Set `force` to (x, z) [N]. Where it jumps, a row just before is kept; while it is zero, the last term of
+    the disturbance is left out of the sum."""
     F = r.force
     if x != F[0] or z != F[1]:
         if r.look != 0:

@@ -322,6 +322,7 @@ def due(r: Run) -> int:
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
     if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
         measure(r, x)
+        out[0] = math.nan  # what stays where Python is interrupted
         call(r.tick, r.K, r.inp, out)
         note(r, out, out[nx])
         if not finite(out, nx):
@@ -331,7 +332,7 @@ def due(r: Run) -> int:
         copy(shift(out, nx + 1), shift(dx, n), n)
         for i in range(2 * n, nx):
             dx[i] = 0.0
-        r.sloped = 1 if r.moving == 2 * n else 0
+        r.sloped = 1 if r.moving == 2 * n < nx else 0
     if r.part > 0.0:
         begin = clock_start(r) + r.part
         if r.t >= begin and at_tick(r.t, begin, r.period):
