@@ -18,6 +18,9 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import disturbance_parts
 
+Tracked = Callable[[Array, Measurement], ReferencePoint]
+"""reference(s, m) -> the point of a reference at a measurement, s the controller's state."""
+
 
 class InstantSignals(NamedTuple):
     """All signals at one instant, or at N instants with N rows each; n coordinates, p motors."""
@@ -58,13 +61,7 @@ class InstantSignals(NamedTuple):
     """(x, z) from the stance foot (2,) [m]."""
 
 
-def signals_at(
-    loop: Loop,
-    t: float,
-    x: Array,
-    mode: Mode,
-    reference: Callable[[Array, Measurement], ReferencePoint],
-) -> InstantSignals:
+def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> InstantSignals:
     """The signals at (t, x), t in [s], x (nx,).
 
     reference(s, m) is the curve that errors refer to, usually the one the controller tracks; a run
@@ -97,11 +94,7 @@ def signals_at(
 
 
 def controller_inputs(
-    loop: Loop,
-    t: float,
-    x: Array,
-    mode: Mode,
-    reference: Callable[[Array, Measurement], ReferencePoint] | None,
+    loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked | None
 ) -> tuple[Array, ...]:
     """q and v, the nominal model's terms there, and the parts of the reference, where there is one."""
     q, v, s, _ = parts(loop, x)
@@ -124,13 +117,7 @@ class StepReading(NamedTuple):
     """(x, z) from the stance foot (2,) [m]."""
 
 
-def step_reading(
-    loop: Loop,
-    t: float,
-    x: Array,
-    mode: Mode,
-    reference: Callable[[Array, Measurement], ReferencePoint],
-) -> StepReading:
+def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
     """The reading at (t, x); arguments as of `signals_at`."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p

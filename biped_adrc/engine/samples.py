@@ -40,8 +40,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc
-from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import LinkPoint, link_point
+from biped_adrc.model.planar import link_point
 from biped_adrc.model.planar_robot import once_each
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
@@ -58,10 +57,8 @@ def with_inputs(walker: Walker) -> tuple[Walker, Array]:
     return replace(walker, controller=law, disturbance=push), outside
 
 
-@once_each
-def _trunk(biped: Biped) -> LinkPoint:
-    """Origin of the trunk's frame."""
-    return link_point(biped, biped.description.trunk)
+_trunk = once_each(lambda biped: link_point(biped, biped.description.trunk))
+"""Origin of the trunk's frame of a robot."""
 
 
 def torque_place(program: Program) -> int:

@@ -38,8 +38,7 @@ class NotCompiled(InputError):
     """What has no machine code, such as a method that branches on the value of a number; the text names it."""
 
 
-REALS, LISTS = (float, np.floating), (tuple, list)
-"""Classes, as tuples: to write float | np.floating makes a new object each time."""
+REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
 Number = Union["Scalar", float]
 """A symbol, or a number that the structure fixes."""
 

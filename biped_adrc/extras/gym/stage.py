@@ -21,23 +21,22 @@ many is the same as alone, bit for bit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.instant_signals import Tracked
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import labelled, noticed, parts
-from biped_adrc.control.base import Measurement, Passive
+from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.compiled_run import STATUS
-from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
@@ -267,13 +266,7 @@ class LearnerView(NamedTuple):
     """1 / (1 + |e|^2 / e_1^2) of the true state [1], and |u|^2 [N^2 m^2], (2,)."""
 
 
-def learner_view(
-    loop: Loop,
-    t: float,
-    x: Array,
-    mode: Mode,
-    reference: Callable[[Array, Measurement], ReferencePoint],
-) -> LearnerView:
+def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> LearnerView:
     """Compute the `LearnerView` of a state x (nx,) at a sample instant t [s], before the controller has acted.
 
     The same lines run in Python and compiled. reference(s, m): the point of the reference at a
