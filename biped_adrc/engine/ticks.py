@@ -59,7 +59,10 @@ class PythonTicks:
 
     @contextmanager
     def interrupted(self) -> Iterator[None]:
-        """Within it Ctrl-C just before a method is kept as `error` too; ctypes alone would print it."""
+        """Within it Ctrl-C just before a method is kept as `error` too; ctypes alone would print it.
+
+        Python raises Ctrl-C in its main thread alone.
+        """
         before = sys.unraisablehook
 
         def keep(lost: sys.UnraisableHookArgs) -> None:
@@ -68,12 +71,12 @@ class PythonTicks:
             else:
                 before(lost)
 
-        if threading.current_thread() is threading.main_thread():
-            sys.unraisablehook = keep
+        main = threading.current_thread() is threading.main_thread()
+        sys.unraisablehook = keep if main else sys.unraisablehook
         try:
             yield
         finally:
-            sys.unraisablehook = before
+            sys.unraisablehook = before if main else sys.unraisablehook
 
     def _called(self, method: Callable[[int, Array], None], K: int, inp: int, out: int) -> None:
         """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
@@ -107,7 +110,7 @@ class PythonTicks:
         example = controller_inputs(walker, 0.0, np.zeros(nx), Mode(), tracked)
         self.code, self.K = program.reading(controller_inputs), program.K
         function = FUNCTION(self.code.addresses["reading"])
-        rows = rows_of(tuple(map(np.shape, example)))
+        rows = input_rows(tuple(map(np.shape, example)))
         body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
 
         def tick(inp: int, result: Array) -> None:
@@ -126,10 +129,11 @@ class PythonTicks:
         return tick
 
 
-def rows_of(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
-    """Room for arrays of these shapes, one after the other: an address, and the arrays there, read-only.
+def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
+    """Memory for the inputs of one sample instant after the other, arrays of these shapes: its address, and the
+    arrays there, read-only.
 
-    Never used again, since a controller may keep them.
+    No memory is given out twice, since a controller may keep its inputs.
     """
     while True:
         block = np.zeros((BLOCK, sum(map(math.prod, shapes))))
