@@ -88,7 +88,7 @@ def test_a_step_that_is_no_step_of_the_gait(odd):
         ({"engines": {"NPD": 2e-6}}, 1),
         ({"engines": {"NPD": math.inf}}, 1),
         ({"model": {"identified": dict.fromkeys(results().model["identified"], 2e-12)}}, 2),
-        ({"cycles": {"gait (b), identified, NPD": "no cycle"}}, 2),
+        ({"cycles": {"gait (b), identified, NPD": "no cycle"}}, 3),
         ({"cycles": {"gait (b), identified, NPD": cycle(1.01)}}, 1),
         ({"cycles": {"gait (b), identified, NPD": cycle(0.7, change=1.1e-4)}}, 1),
         ({"cycles": {"gait (b), identified, NPD": cycle(0.7, change=0.9e-4)}}, 0),

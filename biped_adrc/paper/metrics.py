@@ -20,14 +20,14 @@ from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.poincare import PoincareResult
-from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell, limits_broken
+from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
-Pair = tuple[Outcome, Outcome, float]
-"""A walk under NPD and under ADRC, and the period of its gait [s]."""
+Pair = tuple[Outcome, Outcome]
+"""A walk under NPD and under ADRC."""
 
 
 def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
@@ -40,16 +40,6 @@ def made(o: Outcome) -> AtTwoSteps:
     return at_two(lambda x: x.impacts / x.run.run.impacts, o)
 
 
-def adrc_made(pair: Pair) -> AtTwoSteps:
-    """The same under ADRC."""
-    return made(pair[1])
-
-
-def broken(o: Outcome) -> AtTwoSteps:
-    """How many limits of ground and motors a walk breaks, as `pushes.limits_broken`."""
-    return at_two(lambda x: limits_broken(x.feasibility), o)
-
-
 def distance(o: Outcome) -> float:
     """max |x- - x*| [rad, rad/s] at the last impact; infinite when the robot fell before."""
     if not o.walked:
@@ -57,26 +47,13 @@ def distance(o: Outcome) -> float:
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
 
 
-def delay(o: Outcome, period: float) -> float:
-    """Largest change of a step's time against that of the gait [s]."""
-    return float(np.max(np.abs(o.durations - period), initial=0.0))
+def error(pair: Pair) -> AtTwoSteps:
+    """Largest tracking error of ADRC over that of NPD; infinite where not both make all impacts."""
 
+    def ratio(npd: Outcome, adrc: Outcome) -> float:
+        return peak_ratio((npd, adrc)) if npd.walked and adrc.walked else math.inf
 
-def _adrc_over_npd(of: Callable[[Outcome, float], float], pair: Pair) -> AtTwoSteps:
-    """ADRC's value over NPD's; infinite where not both make all impacts."""
-    npd, adrc, period = pair
-
-    def ratio(a: Outcome, b: Outcome) -> float:
-        usual = of(b, period)
-        return of(a, period) / usual if a.walked and b.walked and usual else math.inf
-
-    return at_two(ratio, adrc, npd)
-
-
-late = partial(_adrc_over_npd, delay)
-"""Of a pair, what a push changes of the time of a step."""
-error = partial(_adrc_over_npd, lambda o, _: o.peak_error)
-"""Of a pair, the largest tracking error."""
+    return at_two(ratio, *pair)
 
 
 def largest(name: str, o: Outcome) -> float:
@@ -173,7 +150,7 @@ def longest_step(multiplier: float) -> float:
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
-def period_gap(pair: tuple[Outcome, Outcome]) -> float:
+def period_gap(pair: Pair) -> float:
     """Largest difference of step times, as a share of a usual step; infinite for another number of steps."""
     npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
@@ -181,7 +158,7 @@ def period_gap(pair: tuple[Outcome, Outcome]) -> float:
     return float(np.max(np.abs(npd - adrc)) / np.median(npd[:2]))
 
 
-def peak_ratio(pair: tuple[Outcome, Outcome]) -> float:
+def peak_ratio(pair: Pair) -> float:
     """Peak error of ADRC over that of NPD."""
     return pair[1].peak_error / pair[0].peak_error
 
@@ -220,11 +197,6 @@ def theta_of(name: str, o: MemberOutcome) -> str:
 def setting_of(name: str, cell: PushCell) -> str:
     """Preset and torque limit of a push of the map."""
     return cell.setting
-
-
-def torque_of(name: str, pair: Pair) -> str:
-    """The torque on the torso."""
-    return name.partition(" on")[0]
 
 
 # -- scenarios -------------------------------------------------------------------------------------
@@ -276,23 +248,15 @@ def heavier(r: Results) -> dict[str, Pair]:
     result = {}
     for preset, kind in itertools.product(r.plan.presets, KINDS):
         name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
-        result[f"{preset}, heavier {kind}"] = (*r.pair(name), r.jumps[preset]["period"])
+        result[f"{preset}, heavier {kind}"] = r.pair(name)
     return result
 
 
-def torso(r: Results, most: float = math.inf) -> dict[str, Pair]:
-    """Pushes on the torso of at most so many N m, in all presets."""
-    names = {
-        f"{torque:g} N m on the torso, {preset}": preset
-        for torque in declared()["torso"]["amplitudes"]
-        for preset in r.plan.presets
-        if abs(torque) <= most
-    }
-    return {name: (*r.pair(name), r.jumps[preset]["period"]) for name, preset in names.items()}
-
-
-usual_torso = partial(torso, most=20.0)
-"""Those with which a claim on the rejection of what no motor can cancel is tried."""
+def torso(r: Results) -> dict[str, Pair]:
+    """Pushes on the torso, in all presets."""
+    every = itertools.product(declared()["torso"]["amplitudes"], r.plan.presets)
+    names = (f"{torque:g} N m on the torso, {preset}" for torque, preset in every)
+    return {name: r.pair(name) for name in names}
 
 
 def lost_by_npd(r: Results) -> dict[str, PushCell]:
@@ -341,11 +305,3 @@ def gains(r: Results) -> dict[str, tuple[float, float]]:
             result[f"gain of (17) at {name}"] = (a.largest_gain, b.largest_gain)
             result[f"gain from measurement at {name}"] = (a.noise_gain, b.noise_gain)
     return result
-
-
-def held_joint(r: Results) -> dict[str, AtTwoSteps]:
-    """The error of a joint held under a sine, over what (23) corrected says."""
-    if not r.figures:
-        return {}
-    simulated, half, corrected, _ = tuple(r.figures.values())[:4]
-    return {"sine of 5 Hz": AtTwoSteps(simulated / corrected, half / corrected)}

@@ -34,7 +34,7 @@ from biped_adrc.paper.pushes import WORDS, PushCell, word_of
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.table import checks, rows, tally, texts
+from biped_adrc.paper.table import checks, findings, rows, tally, texts
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.view.meshcat.view import animation_html
@@ -90,7 +90,7 @@ def judgement(r: Results) -> dict[str, Any]:
         "claims_preface": texts()["preface"],
         "claims_words": texts()["words"],
         "claims": of_claims,
-        "findings": [row.finding for row in of_claims if row.finding],
+        "findings": findings(r, of_claims),
         "notes": list(texts()["notes"].values()),
         "settings": {
             **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},

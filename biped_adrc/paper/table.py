@@ -200,6 +200,13 @@ def rows(r: Results) -> list[Row]:
     return [row_of(said, r) for said in named if "claim" in said]
 
 
+def findings(r: Results, of_claims: Iterable[Row]) -> list[str]:
+    """One line for each main finding: those of claims, then those that the paper says nothing of."""
+    beyond = texts()["beyond"].values()
+    of_others = [said["finding"].format(**_function(said["values"])(r)) for said in beyond]
+    return [row.finding for row in of_claims if row.finding] + of_others
+
+
 def checks(r: Results, of_claims: list[Row]) -> list[Check]:
     """All checks of a reproduction: those of checks.toml, and those of its claims."""
     result = []

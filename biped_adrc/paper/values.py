@@ -79,20 +79,23 @@ def of_map(r: Results) -> dict[str, object]:
 
 
 def of_torso(r: Results) -> dict[str, object]:
-    """How pushes of the torso change a step, and up to which one a walk goes on."""
-    usual, every = m.usual_torso(r).values(), m.torso(r)
+    """Up to which push of the torso a walk goes on."""
+    every = m.torso(r)
     stopped: dict[str, str] = {}
-    for name, (_, adrc, _) in every.items():
+    for name, (_, adrc) in every.items():
         torque, _, preset = name.partition(" on the torso, ")
         if not adrc.walked:
             stopped.setdefault(preset, torque)
-    alike = all(npd.walked == adrc.walked for npd, adrc, _ in every.values())
+    alike = all(npd.walked == adrc.walked for npd, adrc in every.values())
     return {
-        "slow": Extremes(1e3 * m.delay(adrc, period) for _, adrc, period in usual),
-        "peaks": Extremes.of(m.error(pair) for pair in usual),
         "stops": ", ".join(f"{stopped.get(p, 'none')} ({p})" for p in r.plan.presets),
         "alike": "" if alike else "not ",
     }
+
+
+def of_heavier(r: Results) -> dict[str, object]:
+    """The largest error of ADRC over NPD's under a heavier plant."""
+    return {"errors": Extremes.of(map(m.error, m.heavier(r).values()))}
 
 
 def of_orders(r: Results) -> dict[str, object]:
@@ -128,31 +131,12 @@ def of_cycles(r: Results) -> dict[str, object]:
     return {"largest": largest, "delta_squared": npd.delta_squared, "observer": more}
 
 
-def of_speed(r: Results) -> dict[str, object]:
-    """Theta' of gait (b), and what a stricter limit would have changed."""
-    result = {
-        name.split(", ")[1]: m.phase_rate(x.orbit.x_minus)
-        for name, x in r.named("cycles", "(b)", "NPD").items()
-        if not isinstance(x, str)
-    }
-    apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in result.items()}
-    shown = (f"{rate:.4f} ({apart[p]:+.1f} %) {p}" for p, rate in result.items())
-    far = max(map(abs, apart.values()), default=math.nan)
-    return {"speed": m.PRINTED_SPEED, "rates": ", ".join(shown), "farthest": far}
-
-
 def of_needs(r: Results) -> dict[str, object]:
-    """What gait (b) asks of ground and motors, undisturbed, beside gait (a)."""
+    """What gait (b) costs and asks of the motors, undisturbed, beside gait (a)."""
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
-    needs = (
-        f"{preset}: friction {b.feasibility.mean_friction:.2f} in the mean over 5 ms and "
-        f"{max((c.friction for c in b.certificates), default=math.nan):.2f} at an instant, "
-        f"{b.peak_torque:.0f} N m"
-        for preset, (b, _) in both.items()
-    )
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
     torques = Extremes(b.peak_torque for b, _ in both.values())
-    return {"needs": "; ".join(needs), "costs": "; ".join(costs), "torques": torques}
+    return {"costs": "; ".join(costs), "torques": torques}
 
 
 def of_starts(r: Results) -> dict[str, object]:
