@@ -80,6 +80,31 @@ def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, metho
         assert all_finite(run)
 
 
+def test_a_slope_too_steep_for_an_implicit_method_is_a_status(biped, gait):
+    """The differences from which Radau takes the slope's derivative are NaN: beyond the bound on torques."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint, ba.Gains(1e15, 50.0)))
+    run = ba.walk(walker, gait, impacts=1, method=Stiff()).trajectory
+    assert run.status is ba.Status.RAN_AWAY
+    assert "N m" in run.detail
+
+
+@pytest.mark.filterwarnings("ignore:.*:RuntimeWarning")
+@pytest.mark.parametrize("raised", [False, True])
+def test_an_implicit_method_without_a_derivative_of_the_slope_ends_with_a_status(raised):
+    class Steep(HybridSystem):
+        def flow(self, t, x, mode):
+            if raised and t > 0.1:
+                raise ValueError("of the user's own")
+            return np.array([1.0, 0.0 if raised else -1e308 * (1e10 * x[1])])
+
+    run = simulate(Steep(), np.array([0.0, 0.0]), 0, Stiff(), t_end=1.0)
+    assert all_finite(run)
+    if raised:
+        assert (run.status, "of the user's own" in run.detail) == (ba.Status.RAISED, True)
+    else:
+        assert (run.status, "no finite derivative" in run.detail) == (ba.Status.NOT_FINITE, True)
+
+
 def test_robots_without_motors_run_away_by_their_speed_alone():
     assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).bounds.strongest == math.inf
     for engine in ENGINES:

@@ -22,7 +22,13 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant
-from biped_adrc.control.base import Controller, Measurement, check_methods, nested
+from biped_adrc.control.base import (
+    Controller,
+    Measurement,
+    check_methods,
+    discrete_controller,
+    nested,
+)
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
@@ -132,6 +138,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
             )
         if self.touchdown is not None:
             check_noticing(self.timing, self.nominal)
+        _ = self.law  # which refuses a controller without a form for this time base
 
     # -- parts -------------------------------------------------------------------------------------
     @cached_property
@@ -148,7 +155,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def law(self) -> Controller:
         """The controller in this time base."""
         if isinstance(self.timing, SampledTime):
-            return self.controller.sampled(self.timing.period)
+            return discrete_controller(self.controller, self.timing.period)
         return self.controller.continuous()
 
     @cached_property

@@ -25,7 +25,7 @@ from typing import ClassVar, NamedTuple, NoReturn
 
 import numpy as np
 
-from biped_adrc.core.checks import line_of, returned, spoken
+from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import one_line
@@ -91,7 +91,7 @@ class Controller(Part):
     """Base of all controllers: write `output`, and the other methods that the controller needs.
 
     A frozen dataclass with gains and parts as fields. A controller with `flow` works in continuous time, one
-    with `correct` and `predict` in sampled time, and `sampled` turns the first into the second.
+    with `predict` in sampled time; `sampled` turns the first into the second, where it is not both.
 
     >>> @dataclass(frozen=True)
     ... class PD(ba.Controller):
@@ -161,10 +161,14 @@ class Controller(Part):
 
         Raises InputError for a controller that has a state in continuous time and no discrete form.
         """
-        if self._writes("flow") and not self._writes("predict"):
-            how = "give it a method sampled(period), or use ContinuousTime()"
-            self._has_no("discrete form", how)
+        self.check_discrete()
         return self
+
+    def check_discrete(self) -> None:
+        """Raise InputError for a state that has a flow, and in sampled time nothing that predicts it."""
+        if self._writes("flow") and not self._writes("predict"):
+            how = "write predict(s, m, u), the state s at the next sample instant, or use ContinuousTime()"
+            self._has_no("discrete form", how)
 
     def continuous(self) -> Controller:
         """The controller itself, for continuous time. Raises InputError for one that
@@ -197,6 +201,18 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
     while controller is not None:
         yield controller
         controller = getattr(controller, "inner", None)
+
+
+def discrete_controller(controller: Controller, period: float) -> Controller:
+    """The controller for ticks every `period` [s], in which each state is predicted that flows.
+
+    Raises InputError for one without such a form.
+    """
+    law = controller.sampled(period)
+    check_part(law, f"what {type(controller).__name__}.sampled returned", Controller)
+    for part in nested(law):
+        part.check_discrete()
+    return law
 
 
 def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:

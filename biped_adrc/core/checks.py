@@ -21,6 +21,7 @@ from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_
 
 import numpy as np
 
+from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.errors import BipedError, InputError, NotFiniteError, RaisedError
 from biped_adrc.core.types import Array
 
@@ -130,7 +131,7 @@ def check_fields(part: Any) -> None:
             raise InputError(f"{what} is {value!r}, expected {range.words}{or_none}")
 
 
-class Checked:
+class Checked(ByValue):
     """Base of dataclasses whose fields are checked against their annotations when an object is made.
 
     A subclass need not call the `__post_init__` above its own: the check comes before either.

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.core.by_value import ByValue
+
 LONGEST = 110
 """Longest line [characters]."""
 FEW = 6
@@ -22,7 +24,7 @@ SHORT = 48
 """Longest text of a part inside another one [characters]."""
 
 
-class Shown:
+class Shown(ByValue):
     """Base of dataclasses whose repr is `one_line`; a class that writes a `__repr__` keeps it."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:

@@ -17,6 +17,9 @@ STRUCK = 9
 
 RESOLUTION = 2e-3
 """Longest stretch of a step without a look at the event functions [s]."""
+TOGETHER, CROWD = 1e-6, 10
+"""Events of one event function that are closer than this [s] are not told apart, and so many events within that
+time accumulate: both end as EVENT_LIMIT."""
 MOST_STEPS = 10_000_000
 """Between two breaks; with more of them a method cannot go on (STEP_FAILED)."""
 LANDING = 1e-9

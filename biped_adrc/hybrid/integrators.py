@@ -134,13 +134,14 @@ class _SciPy(Solver):
         )
         mark, count = t, 0
         while solver.status == "running":
-            lost, count = None, count + 1
+            count += 1
             try:
                 message = solver.step()
             except ValueError:  # of SciPy's linear algebra, which takes no NaN
-                if lost is None:
-                    raise
-                raise lost from None
+                if lost is None and np.all(np.isfinite(getattr(solver, "J", 0.0))):
+                    raise  # the flow's own
+                flat = f"the slope has no finite derivative at t = {solver.t:.6g} s"
+                raise lost or NotFiniteError(flat) from None
             if solver.status == "failed":
                 if last is not None:
                     raise last
@@ -153,7 +154,7 @@ class _SciPy(Solver):
                         "of fixed step, such as RK4(1e-3), or a greater tolerance"
                     )
                 mark = solver.t
-            x1 = solver.y.copy()
+            lost, x1 = None, solver.y.copy()
             yield Step(solver.t, x1, f(solver.t, x1), solver.dense_output())
 
 

@@ -252,18 +252,59 @@ def pieces(t0: float, t1: float) -> int:
 
 
 @unit
+def lift(r: Run, t0: float, t1: float) -> float:
+    """End [s] of the part of an arc's first step from t0 to t1 [s] that is looked through on its own; t0 for
+    none; below t0 where a guard does not let the arc begin (EVENT_LIMIT). `after` is left there.
+
+    A reset leaves its event function at zero, and the next event may come before the first look: the look is
+    halved until the function is above zero in it. One that still is not after TOGETHER falls. If it falls
+    steadily, w(s) = 2 w(s/2), the reset has let it pass. If it bends down, as s^2 does (4 w(s/2)) and a shorter
+    hop (more), what the event is about is pressed back at once: a ball at rest.
+    """
+    s, sunk = (t1 - t0) / pieces(t0, t1), False
+    if s < t1 - t0:
+        retake(r, t0, t0 + s)
+        copy(r.tried, r.after, r.guards)
+    for guard in range(r.guards):
+        while r.values[guard] <= 0.0 >= r.after[guard]:
+            sunk = True
+            if s <= TOGETHER:
+                break
+            s *= 0.5
+            retake(r, t0, t0 + s)
+            copy(r.tried, r.after, r.guards)
+    if not sunk:
+        return t0
+    if s <= TOGETHER:
+        retake(r, t0, t0 + 0.5 * s)
+        for guard in range(r.guards):
+            w = r.after[guard]
+            if r.values[guard] == 0.0 > w and w < 3.0 * r.tried[guard] and accepts(r, guard, t0):
+                return left(t0)
+    return t0 + s
+
+
+@unit
 def event(r: Run, t0: float, t1: float) -> int:
     """Code of the earliest event in the step from (t0, x0) to (t1, x1), times in [s], 0 for none.
 
     A long step is looked through stretch by stretch, so the first of two events in it is found, and two
     crossings within it are. Without an event `values` become those at t1.
     """
-    count = pieces(t0, t1)
+    count, before = pieces(t0, t1), t0
     watch(r, t1, r.x1, r.after)
+    if t0 == r.t_arc:
+        before = lift(r, t0, t1)
+        code = EVENT_LIMIT if before < t0 else 0
+        if before > t0:
+            code = crossed(r, t0, t0, before)
+            copy(r.after, r.values, r.guards)
+        if code != 0:
+            return code
+        watch(r, t1, r.x1, r.after)
     if count > 1 and not suspect(r, t0, t1, count):
         copy(r.after, r.values, r.guards)
         return 0
-    before = t0
     for j in range(1, count + 1):
         at = t1 if j == count else t0 + (t1 - t0) * j / count
         if j < count:
@@ -419,7 +460,7 @@ def through(r: Run, t_next: float) -> int:
             return code if code != 0 else STEP_FAILED
         code = event(r, t, t1)
         if code != 0:
-            return stop(r, code)
+            return code if code == EVENT_LIMIT else stop(r, code)
         skipped += 1
         if r.every > 0 and (t1 >= t_next or skipped >= r.every):
             nodes(r, t, t1)

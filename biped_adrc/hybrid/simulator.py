@@ -25,7 +25,7 @@ from biped_adrc.core.errors import (
     check_count,
 )
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import NOT_FINITE, STEP_FAILED
+from biped_adrc.hybrid.constants import CROWD, EVENT_LIMIT, NOT_FINITE, STEP_FAILED, TOGETHER
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
@@ -147,7 +147,8 @@ def run_arcs(
         events[fired] += 1
         if options.progress is not None:
             options.progress(t, len(arcs))
-        ended = options.ended(t, events)
+        crowded = len(arcs) > CROWD and t - arcs[-CROWD].t[-1] < TOGETHER
+        ended = Status.EVENT_LIMIT if crowded else options.ended(t, events)
         if ended is not None:
             status = ended
             break
@@ -218,7 +219,9 @@ def flow_arc(
         arm(run)
     try:
         if run is not None:
-            _check(travel(run), run.t)
+            code = travel(run)
+            _check(code, run.t)
+            status = Status.EVENT_LIMIT if code == EVENT_LIMIT else status
             result = run.event
         while move is not None and t < options.t_end and result is None:
             x = calendar.due(t, x)

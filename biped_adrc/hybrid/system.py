@@ -55,7 +55,9 @@ class Guard(Shown):
     - reset(t, x): (x+, mode+), or None to let the crossing pass as no event.
     - terminal: with a status, the run ends at the crossing in place of a reset.
 
-    A guard fires only after its witness has left zero.
+    A guard watches from the start of an arc on. Where its witness begins at zero, as after its own reset, it
+    fires after the witness has risen, however shortly. A witness that bends down from zero, a body at rest on
+    what it would bounce off, ends the run as EVENT_LIMIT; one that falls through zero steadily is let pass.
     """
 
     name: str

@@ -7,7 +7,8 @@ import importlib
 import inspect
 import pkgutil
 import sys
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -201,6 +202,51 @@ def test_every_leaf(kind, name):
     for thing in made(kind, name):
         compiled = conforms(thing)
         assert compiled in (None, name not in IN_PYTHON)
+
+
+def test_a_leaf_equals_another_of_the_same_values():
+    for each in EACH:
+        for thing, other in zip(made(*each), made(*each), strict=True):
+            if not callable(getattr(thing, "function", None)):
+                assert {thing: 1}[other] == 1
+
+
+def test_parts_compare_by_class_and_values():
+    @dataclass(frozen=True)
+    class Own(ba.Reference):
+        w: np.ndarray
+        inside: ba.Disturbance | None = None
+
+        def __call__(self, t, q, v):
+            raise NotImplementedError
+
+    @dataclass(frozen=True)
+    class Other(Own):
+        pass
+
+    push = ba.TorquePulse([30, 30, 30, 30, 0], step=2, start=0.1, stop=0.3)
+    w = np.array([1.0, np.nan, 0.0])
+    same = [Own(w, push), Own(w.copy(), replace(push)), Own(-(-w + 0.0) * 1.0, push)]
+    unlike = [
+        Own(w.astype(np.float32), push),
+        Own(w[np.newaxis], push),
+        Own(np.array([1.0, 2.0, 0.0]), push),
+        Own(w, replace(push, amplitude=push.amplitude + 1.0)),
+        Own(w),
+        Other(w, push),
+    ]
+    assert len(set(same)) == 1
+    assert len({*same, *unlike}) == 1 + len(unlike)
+    assert Own(w) != w
+
+    def walker():
+        biped = ba.Biped.load("rabbit")
+        law = ba.ADRCController(ba.load_gait("published", biped).constraint)
+        return ba.Walker(biped, law, replace(push), timing=ba.SampledTime(1e-3))
+
+    calls = lru_cache(lambda walker: object())
+    assert calls(walker()) is calls(walker())
+    assert calls(walker()) is not calls(replace(walker(), slope=0.01))
 
 
 @pytest.mark.parametrize("name", ROWS["controller"])

@@ -1,10 +1,13 @@
 """Controllers in the loop: what (20) and (28) promise, both time bases, saturation, users' own laws."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.control.around import Around
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.errors import InputError
 from biped_adrc.paper.physical_laws import held_joint
@@ -55,9 +58,28 @@ def test_a_state_without_a_discrete_form_is_refused_in_sampled_time(biped, gait)
         def flow(self, s, m, u):
             return np.ones(1)
 
-    walker = ba.Walker(biped, Stateful(gait.constraint), timing=ba.SampledTime(1e-3))
-    with pytest.raises(InputError, match="Stateful has no discrete form"):
-        ba.walk(walker, gait, 1)
+    class Same(Stateful):
+        def sampled(self, period):
+            return self
+
+    class Inside(Around):
+        def sampled(self, period):
+            return self
+
+    class Lost(Stateful):
+        def sampled(self, period):
+            return None
+
+    sampled = partial(ba.Walker, biped, timing=ba.SampledTime(1e-3))
+    for kind in (Stateful, Same):
+        with pytest.raises(
+            InputError, match=f"{kind.__name__} has no discrete form; write predict"
+        ):
+            sampled(kind(gait.constraint))
+    with pytest.raises(InputError, match="Same has no discrete form"):
+        sampled(Inside(Same(gait.constraint)))
+    with pytest.raises(InputError, match=r"Lost.sampled returned"):
+        sampled(Lost(gait.constraint))
     assert ba.walk(ba.Walker(biped, Stateful(gait.constraint)), gait, 1).trajectory.status.ok
 
 

@@ -57,7 +57,13 @@ def test_windows_close_where_they_say():
     assert np.any(pulse.zeta(np.nextafter(stop, 0.0), 2, 1.0, q, q))
     assert not np.any(pulse.zeta(1.15, 1, 1.0, q, q))
     stays = ba.TorqueStep([1.0] * 5, step=2, start=0.1)
-    assert np.any(stays.zeta(9.0, 7, 8.9, q, q))
+    for t, step, t_start, acts in [
+        (1.1, 2, 1.0, 1),
+        (9.0, 7, 8.9, 1),
+        (1.05, 2, 1.0, 0),
+        (0.3, 1, 0.0, 0),
+    ]:
+        assert np.array_equal(stays.zeta(t, step, t_start, q, q), acts * stays.amplitude)
     total = pulse + ba.TorqueSine([1.0] * 5, frequency=2.0)
     assert isinstance(total, Sum)
     expected = pulse.zeta(1.15, 2, 1.0, q, q) + total.parts[1].zeta(1.15, 2, 1.0, q, q)

@@ -94,6 +94,20 @@ def test_reset_policies():
     assert not np.any(reset("model")[3])
 
 
+@pytest.mark.parametrize("missing", ["correct", "predict"])
+def test_an_observer_that_does_not_correct_and_predict_is_refused_at_a_tick(biped, gait, missing):
+    class Same(GPIObserver):
+        def sampled(self, period):
+            return self
+
+    other = {"correct": "predict", "predict": "correct"}[missing]
+    setattr(Same, other, lambda self, z, *more: z)
+    controller = ba.ADRCController(gait.constraint, Same.from_bandwidth(500.0))
+    with pytest.raises(InputError, match=f"Same has no method {missing}"):
+        ba.Walker(biped, controller, timing=ba.SampledTime(1e-3))
+    assert ba.Walker(biped, controller).law is controller
+
+
 @pytest.mark.parametrize(
     "call",
     [

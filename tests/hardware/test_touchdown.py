@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -173,6 +175,19 @@ def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
     at = np.flatnonzero(arc.t == found.t[0] + found.late[0])
     assert len(at) == 2
     assert z[at[0]] < height <= z[np.flatnonzero(arc.t < arc.t[at[0]] - 0.9 * T)[-1]]
+
+
+@pytest.mark.parametrize("slope", [-0.1, 0.1])
+def test_by_kinematics_the_height_is_over_a_ground_that_falls_ahead(slope):
+    """On z = -tan(slope) x: the foot comes down to 1 mm above the ground, then below it."""
+    leaf, x = ByKinematics(slope=slope), 0.4
+    d, found = np.full(1, np.inf), []
+    for above in (2e-3, 1e-3, -1e-3):
+        look = Look(0.0, 1.0, np.array([x, above - math.tan(slope) * x]), 0.0, 0.0, 1.0, 0.0)
+        d, fires = leaf.notice(d, look)
+        found.append(fires)
+        assert d[0] == pytest.approx(above, abs=1e-12)
+    assert found == [0.0, 0.0, 1.0]
 
 
 def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait):

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from biped_adrc.core.errors import InputError, NotFiniteError, RanAwayError, SingularError
+from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.storage import load, save
-from biped_adrc.hybrid.system import Clock, Guard, HybridSystem
+from biped_adrc.hybrid.system import Clock, Guard, HybridSystem, Split
 
 G = 9.81
 
@@ -46,6 +47,67 @@ def test_bouncing_ball_in_closed_form(method):
         assert event.x_minus == pytest.approx([0.0, -G * first * 0.8**k], abs=1e-8)
         assert event.x_plus[1] == pytest.approx(-0.8 * event.x_minus[1], rel=1e-15)
     assert [arc.mode for arc in run.arcs] == list(range(6))
+
+
+class Dropped(Ball):
+    """A ball of another restitution, with coordinates for the exponential method: E' = A E + (0, -g)."""
+
+    def __init__(self, e):
+        self.e = e
+
+    def split(self, mode):
+        A = np.array([[0.0, 1.0], [0.0, 0.0]])
+        pull = np.zeros(0), np.array([[0.0], [-G]])
+        return Split(
+            lambda x: (x[:0], x[:, np.newaxis]), lambda w, E: E[:, 0], A, lambda t, w, E: pull
+        )
+
+
+ALL_METHODS = [RK4(1e-3), RK4(0.05), Exponential(5e-3), Adaptive(), Stiff()]
+
+
+@pytest.mark.parametrize("method", ALL_METHODS)
+@pytest.mark.parametrize("start", [(0.01, 0.0), (0.0, 1e-3)])
+def test_bounces_that_accumulate_are_all_found_and_end_the_run(method, start):
+    """Hops last T e^k: they add up to T e / (1 - e) after the first landing, and the last are below 2 us."""
+    e, (z, v) = 0.7, start
+    speed = math.sqrt(v**2 + 2.0 * G * z)
+    landing, hop = (v + speed) / G, 2.0 * e * speed / G
+    run = simulate(Dropped(e), np.array(start), 0, method, t_end=10.0)
+    found = np.array([event.t for event in run.events("bounce")])
+    expected = landing + hop * (1.0 - e ** np.arange(len(found))) / (1.0 - e)
+    assert run.status is Status.EVENT_LIMIT
+    assert found == pytest.approx(expected, abs=1e-12)
+    assert found[-1] - found[-2] < 2e-6
+    assert run.t_end < landing + hop / (1.0 - e)
+    assert min(arc.x[:, 0].min() for arc in run.arcs) > -1e-12
+
+
+@pytest.mark.parametrize("method", ALL_METHODS)
+@pytest.mark.parametrize(("start", "bounces"), [((0.01, 0.0), 1), ((0.0, 0.0), 0)])
+def test_a_ball_at_rest_does_not_fall_through_the_floor(method, start, bounces):
+    run = simulate(Dropped(0.0), np.array(start), 0, method, t_end=10.0)
+    assert (run.status, len(run.events())) == (Status.EVENT_LIMIT, bounces)
+    assert run.t_end == pytest.approx(math.sqrt(2.0 * start[0] / G), abs=1e-12)
+    assert run.final_state == pytest.approx([0.0, 0.0], abs=1e-15)
+
+
+def test_events_of_two_guards_in_turn_that_accumulate_end_the_run():
+    """x' = +-3 between walls at +-(1 - t): each way takes half the time of the one before."""
+
+    class Walls(HybridSystem):
+        def flow(self, t, x, mode):
+            return np.array([3.0 * mode])
+
+        def guards(self, mode):
+            return (
+                Guard("upper", lambda t, x: 1.0 - t - x[0], lambda t, x: (x, -1)),
+                Guard("lower", lambda t, x: 1.0 - t + x[0], lambda t, x: (x, 1)),
+            )
+
+    run = simulate(Walls(), np.zeros(1), 1, RK4(1e-2), t_end=5.0)
+    assert run.status is Status.EVENT_LIMIT
+    assert run.t_end == pytest.approx(1.0, abs=1e-6)
 
 
 def test_dense_output_gives_both_sides_of_an_event():

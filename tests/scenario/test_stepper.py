@@ -53,6 +53,28 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
     assert sample.status[0] is ba.Status.COMPLETED
 
 
+@pytest.mark.parametrize("restart", [True, False])
+@pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
+def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in_python):
+    """Sample instants are at t0 + k T, t0 the last impact, which no sample instant of before hits, or 0."""
+    T, push = 7e-3, InPython() if in_python else None
+    timing = ba.SampledTime(T, restart=restart)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push, timing=timing)
+    strike = ba.walk(walker, gait, 1).trajectory.events()[0].t
+    stepper = ba.Stepper(walker)
+    stepper.reset(start=gait.start(biped))
+    assert bool(stepper.why) is in_python
+    samples = [stepper.step() for _ in range(70)]
+    t = np.array([sample.t[0] for sample in samples])
+    after = np.array([sample.step[0] for sample in samples]) == 2
+    assert 5 < np.count_nonzero(after) < 65
+    assert abs((strike / T + 0.5) % 1.0 - 0.5) > 0.01
+    count = np.arange(1, 71) * T
+    assert t[~after] == pytest.approx(count[~after], abs=1e-12)
+    expected = strike + count[: np.count_nonzero(after)] - T if restart else count[after]
+    assert t[after] == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("s", [NPD, IN_PYTHON, WAITING], ids=["NPD", "CLF-QP", "MuJoCo"])
 def test_save_and_restore_repeat_exactly(s):
     stepper = ba.Stepper(s, 2)

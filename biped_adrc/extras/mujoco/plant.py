@@ -180,10 +180,6 @@ class MuJoCoPlant(Checked, Shown):
         """
         return own[..., -self.p :] if self.lag > 0.0 else u
 
-    def __hash__(self) -> int:
-        """Hash of the plain numbers alone: a robot has none."""
-        return hash((self.slope, self.h, self.integrator, self.lag, self.first_step))
-
     def __getstate__(self) -> dict[str, object]:
         """The fields for pickle, without MuJoCo's data, which is made again where it is needed."""
         return {name: value for name, value in vars(self).items() if name != "_engines"}

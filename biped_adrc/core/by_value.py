@@ -1,0 +1,51 @@
+"""Equality and hash of dataclasses by class and values, arrays included.
+
+A dataclass compares its fields as a tuple, which raises for arrays, and so does its hash. Here an array is its
+shape, its dtype and its numbers. NaN equals NaN, so that a thing equals itself and its copy, and -0 equals 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Set
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+
+class ByValue:
+    """Base of dataclasses that are equal by class and fields; a class that writes its own `__eq__` keeps it."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Copy both methods into the class, since a dataclass would otherwise replace them."""
+        super().__init_subclass__(**kwargs)
+        if "__eq__" not in vars(cls):
+            cls.__eq__ = cls.__eq__  # type: ignore[method-assign]
+            if "__hash__" not in vars(cls):
+                cls.__hash__ = cls.__hash__  # type: ignore[method-assign]
+
+    def __eq__(self, other: object) -> bool:
+        if self is other or type(self) is not type(other):
+            return self is other
+        return is_dataclass(self) and value_of(self) == value_of(other)
+
+    def __hash__(self) -> int:
+        return hash(value_of(self)) if is_dataclass(self) else object.__hash__(self)
+
+
+def value_of(x: Any) -> Hashable:
+    """A value that stands for x, equal and with one hash for what is equal by class and numbers."""
+    if isinstance(x, np.ndarray):
+        if x.dtype.hasobject:
+            return (np.ndarray, x.shape, value_of(x.tolist()))
+        x = np.where(np.isnan(x), np.nan, x + 0.0).astype(x.dtype) if x.dtype.kind in "fc" else x
+        return (np.ndarray, x.shape, x.dtype.str, x.tobytes())
+    if isinstance(x, Mapping):
+        return (type(x), frozenset((name, value_of(item)) for name, item in x.items()))
+    if isinstance(x, tuple | list):
+        return (type(x), *map(value_of, x))
+    if isinstance(x, Set):
+        return frozenset(map(value_of, x))
+    if is_dataclass(x) and not isinstance(x, type) and type(x).__eq__ is not object.__eq__:
+        return (type(x), *(value_of(getattr(x, f.name)) for f in fields(x) if f.compare))
+    return (float, "nan") if isinstance(x, float) and x != x else x
