@@ -155,11 +155,11 @@ class ErrorRecord(Record):
 
     SHORT = ""
     mass: dict[str, float] = field({}, "1")
-    """Factors of the plant's bodies, by body."""
+    """Relative errors of the plant's masses, by body: 0.2 is 20 % more."""
     inertia: dict[str, float] = field({}, "1")
-    """The same of inertias."""
+    """Relative errors of its inertias about the COM, by body."""
     mass_width: float = field(0.0, "1", ge=0, lt=1)
-    """Half-width of relative errors drawn for bodies."""
+    """Half-width of relative errors of all masses, drawn."""
     com_width: float = field(0.0, "1", ge=0, lt=1)
     """The same for centres of mass."""
     inertia_width: float = field(0.0, "1", ge=0, lt=1)

@@ -47,8 +47,8 @@ _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d))?")
 def quantity(text: str, unit: str) -> float:
     """The number of a text such as "1.5 ms" in the unit `unit`; a number without a unit is in `unit` already.
 
-    unit: "" takes none, `ANY` takes all and gives the number in SI units. Raises ValueError, which says why, for
-    what is no number, another dimension, or out of range.
+    unit: "" takes none, `ANY` takes all and gives the number in SI units. Raises ValueError, which says why,
+    for what is no number, another dimension, or out of range.
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:

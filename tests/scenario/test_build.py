@@ -114,7 +114,7 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
         ("pushes.0.torque", "30 Nm", 30.0),
         ("controller.K_p", "3000 1/s^2", 3000.0),
         ("controller.K_d", "0.1 1/ms", 100.0),
-        ("errors.mass.torso", "110 %", 1.1),
+        ("errors.mass.torso", "10 %", 0.1),
         ("run.impacts", "8", 8),
     ],
 )
@@ -169,7 +169,7 @@ def test_what_is_wrong_is_named(values, message) -> None:
 )
 def test_a_gain_has_the_unit_of_its_law_and_no_other(controller, number) -> None:
     if number is None:
-        with pytest.raises(ba.BipedError, match="found '.*', expected|expected a unit such as"):
+        with pytest.raises(ba.BipedError, match=r"found .*, expected a (unit|number)"):
             Scenario(controller)
     else:
         assert [*Scenario(controller).dotted().values()][-1] == pytest.approx(number, rel=1e-15)
@@ -177,12 +177,12 @@ def test_a_gain_has_the_unit_of_its_law_and_no_other(controller, number) -> None
 
 def test_a_whole_number_takes_no_unit() -> None:
     for text in ("8 ms", "8 %", "8 rad"):
-        with pytest.raises(ba.BipedError, match="run.impacts: found .* without a unit"):
+        with pytest.raises(ba.BipedError, match=r"run.impacts: found .* without a unit"):
             Scenario(run={"impacts": text})
 
 
 FROM_THE_SCENARIO = {
-    *"period gait biped reference torque_limit stones prediction feedforward".split()
+    *("period", "gait", "biped", "reference", "torque_limit", "stones", "prediction", "feedforward")
 }
 """Values that reach a part from fields of the scenario, which have their own units."""
 
