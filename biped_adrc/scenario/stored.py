@@ -80,6 +80,13 @@ def _again(home: str) -> str:
     return f"a stored walk cannot go on without '{home}'; walk it again with walk_scenario(walk.scenario)"
 
 
+OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
+OF_COORDINATES = ("q", "v", "a", "zeta")
+OF_JOINTS = (
+    *("q_d", "dq_d", "error", "u", "zeta_estimate"),
+    *("xi", "xi_estimate", "xi_external", "xi_matched", "xi_nominal"),
+)
+"""Signals with a column for each direction, coordinate and joint; the others have one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a part of the user's is replaced; other ones are left out."""
 
@@ -128,7 +135,20 @@ def load_walk(path: Path | str) -> Walk:
         gait, scenario = reader.made(record["gait"]), None
         with suppress(KeyError, TypeError, InputError):  # none, or it names what is not at hand
             scenario = Scenario(**trajectory.settings["scenario"])
-        return Walk(walker, gait, trajectory, scenario, Signals(**arrays), remarks)
+        return Walk(
+            walker, gait, trajectory, scenario, _signals(arrays, walker, trajectory), remarks
+        )
+
+
+def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
+    """The signals of a file. Raises ValueError for an array that is none of this walk."""
+    rows, n, p = sum(len(arc.t) for arc in trajectory.arcs), walker.plant.n, walker.plant.p
+    wide = (2, OF_TWO), (n, OF_COORDINATES), (p, OF_JOINTS)
+    for name, x in arrays.items():
+        shape = (rows, *(width for width, names in wide if name in names))
+        if x.dtype.kind not in "fi" or x.shape != shape:
+            raise ValueError(f"signal {name} is {x.dtype}{x.shape}, expected numbers {shape}")
+    return Signals(**arrays)
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
