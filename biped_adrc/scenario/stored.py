@@ -81,12 +81,8 @@ def _again(home: str) -> str:
 
 
 OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
-OF_COORDINATES = ("q", "v", "a", "zeta")
-OF_JOINTS = (
-    *("q_d", "dq_d", "error", "u", "zeta_estimate"),
-    *("xi", "xi_estimate", "xi_external", "xi_matched", "xi_nominal"),
-)
-"""Signals with a column for each direction, coordinate and joint; the others have one number in a row."""
+OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u", "zeta_estimate")
+"""Signals with a column for each direction, coordinate and joint, as xi has; others are one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a part of the user's is replaced; other ones are left out."""
 
@@ -142,10 +138,13 @@ def load_walk(path: Path | str) -> Walk:
 
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
     """The signals of a file. Raises ValueError for an array that is none of this walk."""
-    rows, n, p = sum(len(arc.t) for arc in trajectory.arcs), walker.plant.n, walker.plant.p
-    wide = (2, OF_TWO), (n, OF_COORDINATES), (p, OF_JOINTS)
+    rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
+    wide = dict.fromkeys(OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
+    wide |= dict.fromkeys(
+        (*OF_JOINTS, *(name for name in arrays if name.startswith("xi"))), plant.p
+    )
     for name, x in arrays.items():
-        shape = (rows, *(width for width, names in wide if name in names))
+        shape = (rows, wide[name]) if name in wide else (rows,)
         if x.dtype.kind not in "fi" or x.shape != shape:
             raise ValueError(f"signal {name} is {x.dtype}{x.shape}, expected numbers {shape}")
     return Signals(**arrays)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import nullcontext, suppress
 from typing import NamedTuple
 
 from biped_adrc.core.files import packaged
@@ -74,14 +75,9 @@ def own_quantity(text: str, unit: str) -> float | str:
     Raises ValueError as `quantity`; with `ANY` the text stays.
     """
     match = _QUANTITY.fullmatch(text)
-    if match is None or not match[2]:
-        return text
-    try:
-        return quantity(text, unit)
-    except ValueError:
-        if unit != ANY:
-            raise
-        return text
+    with suppress(ValueError) if unit == ANY else nullcontext():
+        return quantity(text, unit) if match and match[2] else text
+    return text
 
 
 def unit_of(text: str) -> Unit:

@@ -201,19 +201,19 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        ranges, friction = (_table(key, data.get(key, {})) for key in ("ranges", "friction"))
-        rubbing = [_table(key, friction.get(key, {})) for key in ("viscous", "static")]
+        friction, ranges = (_table(key, data.get(key, {})) for key in ("friction", "ranges"))
+        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in ("viscous", "static"))
+        _numbers("friction", rubs := [*viscous.values(), *static.values()], len(rubs), 0.0)
         actuated, base = (_names(key, data[key]) for key in ("actuated", "base"))
-        passive, links = _names("passive", data.get("passive", ())), _table("links", data["links"])
-        presets = _table("presets", data["presets"])
-        texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
-        joints = (*actuated, *passive, _name("unactuated", data["unactuated"]))
-        _names("the list of all joints", [*joints, *base])
-        for key, table in zip(("ranges", "viscous", "static"), (ranges, *rubbing), strict=True):
-            if unknown := sorted(set(table) - set(joints)):
-                raise ValueError(f"{key} names {unknown}, the joints are {list(joints)}")
+        passive = _names("passive", data.get("passive", ()))
+        joints = (*actuated, *passive, data["unactuated"])
+        _names("the list of all joints", (*joints, *base))
         if len(base) != 2:
             raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
+        texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
+        for key, table in (("ranges", ranges), ("friction", viscous | static)):
+            if unknown := sorted(set(table) - set(joints)):
+                raise ValueError(f"{key} names {unknown}, the joints are {list(joints)}")
         phase = _numbers("phase", data["phase"], len(joints))
         if phase[-1] == 0.0:
             raise ValueError(f"phase is {list(phase)}; the last number must not be 0")
@@ -229,10 +229,16 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             peak_torque=_positive(data["peak_torque"], "peak_torque"),
             friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
             gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
-            viscous=_coefficients(rubbing[0]),
-            static=_coefficients(rubbing[1]),
-            links={body: _names(f"links.{body}", x) for body, x in links.items()},
-            presets={name: _preset(name, x, data) for name, x in presets.items()},
+            viscous=viscous,
+            static=static,
+            links={
+                body: _names(f"links.{body}", x)
+                for body, x in _table("links", data["links"]).items()
+            },
+            presets={
+                name: _preset(name, _table(f"presets.{name}", x), data)
+                for name, x in _table("presets", data["presets"]).items()
+            },
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
         )
 
@@ -244,14 +250,11 @@ def _name(key: str, value: object) -> str:
     return value
 
 
-def _names(key: str, values: object) -> tuple[str, ...]:
+def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
     """Check a list of different names. Raises ValueError that names the key."""
-    if not isinstance(values, list | tuple):
-        raise ValueError(f"{key} is {values!r}, expected a list of names")
-    names = tuple(_name(f"a name in {key}", x) for x in values)
-    if twice := sorted({x for x in names if names.count(x) > 1}):
-        raise ValueError(f"{key} has {twice} twice, expected different names")
-    return names
+    if not isinstance(values, list | tuple) or len(set(map(str, values))) < len(values):
+        raise ValueError(f"{key} is {values!r}, expected a list of different names")
+    return tuple(_name(f"a name in {key}", x) for x in values)
 
 
 def _table(key: str, value: object) -> Mapping[str, Any]:
@@ -261,26 +264,16 @@ def _table(key: str, value: object) -> Mapping[str, Any]:
     return value
 
 
-def _coefficients(table: Mapping[str, Any]) -> dict[str, float]:
-    """Friction by joint, none below zero. Raises ValueError."""
-    return {
-        joint: _numbers(f"friction of {joint}", [x], 1, least=0.0)[0] for joint, x in table.items()
-    }
-
-
 def _numbers(
     key: str, values: Sequence[float], count: int, least: float = -math.inf
 ) -> tuple[float, ...]:
     """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
-    fits = isinstance(values, list | tuple) and len(values) == count
-    if not fits or not all(_is_number(x) and math.isfinite(x) and least <= x for x in values):
+    row = values if isinstance(values, list | tuple) else ()
+    numbers = tuple(float(x) if isinstance(x, int | float) else math.nan for x in row)
+    if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
         above = f", at least {least:g}" if math.isfinite(least) else ""
         raise ValueError(f"{key} is {values!r}, expected {count} finite numbers{above}")
-    return tuple(float(x) for x in values)
-
-
-def _is_number(x: object) -> bool:
-    return isinstance(x, int | float) and not isinstance(x, bool)
+    return numbers
 
 
 def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
@@ -296,7 +289,6 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
     ValueError.
     """
     bodies, where = {}, f"presets.{name}"
-    record = _table(where, record)
     for body in data["links"] if any(body in record for body in data["links"]) else ():
         p = _table(f"{where}.{body}", record[body])
         bodies[body] = BodyParameters(
