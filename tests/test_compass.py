@@ -48,7 +48,7 @@ def adrc(constraint):
 
 def walker(compass, controller, **more):
     """On a plant that is heavier than the model knows, under a push."""
-    heavy = compass.with_errors(mass={"hip": 1.1})
+    heavy = ba.ModelErrors(mass={"hip": 0.1}).apply(compass)
     return ba.Walker(heavy, controller, PUSH, model=compass, **more)
 
 

@@ -176,7 +176,7 @@ def test_the_mean_force_is_the_change_of_momentum(biped, gait):
     """m v_com from Pinocchio at the stored states, over windows in a pushed step."""
     pull = ba.TorquePulse([-60.0, 20.0, 0.0], step=1, start=0.13, stop=0.21)
     push = PUSH + ba.OnLink(biped, biped.description.trunk, pull)
-    heavier = biped.with_errors(mass={"torso": 1.1})
+    heavier = ba.ModelErrors(mass={"torso": 0.1}).apply(biped)
     walker = ba.Walker(heavier, ba.NPDController(gait.constraint), push, model=biped)
     s = ba.walk(walker, gait, impacts=1, method=ba.RK4(H)).signals
     p = np.array([heavier.momentum(q, v) for q, v in zip(s.q, s.v, strict=True)])
@@ -246,7 +246,7 @@ def test_a_feasible_walk_is_left_as_it_is_and_limits_decide(biped, gait):
 def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
     """xi~ from the plant's own equation: D q'' + Omega = B u + zeta + friction with the plant's D and Omega."""
     rubbing = ba.Biped.load("rabbit", friction=True)
-    heavier = rubbing.with_errors(mass={"torso": 1.2, "thigh": 1.15})
+    heavier = ba.ModelErrors(mass={"torso": 0.2, "thigh": 0.15}).apply(rubbing)
     for plant, model in ((rubbing, None), (heavier, biped)):
         walker = ba.Walker(plant, ba.NPDController(gait.constraint), PUSH, model=model)
         s = ba.walk(walker, gait, 1, ba.RK4(1e-3)).signals
@@ -284,7 +284,7 @@ def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact(
 
 def test_the_plant_is_judged_and_not_the_model(biped, gait):
     """Half the mass on the ground is half the force, whatever the controller believes."""
-    light = biped.with_errors(mass={"torso": 0.5})
+    light = ba.ModelErrors(mass={"torso": -0.5}).apply(biped)
     law = ba.NPDController(gait.constraint)
     needed = [
         ba.walk(ba.Walker(plant, law, model=biped), gait, 1).certificates[0].mean_normal_force

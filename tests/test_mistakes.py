@@ -64,7 +64,7 @@ PYTHON = {
     "a clock slower than a fall": (lambda r: ba.SampledTime(1000.0), "at most"),
     "half an impact": (lambda r: r.walk(impacts=2.5), "whole number"),
     "a method in words": (lambda r: r.walk(method="RK4"), "RK4(1e-3)"),
-    "one number for errors of masses": (lambda r: r.biped.with_errors(mass=1.2), "{'torso': 1.2}"),
+    "one number for errors of masses": (lambda r: ba.ModelErrors(mass=0.2), "{'torso': 0.2}"),
     "a scenario as a walker": (lambda r: ba.walk(ba.Scenario("NPD")), "expected a Walker"),
     "a gait for a passive cycle": (
         lambda r: cycle_of(ba.Scenario("passive", robot="compass", gait="v0.8")),

@@ -109,7 +109,7 @@ class Halved(ba.NPDController):
 def loops(biped):
     c = ba.load_gait("published", biped).constraint
     per_joint = ba.Gains(np.array([4e3, 5e3, 6e3, 7e3]), np.array([40.0, 50.0, 60.0, 70.0]))
-    heavy = biped.with_errors(mass={"torso": 1.2}, friction=True)
+    heavy = replace(ba.ModelErrors(mass={"torso": 0.2}).apply(biped), friction=True)
     return {
         "NPD": npd(biped),
         "NPD as printed": npd(biped, controller=ba.NPDController(c, solve_theta=False)),

@@ -26,6 +26,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.model_errors import ModelErrors
 from biped_adrc.scenario.cycle import known_cycle
 from validation.row import Row, published
 
@@ -107,7 +108,8 @@ def wheel_rows() -> tuple[Row, ...]:
 
 def simplest(ratio: float = FEET) -> Cycle:
     """The simplest walker with feet of `ratio` of the hip's mass, on its slope of 0.009 rad."""
-    return known_cycle(Biped.load("simplest").with_errors(mass={"leg": ratio / FEET}))
+    heavier = ModelErrors(mass={"leg": ratio / FEET - 1.0})
+    return known_cycle(heavier.apply(Biped.load("simplest")))
 
 
 def started_at(cycle: Cycle, theta: float, rate: float) -> Cycle:

@@ -80,7 +80,7 @@ TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfin
 
 
 SUCH_AS = {
-    "Mapping": "{'torso': 1.2}",
+    "Mapping": "{'torso': 0.2}",
     "Biped": "Biped.load('rabbit')",
     "Controller": "NPDController(gait.constraint)",
     "Disturbance": "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum of them is a + b",

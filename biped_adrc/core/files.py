@@ -94,8 +94,23 @@ def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None
         mode = os.stat(path).st_mode
     except (OSError, ValueError):
         return
-    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+    system = os.path.realpath(path).startswith(("/proc/", "/sys/"))  # /proc/kmsg never ends
+    if system or not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise error(f"{where} is not a regular file")
+
+
+def beside(file: Path, name: object) -> Path:
+    """The path of the file that `file` names, which lies in its folder or below.
+
+    Raises InputError for a path out of that folder, also by way of links.
+    """
+    path = file.parent / str(name)
+    folders = {file.parent.resolve(), file.resolve().parent}
+    if not any(path.resolve().is_relative_to(folder) for folder in folders):
+        raise InputError(
+            f"'{file}' names the file '{name}', expected one in its own folder or below; copy it there"
+        )
+    return path
 
 
 def _named(path: object) -> Path:
@@ -363,6 +378,11 @@ def data_folder(kind: str) -> Path:
         f"the data folder '{kind}' is neither in the installed package nor beside it; "
         "reinstall with 'pip install .'"
     )
+
+
+def data_file(kind: str, *names: str) -> Path:
+    """The path of a file in the package's data by names; one that is a path of its own leads to no file."""
+    return data_folder(kind).joinpath(*(re.sub(r"[/\\]|^\.+$", "_", name) for name in names))
 
 
 @cache

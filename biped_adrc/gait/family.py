@@ -24,7 +24,7 @@ from typing import Any, Self
 import numpy as np
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import data_folder, output_path, plain, reading, write_json
+from biped_adrc.core.files import data_file, output_path, plain, reading, write_json
 from biped_adrc.core.part import SETUP, Part, setup
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
@@ -176,9 +176,9 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
     """
     robot, preset = biped.description.name, biped.preset
     path = Path(family)
-    folder = data_folder("gaits") / robot / "families"
+    folder = data_file("gaits", robot, "families")
     if path.suffix.lower() != ".json":
-        path = folder / f"{family}-{preset}.json"
+        path = data_file("gaits", robot, "families", f"{family}-{preset}.json")
         known = sorted(x.stem.removesuffix(f"-{preset}") for x in folder.glob(f"*-{preset}.json"))
     if path.parent == folder and not path.is_file():
         raise GaitError(

@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import CONTROL, data_folder, output_path, plain, reading, write_json
+from biped_adrc.core.files import CONTROL, data_file, output_path, plain, reading, write_json
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -183,8 +183,8 @@ class Gait(Shown):
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:
     """Names of the stored gaits of a robot and preset, sorted; files are called NAME-PRESET.json."""
     end = f"-{preset}.json"
-    files = (data_folder("gaits") / robot).glob(f"*{end}")
-    return tuple(sorted(file.name.removesuffix(end) for file in files))
+    files = data_file("gaits", robot, end).parent.glob("*.json")
+    return tuple(sorted(x.name.removesuffix(end) for x in files if x.name.endswith(end)))
 
 
 def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
@@ -201,7 +201,7 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
     path = Path(gait)
     if path.suffix.lower() != ".json":
         robot, preset = biped.description.name, biped.preset
-        path = data_folder("gaits") / robot / f"{gait}-{preset}.json"
+        path = data_file("gaits", robot, f"{gait}-{preset}.json")
         if not os.path.isfile(path):
             known = list(gait_names(robot, preset))
             choose = f"choose one of {known}" if known else "none is stored: design one"

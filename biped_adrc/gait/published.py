@@ -37,7 +37,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import data_folder, reading
+from biped_adrc.core.files import data_file, reading
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
@@ -66,8 +66,8 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
     Raises GaitError that names the file, what was found and what was expected.
     """
     robot, preset = biped.description.name, biped.preset
-    own = biped.description.urdf.parent / f"{preset}.toml"
-    path = own if os.path.isfile(own) else data_folder("gaits") / robot / f"{preset}.toml"
+    own = biped.description.urdf.with_name(os.path.basename(f"{preset}.toml"))
+    path = own if os.path.isfile(own) else data_file("gaits", robot, f"{preset}.toml")
     if not path.is_file():
         raise GaitError(
             f"no walking cycle without motors is stored for robot '{robot}', preset '{preset}': there is no "

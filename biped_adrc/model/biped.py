@@ -16,15 +16,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from types import NoneType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices, frozen, read_only
@@ -347,23 +346,6 @@ class Biped(Shown):
         return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
 
     # -- variations ------------------------------------------------------------------------------
-    def with_errors(
-        self,
-        mass: Mapping[str, float] | None = None,
-        inertia: Mapping[str, float] | None = None,
-        friction: bool | None = None,
-    ) -> Biped:
-        """The robot with masses and inertias multiplied, by class or link name: a plant with `delta` of (1).
-
-        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
-        the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
-        or a factor that leaves no mass.
-        """
-        check_part(mass, "mass", Mapping, NoneType)
-        check_part(inertia, "inertia", Mapping, NoneType)
-        tree = self.scaled({"mass": mass or {}, "inertia": inertia or {}})
-        return replace(self, tree=tree, friction=self.friction if friction is None else friction)
-
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
         """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link name.
 
@@ -389,6 +371,13 @@ class Biped(Shown):
             return (body,)
         known = [*self.description.links, *self.tree.links]
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
+
+    if not TYPE_CHECKING:  # a type checker would let every name pass
+
+        def __getattr__(self, name: str) -> Any:
+            hint = "; ba.ModelErrors(mass={'torso': 0.2}).apply(biped) is a torso of 20 % more"
+            also = hint if name == "with_errors" else ""
+            raise AttributeError(f"'Biped' has no attribute '{name}'{also}")
 
     def _angles(self, q: Array) -> Array:
         """q (n,) after a check of its shape and that it is finite."""

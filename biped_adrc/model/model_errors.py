@@ -26,7 +26,9 @@ from biped_adrc.model.biped import Biped
 FACTORS = ("mass", "com", "inertia")
 """Names of the errors of bodies, in the order in which they are drawn."""
 FINITE = each("finite numbers by name", math.isfinite)
-ABOVE = each("finite numbers above -1 by name", lambda e: -1.0 < e < math.inf)
+ABOVE = each(
+    "finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < math.inf
+)
 NOT_BELOW = each("finite numbers, none below -1, by name", lambda e: -1.0 <= e < math.inf)
 
 

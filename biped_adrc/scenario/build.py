@@ -213,13 +213,13 @@ def limits(s: Scenario) -> Limits:
 def plant_of(s: Scenario, biped: Biped) -> Biped:
     """The robot that walks: the nominal one with the scenario's model errors, itself where there are none.
 
-    In this order: factors of mass and inertia by link, a load on the trunk, friction, and errors that are drawn
+    In this order: errors of mass and inertia by body, a load on the trunk, friction, and errors that are drawn
     with the widths mass_width, com_width, inertia_width and friction_width. That it is the same object where
     there are none tells `build` that plant and model agree.
     """
     plant, wrong = biped, s.errors
     if wrong.mass or wrong.inertia:
-        plant = plant.with_errors(mass=wrong.mass, inertia=wrong.inertia)
+        plant = ModelErrors(wrong.mass, inertia=wrong.inertia).apply(plant)
     if wrong.trunk_load != 0.0:
         plant = ModelErrors(mass={biped.description.trunk: wrong.trunk_load}).apply(plant)
     if wrong.friction != 0.0:

@@ -21,7 +21,7 @@ class EncoderRecord(Record):
     """Encoders and rates."""
 
     SHORT = ""
-    counts: float | None = field(None, ge=1)
+    counts: float | None = field(None, "1", ge=1)
     """Per revolution; by default exact."""
     noise: float = field(0.0, "rad", ge=0, le=1.0)
     """Standard deviation of the joints' angles."""

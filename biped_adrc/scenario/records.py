@@ -38,8 +38,8 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.shown import call_text
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
-from biped_adrc.scenario.registry import construct, find, known_name, portable, takes
-from biped_adrc.scenario.units import in_si, quantity
+from biped_adrc.scenario.registry import construct, find, known_name, portable, takes, unit_in
+from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")
 KINDS = {
@@ -57,8 +57,8 @@ SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
 """Of the ends of a range, by their names in `operator`."""
 
 
-def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
-    """A field with its unit and range (ge, gt, le, lt); kind: of the registry, for a name.
+def field(default: Any, unit: str = "", kind: str = "", **limits: Any) -> Any:
+    """A field with its unit, "1" for a dimensionless number, and range (ge, gt, le, lt); kind: of the registry.
 
     The docstring below the field is its help text.
     """
@@ -113,15 +113,15 @@ class Described(NamedTuple):
     default: Any = None
     text: str = ""
     choices: tuple[str, ...] = ()
-    unit: str = "1"
-    """"" where it is that of the part which takes the value."""
+    unit: str = ""
+    """"" for a number that takes no unit, `ANY` where only a part of the user's own knows it."""
     kind: str = ""
     """Of the registry, where it is a name of it."""
 
     @property
     def in_brackets(self) -> str:
         """Its unit behind a name, as " [s]"; empty without one."""
-        return "" if self.unit in ("1", "") else f" [{self.unit}]"
+        return "" if self.unit in PLAIN else f" [{self.unit}]"
 
     def read(self, x: Any) -> Any:
         """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
@@ -179,19 +179,29 @@ class Record(BaseModel):
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
                 raise Misfit(name, unknown(name, cls.names()), known=False)
-            result[name] = cls.own_value(name).taken(result[name])
+            what = cls._of_part(cls.own_value(name), result.get(cls.SHORT))
+            result[name] = what.taken(result[name])
         return result
 
     @classmethod
     def own_value(cls, name: str) -> Described:
         """What is known of a value that only the user's part knows: nothing."""
-        return Described(name, ())
+        return Described(name, (), unit=ANY)
+
+    @classmethod
+    def _of_part(cls, what: Described, part: object) -> Described:
+        """The value with the unit that the registry states for the part of this name."""
+        kind = described(cls, cls.SHORT).kind if cls.SHORT in cls.model_fields else ""
+        return what._replace(unit=unit_in(kind, part, what.name, what.unit))
 
     @field_validator("*", mode="before")
     @classmethod
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
-        return described(cls, str(info.field_name)).read(x)
+        what = described(cls, str(info.field_name))
+        return (cls._of_part(what, info.data.get(cls.SHORT)) if isinstance(x, str) else what).read(
+            x
+        )
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
@@ -330,8 +340,7 @@ def converted(what: Described, x: Any) -> Any:
         if what.kind:
             return known_name(what.kind, x)
         if not types:
-            result = in_si(x)
-            return x if result is None else result
+            return own_quantity(x, what.unit)
         if int in types and x.strip().isdecimal():
             return int(x)
         if int in types or float in types:

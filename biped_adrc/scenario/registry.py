@@ -50,6 +50,8 @@ class Entry:
     """A description for a reader."""
     defaults: Mapping[str, float] = field(default_factory=dict)
     """Values of a scenario that it takes where the scenario has none."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units of the values that it alone takes, and of K_p and K_d where they are others than NPD's."""
     over_steps: bool = False
     """Of a disturbance: whether it goes on over impacts, with its window in time of the walk."""
     given: Callable[..., object] | None = None
@@ -150,6 +152,13 @@ def known_name(kind: str, name: str) -> str:
     raise InputError(
         f"{kind} '{name}': {unknown(name, names(kind))}; one of your own is package.module:Class"
     )
+
+
+def unit_in(kind: str, name: object, value: str, usual: str) -> str:
+    """The unit of a value of a part of the package; `usual` where its entry states none."""
+    entries = REGISTRY.get(kind, {}).items()
+    stated = (entry.units for known, entry in entries if _plain(known) == _plain(str(name)))
+    return next(stated, {}).get(value, usual)
 
 
 def _plain(name: str) -> str:

@@ -87,17 +87,17 @@ class ControllerRecord(OpenRecord):
 
     name: str = field("ADRC", kind="controller")
     """Of the registry, or module:Class."""
-    K_p: float | None = field(None, "", gt=0)
-    """Proportional gain in the controller's unit, 1/s^2 of NPD and ADRC; by default its own."""
-    K_d: float | None = field(None, "", gt=0)
-    """Derivative gain in the controller's unit, 1/s of NPD and ADRC; by default its own."""
+    K_p: float | None = field(None, "1/s^2", gt=0)
+    """Proportional gain, PD's in N m/rad; by default the controller's own."""
+    K_d: float | None = field(None, "1/s", gt=0)
+    """Derivative gain, PD's in N m s/rad; by default the controller's own."""
     solve_theta: bool = field(True)
     """Solve the loop through Theta''; if not, as printed."""
     observer: ObserverRecord = field(ObserverRecord.model_construct())
     contact: ContactRecord = field(ContactRecord.model_construct())
     prediction: float = field(0.0, "s", ge=0, le=0.1)
     """The controller gets the state so much ahead, by its model and the torques on their way."""
-    feedforward: float = field(0.0, ge=0, le=2)
+    feedforward: float = field(0.0, "1", ge=0, le=2)
     """Share of the record's joint friction added to the torque, at the reference's rates."""
     inner: ControllerRecord | None = field(None)
     """The controller inside an outer loop."""
@@ -110,11 +110,11 @@ class GroundRecord(OpenRecord):
     APART = (("stone_range", "stones"),)
     plant: str = field("rigid", kind="plant")
     """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
-    friction: float = field(0.6, gt=0, le=10)
+    friction: float = field(0.6, "1", gt=0, le=10)
     """Of soft ground."""
     time_constant: float = field(2e-3, "s", ge=1e-5, le=1.0)
     """Of soft ground: how fast a foot in it is driven out."""
-    damping_ratio: float = field(1.0, gt=0, le=100)
+    damping_ratio: float = field(1.0, "1", gt=0, le=100)
     """Of soft ground."""
     plant_step: float | None = field(None, "s", ge=1e-6, le=0.01)
     """Step of its engine; by default a tenth of the time constant, at most 0.2 ms."""
@@ -154,23 +154,23 @@ class ErrorRecord(Record):
     """How the plant differs from the model that the controller has."""
 
     SHORT = ""
-    mass: dict[str, float] = field({})
-    """Factors of the plant's bodies, by body."""
-    inertia: dict[str, float] = field({})
-    """The same of inertias."""
-    mass_width: float = field(0.0, ge=0, lt=1)
-    """Half-width of relative errors drawn for bodies."""
-    com_width: float = field(0.0, ge=0, lt=1)
+    mass: dict[str, float] = field({}, "1")
+    """Relative errors of the plant's masses, by body: 0.2 is 20 % more."""
+    inertia: dict[str, float] = field({}, "1")
+    """Relative errors of its inertias about the COM, by body."""
+    mass_width: float = field(0.0, "1", ge=0, lt=1)
+    """Half-width of relative errors of all masses, drawn."""
+    com_width: float = field(0.0, "1", ge=0, lt=1)
     """The same for centres of mass."""
-    inertia_width: float = field(0.0, ge=0, lt=1)
+    inertia_width: float = field(0.0, "1", ge=0, lt=1)
     """The same for inertias."""
-    friction_width: float = field(0.0, ge=0, lt=1)
+    friction_width: float = field(0.0, "1", ge=0, lt=1)
     """The same for friction."""
-    trunk_load: float = field(0.0, gt=-1, le=10)
+    trunk_load: float = field(0.0, "1", gt=-1, le=10)
     """Relative error of the torso's mass, not drawn."""
-    friction: float = field(0.0, ge=-1, le=10)
+    friction: float = field(0.0, "1", ge=-1, le=10)
     """The same of joint friction."""
-    impact_width: float = field(0.0, ge=0, lt=1)
+    impact_width: float = field(0.0, "1", ge=0, lt=1)
     """Half-width of relative errors of rates after impact."""
 
 
@@ -180,9 +180,9 @@ class StartRecord(OpenRecord):
     __pydantic_extra__: dict[str, float]
     SHORT = ""
     _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)
-    speed: float = field(0.0, gt=-1, le=2)
+    speed: float = field(0.0, "1", gt=-1, le=2)
     """Relative change of all rates."""
-    speed_spread: float = field(0.0, ge=0, le=1)
+    speed_spread: float = field(0.0, "1", ge=0, le=1)
     """Standard deviation of it, drawn."""
     spread: float = field(0.0, "rad", ge=0, le=1)
     """Standard deviation added to all angles."""
@@ -200,7 +200,7 @@ class LimitRecord(Record):
     """What ground and motors can give, for a feasible walk."""
 
     SHORT = ""
-    friction: float | None = field(None, gt=0, le=1)
+    friction: float | None = field(None, "1", gt=0, le=1)
     """Friction of the ground; by default the robot's record."""
     window: float = field(5e-3, "s", gt=0, le=0.1)
     """Over which the ground's force is averaged."""
@@ -222,15 +222,15 @@ class RunRecord(Record):
     """Step of rk4 and exponential; by default 1 ms or what fits."""
     fine: float | None = field(None, "s", ge=1e-6, le=0.1)
     """The step where a push switches and in the single support after."""
-    tolerance: float = field(1e-9, gt=0, le=1)
+    tolerance: float = field(1e-9, "1", gt=0, le=1)
     """Of adaptive and stiff."""
     engine: Literal["compiled", "pinocchio"] = field("compiled")
     """compiled where it can run, or pinocchio, which it is checked against."""
     max_step_time: float = field(2.0, "s", gt=0, le=100)
     """A longer single support ends as stalled."""
-    runaway_speed: float = field(20.0, gt=0, le=1e9)
+    runaway_speed: float = field(20.0, "1", gt=0, le=1e9)
     """Rates beyond this multiple of the URDF's limits end a walk as run away."""
-    runaway_torque: float = field(1000.0, gt=0, le=1e9)
+    runaway_torque: float = field(1000.0, "1", gt=0, le=1e9)
     """The same of the peak torque in the robot's record."""
 
     @model_validator(mode="after")

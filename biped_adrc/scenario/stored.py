@@ -80,6 +80,9 @@ def _again(home: str) -> str:
     return f"a stored walk cannot go on without '{home}'; walk it again with walk_scenario(walk.scenario)"
 
 
+OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
+OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u", "zeta_estimate")
+"""Signals with a column for each direction, coordinate and joint, as xi has; others are one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a part of the user's is replaced; other ones are left out."""
 
@@ -128,7 +131,23 @@ def load_walk(path: Path | str) -> Walk:
         gait, scenario = reader.made(record["gait"]), None
         with suppress(KeyError, TypeError, InputError):  # none, or it names what is not at hand
             scenario = Scenario(**trajectory.settings["scenario"])
-        return Walk(walker, gait, trajectory, scenario, Signals(**arrays), remarks)
+        return Walk(
+            walker, gait, trajectory, scenario, _signals(arrays, walker, trajectory), remarks
+        )
+
+
+def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
+    """The signals of a file. Raises ValueError for an array that is none of this walk."""
+    rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
+    wide = dict.fromkeys(OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
+    wide |= dict.fromkeys(
+        (*OF_JOINTS, *(name for name in arrays if name.startswith("xi"))), plant.p
+    )
+    for name, x in arrays.items():
+        shape = (rows, wide[name]) if name in wide else (rows,)
+        if x.dtype.kind not in "fi" or x.shape != shape:
+            raise ValueError(f"signal {name} is {x.dtype}{x.shape}, expected numbers {shape}")
+    return Signals(**arrays)
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:

@@ -1,6 +1,6 @@
 """Reads a number with its unit from text: "1.5 ms", "30 N m", "300 rad/s".
 
-    quantity(text, unit) -> the number in `unit`         in_si(text) -> the number in SI units
+    quantity(text, unit) -> the number in `unit`         own_quantity(text, unit) -> the number, or the text
 
 A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and a slash divides by all
 symbols up to the next slash: "N/m s" is N/(m s). The radian counts as a dimension, so that Hz and rad/s, which
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import re
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from typing import NamedTuple
 
 from biped_adrc.core.files import packaged
@@ -34,6 +34,11 @@ SYMBOLS, WHOLE = (
 )
 """Units by the symbols that take an SI prefix, and by those that take none."""
 
+ANY = "any"
+"""Unit of a value that only a part of the user's own knows."""
+PLAIN = ("", "1", ANY)
+"""Units that no message and no label shows."""
+
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 """A decimal number, and what follows it."""
 _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d))?")
@@ -43,33 +48,36 @@ _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d))?")
 def quantity(text: str, unit: str) -> float:
     """The number of a text such as "1.5 ms" in the unit `unit`; a number without a unit is in `unit` already.
 
-    unit: "" takes any one, and gives the number in SI units. Raises ValueError, which says why, for what is no
-    number, another dimension, or out of range.
+    unit: "" takes none, `ANY` takes all and gives the number in SI units. Raises ValueError, which says why,
+    for what is no number, another dimension, or out of range.
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        with_unit = "" if unit in ("", "1") else f" [{unit}] or a number and its unit"
+        with_unit = "" if unit in PLAIN else f" [{unit}] or a number and its unit"
         raise ValueError(f"found '{text}', expected a finite number{with_unit}")
     number, own_unit = float(match[1]), match[2]
     if own_unit:
         result = unit_of(own_unit)
-        expected = unit_of(unit) if unit else result._replace(factor=1.0)
-        if result.powers != expected.powers:
-            raise ValueError(
-                f"found '{text}': '{own_unit}' is another dimension, expected a unit such as '{unit}'"
-            )
+        expected = result._replace(factor=1.0) if unit == ANY else unit_of(unit or "1")
+        if result.powers != expected.powers or not unit:
+            asked = f": '{own_unit}' is another dimension, expected a unit such as '{unit}'"
+            plain = ", expected a number without a unit"
+            raise ValueError(f"found '{text}'" + (plain if unit in PLAIN else asked))
         number = _scaled(number, result.factor / expected.factor)
     if not math.isfinite(number):
         raise ValueError(f"found '{text}', too large, expected a finite number [{unit}]")
     return number
 
 
-def in_si(text: str) -> float | None:
-    """The number of a text such as "2 mm" in SI units, whatever its unit; None for another text."""
+def own_quantity(text: str, unit: str) -> float | str:
+    """The number of a text such as "2 mm" in `unit`, and a text without a number and a unit as it is.
+
+    Raises ValueError as `quantity`; with `ANY` the text stays.
+    """
     match = _QUANTITY.fullmatch(text)
-    with suppress(ValueError):
-        return quantity(text, "") if match and match[2] else None
-    return None
+    with suppress(ValueError) if unit == ANY else nullcontext():
+        return quantity(text, unit) if match and match[2] else text
+    return text
 
 
 def unit_of(text: str) -> Unit:

@@ -31,7 +31,7 @@ from typing import Any, NamedTuple
 from pydantic import Field, ValidationError, model_validator
 
 from biped_adrc.core.errors import BipedError, InputError, ReachError
-from biped_adrc.core.files import reading
+from biped_adrc.core.files import beside, reading
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.scenario import read_scenario
@@ -252,7 +252,9 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
     tables = dict(tables)  # type: ignore[arg-type]
     below = {}
     if "scenario" in tables:
-        below = read_scenario(here / str(tables.pop("scenario"))).dotted()
+        name = str(tables.pop("scenario"))
+        file = Path(name) if isinstance(source, Mapping) else beside(Path(source), name)
+        below = read_scenario(file).dotted()
     try:
         study = Study.model_validate(tables)
         over = {*study.axes, *([SEED] if study.seeds or study.search else [])}

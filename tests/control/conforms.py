@@ -280,7 +280,7 @@ def unless(words, call):
 # -- parts of it -----------------------------------------------------------------------------------
 @cache
 def heavy():
-    return robot().with_errors(mass={"torso": 1.2})
+    return ba.ModelErrors(mass={"torso": 0.2}).apply(robot())
 
 
 def pure(function, *given):

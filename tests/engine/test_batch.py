@@ -54,7 +54,7 @@ def mixed(biped, gait, npd, plain):
     """Robots, methods, time bases, starts and ends of all kinds."""
     walker = plain.walker
     adrc = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
-    heavy = biped.with_errors(mass={"torso": 1.05})
+    heavy = ba.ModelErrors(mass={"torso": 0.05}).apply(biped)
     ticks = ba.SampledTime(1e-3)
     compass = ba.Biped.load("compass")
     cycle = passive_cycle(compass)

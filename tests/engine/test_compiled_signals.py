@@ -77,7 +77,7 @@ def test_columns(biped, gait, name, sampled):
 
 
 def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait):
-    rough = ba.Biped.load("rabbit", friction=True).with_errors(mass={"torso": 1.05})
+    rough = ba.ModelErrors(mass={"torso": 0.05}).apply(ba.Biped.load("rabbit", friction=True))
     walker = ba.Walker(rough, controllers(gait)["ADRC"], model=biped, slope=0.02)
     walker = replace(walker, ground_steps=(ba.StepDown(1, 0.002),))
     s = compare(walker, walked(walker, gait, every=5), gait.constraint)

@@ -91,7 +91,7 @@ def test_the_closed_form_on_numbers_is_pinocchio_s(robot):
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), SampledTime(1e-3)], ids=["all", "ticks"])
 def test_a_plant_that_is_not_the_model(gait, timing):
     biped = ba.Biped.load("rabbit", friction=True)
-    heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"thigh": 1.15})
+    heavy = ba.ModelErrors(mass={"torso": 0.2}, inertia={"thigh": 0.15}).apply(biped)
     law = ba.ADRCController(gait.constraint)
     walker = Walker(heavy, law, timing=timing, model=biped, slope=0.05, torque_limit=150.0)
     loop_compiles(replace(walker, runaway_torque=math.inf), 200)
@@ -100,10 +100,13 @@ def test_a_plant_that_is_not_the_model(gait, timing):
 def test_one_compilation_serves_every_number(biped, gait):
     """Robots, gains, gaits and limits change K alone."""
     first = Program(0, numbers_of(Walker(biped, ba.NPDController(gait.constraint))))
-    bare = ba.Biped.load("rabbit", "tac2003").with_errors(mass={"torso": 1.3})
+    bare = ba.ModelErrors(mass={"torso": 0.3}).apply(ba.Biped.load("rabbit", "tac2003"))
     other = ba.NPDController(gait.constraint, ba.Gains(100.0, 20.0))
     second = Program(
-        0, numbers_of(Walker(biped.with_errors(mass={"shin": 0.9}), other, torque_limit=9.0))
+        0,
+        numbers_of(
+            Walker(ba.ModelErrors(mass={"shin": -0.1}).apply(biped), other, torque_limit=9.0)
+        ),
     )
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)

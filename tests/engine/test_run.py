@@ -142,7 +142,7 @@ def test_pushes(biped, gait, sampled):
 
 
 def test_a_plant_that_is_not_the_model_on_a_slope_and_under_a_limit(biped, gait):
-    plant = biped.with_errors(mass={"torso": 1.05}, inertia={"thigh": 1.2})
+    plant = ba.ModelErrors(mass={"torso": 0.05}, inertia={"thigh": 0.2}).apply(biped)
     walker = ba.Walker(plant, adrc(gait), model=biped, slope=0.02, torque_limit=90.0)
     same(*runs(walker, gait, ba.RK4(1e-3)), SHARP)
     pushed = replace(
@@ -414,7 +414,7 @@ def test_an_interrupt_is_not_lost(gait, ticked):
 def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
-    heavy = biped.with_errors(mass={"torso": 1.05})
+    heavy = ba.ModelErrors(mass={"torso": 0.05}).apply(biped)
     walker = replace(walker, plant=heavy, model=biped, slope=0.02)
     late = ba.SampledTime(1e-3, delay=0.4e-3)
     walker = replace(walker, timing=late, sensors=ba.Sensors(filter_time=2e-3))

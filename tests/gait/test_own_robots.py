@@ -155,6 +155,6 @@ def test_samples_that_are_no_step_of_this_robot(step, biped, change):
 
 def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
     """Without rates the curves fit, and the time of the step gives it away; with rates the impact does."""
-    heavy = biped.with_errors(mass={"torso": 3.0}, inertia={"torso": 3.0})
+    heavy = ba.ModelErrors(mass={"torso": 2.0}, inertia={"torso": 2.0}).apply(biped)
     with pytest.raises(ba.BipedError, match="masses"):
         ba.import_gait(step, heavy)

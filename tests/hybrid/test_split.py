@@ -16,8 +16,8 @@ ON_THE_TORSO = ba.TorquePulse([30.0, -20.0, 10.0, 5.0, 25.0], step=1, start=0.0,
 
 
 def heavier(biped):
-    factors = {"torso": 1.2, "thigh": 1.15}
-    return biped.with_errors(mass=factors, inertia=factors)
+    errors = {"torso": 0.2, "thigh": 0.15}
+    return ba.ModelErrors(mass=errors, inertia=errors).apply(biped)
 
 
 WALKERS = {

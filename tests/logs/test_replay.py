@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -64,6 +65,63 @@ def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
     assert np.std(np.diff(faster.v, axis=0)) > 2.0 * np.std(np.diff(x.v, axis=0))
     mixed = asked(walk, replace(log, measured=[0.0, 0.0, 0.0, 0.0, 1.0]))
     assert np.max(np.abs(x.torque - mixed.torque)[later]) < ROUND_OFF
+
+
+LEGS = "if the other leg stands"
+ANGLES, TORQUES = "all angles have the other sign", "all torques have the other sign"
+WRONG = {
+    LEGS: lambda log, R: {"q": log.q @ R.T, "u": log.u[:, [1, 0, 3, 2]]},
+    f"if {TORQUES}": lambda log, R: {"u": -log.u},
+    f"if {ANGLES}:": lambda log, R: {"q": -log.q},
+    f"if {ANGLES} and {TORQUES}": lambda log, R: {"q": -log.q, "u": -log.u},
+    "if all angles are in degrees": lambda log, R: {"q": np.degrees(log.q)},
+    "if all angles are in radians": lambda log, R: {"q": np.radians(log.q)},
+}
+"""What a log was taken for by mistake, and by which words it is refused."""
+OFF = {
+    f"errors.{what}.{body}": e
+    for what in ("mass", "inertia")
+    for body, e in (("torso", -0.3), ("thigh", 0.3), ("shin", 0.3))
+}
+LOGGED = {
+    "exact": {"hardware.period": 1e-3},
+    "encoders and a late motor": RABBIT | {"hardware.lag": 2e-3},
+    "masses 30 % off": RABBIT | OFF,
+    "noise": {**RABBIT, "hardware.encoders.noise": 5e-4},
+    "soft ground": {"hardware.period": 1e-3, "ground.plant": "mujoco"},
+    "a slow clock": {"controller.name": "PD", "hardware.period": 5e-3},
+}
+
+
+@pytest.mark.parametrize("values", LOGGED.values(), ids=LOGGED)
+def test_a_log_in_another_reading_is_refused_by_the_one_that_fits(walked, values):
+    walk = walked(**values)
+    log = replace(logged(walk), v=None, measured=None)
+    assert ba.replay(log, ba.Scenario("NPD")).remarks == ()
+    for said, change in WRONG.items():
+        wrong = replace(log, **change(log, walk.walker.nominal.R))
+        with pytest.raises(InputError, match=f"off {re.escape(said)}"):
+            ba.replay(wrong, ba.Scenario("NPD"))
+
+
+def test_a_log_that_fits_in_no_reading_has_a_remark(log):
+    """Columns in another order."""
+    (said,) = ba.replay(replace(log, u=log.u[:, ::-1]), ba.Scenario("NPD")).remarks
+    assert "look at the order, signs and units of its columns" in said
+
+
+def test_rates_that_the_log_has_not_begin_as_its_first_difference(log):
+    """Without a filter they are the difference of each two rows, and at the start that of the first two."""
+    bare = replace(log, v=None, measured=None)
+    x = ba.replay(bare, ba.Scenario("NPD"), filter_time=0.0).signals
+    rows = np.flatnonzero(np.diff(log.step) == 0.0)
+    slopes = np.diff(log.q, axis=0) / np.diff(log.t)[:, np.newaxis]
+    np.testing.assert_allclose(x.v[rows + 1], slopes[rows], atol=1e-9)
+    np.testing.assert_allclose(x.v[0], slopes[0], atol=1e-9)
+    some = replace(log, measured=[1.0, 0.0, 1.0, 0.0, 1.0])
+    y = ba.replay(some, ba.Scenario("NPD"), filter_time=0.0).signals
+    np.testing.assert_array_equal(y.v[:, ::2], log.v[:, ::2])
+    np.testing.assert_allclose(y.v[0, 1::2], slopes[0, 1::2], atol=1e-9)
 
 
 # -- disturbances that are known ---------------------------------------------------------------------

@@ -7,6 +7,7 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.physical import checks
+from biped_adrc.scenario.build import plant_of
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}
@@ -39,6 +40,22 @@ def test_the_energies_are_those_of_the_bodies_one_by_one(biped):
     T += 0.5 * biped.armature * v[:4] @ v[:4]
     assert wrong.kinetic_energy(q, v) == pytest.approx(T, rel=1e-8)
     assert wrong.potential_energy(q) == pytest.approx(V, rel=1e-12)
+
+
+def test_python_and_a_scenario_say_one_thing_alike(biped):
+    """Two tenths more of the torso's 12 kg are 14.4 kg."""
+    chosen = ba.ModelErrors(mass={"torso": 0.2}, inertia={"shin": -0.1})
+    plants = [
+        chosen.apply(biped),
+        plant_of(ba.Scenario(errors={"mass": chosen.mass, "inertia": {"shin": "-10 %"}}), biped),
+    ]
+    for plant in plants:
+        assert plant.mass - biped.mass == pytest.approx(0.2 * 12.0, abs=1e-12)
+        assert np.array_equal(plant.inertia(np.ones(5)), plants[0].inertia(np.ones(5)))
+    with pytest.raises(AttributeError, match="ModelErrors"):
+        _ = biped.with_errors
+    with pytest.raises(AttributeError, match=r"no attribute 'mas'$"):
+        _ = biped.mas
 
 
 L = 0.4  # [m], thigh and shin

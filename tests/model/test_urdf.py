@@ -1,13 +1,16 @@
 """Robots are read strictly: what is not physical is refused with one message that names it."""
 
+import shutil
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.errors import GaitError, InputError, ModelError, NotFiniteError
 from biped_adrc.core.files import data_folder
+from biped_adrc.gait.gait import gait_names
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.model.pinned import frame_index, reroot
 from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.robot_toml import robot_names
@@ -71,8 +74,7 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
         (lambda: ba.Biped.load("rabbit", "heavy"), "tac2003"),
         (lambda: biped.description.joint_index("q9"), "torso_pitch"),
         (lambda: frame_index(biped.pinned.model, "hand"), "hand"),
-        (lambda: biped.with_errors(mass={"arm": 2.0}), "arm"),
-        (lambda: biped.with_errors(mass={"torso": -1}), "torso"),
+        (lambda: ba.ModelErrors(mass={"arm": 1.0}).apply(biped), "arm"),
     ):
         with pytest.raises(ModelError, match=known):
             make()
@@ -92,6 +94,11 @@ def test_states_that_are_no_states(biped):
         ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "expected 5 finite numbers"),
         ("mass = 12.0", "mass = -12.0", "mass is -12"),
         ('unactuated = "torso_pitch"\n', "", "'unactuated' is missing"),
+        ('urdf = "floating.urdf"', 'urdf = "../floating.urdf"', "in its own folder or below"),
+        ('urdf = "floating.urdf"', 'urdf = "/proc/version"', "in its own folder or below"),
+        ('urdf = "floating.urdf"', 'urdf = "linked.urdf"', "in its own folder or below"),
+        ('"left_knee", "right_knee"]', '"left_knee", "left_knee"]', "a list of different names"),
+        ('["left_thigh", "right_thigh"]', '["left_thigh", "thigh"]', r"\['thigh'\] in its links"),
     ],
 )
 def test_bad_robot_record_is_refused(tmp_path, old, new, message):
@@ -100,8 +107,31 @@ def test_bad_robot_record_is_refused(tmp_path, old, new, message):
     assert old in text
     (tmp_path / "floating.urdf").write_text(FLOATING.read_text())
     (tmp_path / "robot.toml").write_text(text.replace(old, new, 1))
-    with pytest.raises(ModelError, match=message):
+    (tmp_path / "linked.urdf").symlink_to(FLOATING)
+    with pytest.raises(ba.BipedError, match=message):
         ba.Biped.load(tmp_path / "robot.toml")
+
+
+def test_a_robot_of_links_into_one_folder_loads(tmp_path):
+    """As installers make them that link files instead of copying."""
+    for name in ("floating.urdf", "robot.toml"):
+        (tmp_path / name).symlink_to(data_folder("urdf") / "rabbit" / name)
+    assert ba.Biped.load(tmp_path / "robot.toml").n == 5
+
+
+def test_a_name_of_a_robot_is_no_way_out_of_the_package(tmp_path, biped):
+    """A gait and a cycle in a folder by whose path the robot calls itself."""
+    shutil.copy(data_folder("gaits") / "rabbit" / "v0.5-identified.json", tmp_path)
+    for name in (str(tmp_path), "../rabbit", ".."):
+        named = replace(biped, description=replace(biped.description, name=name))
+        assert gait_names(name, "identified") == ()
+        with pytest.raises(GaitError, match="there is no gait"):
+            ba.load_gait("v0.5", named)
+    compass = ba.Biped.load("compass")
+    shutil.copy(data_folder("gaits") / "compass" / "goswami1998.toml", tmp_path)
+    elsewhere = replace(compass, preset=f"{tmp_path}/goswami1998")
+    with pytest.raises(GaitError, match="no walking cycle"):
+        passive_cycle(elsewhere)
 
 
 def test_twins_that_differ_are_named(biped):

@@ -2,6 +2,8 @@
 
 import copy
 import re
+import shutil
+import tomllib
 import xml.etree.ElementTree as ET
 from collections import Counter
 
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.files import data_folder
+from biped_adrc.core.files import data_folder, toml_key, toml_value
 from biped_adrc.model.robots.robot_toml import load_description
 
 NUMBERS = ("xyz", "rpy", "value", "lower", "upper", "effort", "ixx", "ixy", "ixz", "iyy", "izz")
@@ -106,3 +108,58 @@ def test_mutants_are_physical_or_refused(robot, derived, tmp_path):
     found = Counter(tried(robot, seed, tmp_path, derived) for seed in range(60))
     assert found["loaded"] > 0
     assert len(found) > 10, "the mutants are refused for many reasons"
+
+
+ODD = ("", "torso", "left_shn", "../x", 1, -1.0, 1e300, float("nan"), True, [], ["left_shin"], {})
+"""What a value of a record becomes: names that there are not, numbers, lists and tables."""
+
+
+def places(x, at=()):
+    """The keys to all values of nested tables and lists."""
+    pairs = x.items() if isinstance(x, dict) else enumerate(x) if isinstance(x, list) else ()
+    for key, y in pairs:
+        yield (*at, key)
+        yield from places(y, (*at, key))
+
+
+def inside(x, way):
+    for key in way:
+        x = x[key]
+    return x
+
+
+def edited(record, random):
+    """A record with one value gone, doubled, exchanged for another one's, or odd."""
+    record = copy.deepcopy(record)
+    ways = list(places(record))
+    (*way, last), other = (ways[random.integers(len(ways))] for _ in range(2))
+    table, kind = inside(record, way), random.integers(4)
+    if kind == 0:
+        del table[last]
+    elif kind == 1 and isinstance(table, list):
+        table.append(table[last])
+    else:
+        odd = ODD[random.integers(len(ODD))]
+        table[last] = odd if kind == 2 else copy.deepcopy(inside(record, other))
+    return record
+
+
+@pytest.mark.parametrize("robot", ["rabbit", "compass"])
+def test_edited_records_are_physical_or_refused(robot, tmp_path):
+    """Each refusal is one line that names the file."""
+    source, found = data_folder("urdf") / robot, Counter()
+    whole = tomllib.loads((source / "robot.toml").read_text())
+    shutil.copy(source / "floating.urdf", tmp_path)
+    file = tmp_path / "robot.toml"
+    for seed in range(80):
+        random = np.random.default_rng([seed, 2])
+        record = edited(whole, random)
+        file.write_text("\n".join(f"{toml_key(k)} = {toml_value(x)}" for k, x in record.items()))
+        try:
+            check_physical(ba.Biped.load(file, friction=True), random)
+            found["loaded"] += 1
+        except ba.BipedError as refused:
+            found[str(refused)] += 1
+    assert all(len(text.splitlines()) == 1 for text in found)
+    assert found["loaded"] > 0
+    assert len(found) > 20, "the records are refused for many reasons"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
+from biped_adrc.scenario.registry import REGISTRY, takes
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.scenario.walk import walk_scenario
@@ -110,9 +112,9 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
         ("controller.observer.bandwidth", "3 krad/s", 3000.0),
         ("start.q5", "90 deg", math.pi / 2),
         ("pushes.0.torque", "30 Nm", 30.0),
-        ("controller.K_p", "3 kN m/rad", 3000.0),
         ("controller.K_p", "3000 1/s^2", 3000.0),
-        ("errors.mass.torso", "110 %", 1.1),
+        ("controller.K_d", "0.1 1/ms", 100.0),
+        ("errors.mass.torso", "10 %", 0.1),
         ("run.impacts", "8", 8),
     ],
 )
@@ -146,10 +148,66 @@ def test_what_is_wrong_is_named(values, message) -> None:
         Scenario(**values)
 
 
+@pytest.mark.parametrize(
+    ("controller", "number"),
+    [
+        ({"name": "PD", "K_p": "3 kN m/rad"}, 3000.0),
+        ({"name": "super twisting", "slope": "0.05 1/ms"}, 50.0),
+        ({"name": "foot barrier", "tolerance": "3 mm"}, 3e-3),
+        ({"name": "stride PI", "inner": {"name": "PD", "K_d": "250 N m s/rad"}}, 250.0),
+        ({"name": "my_law:Mine", "width": "3 mm"}, 3e-3),
+        ({"name": "NPD", "K_p": "4900 ms"}, None),
+        ({"name": "NPD", "K_p": "4900 N m"}, None),
+        ({"name": "NPD", "K_p": "4900 N m/rad"}, None),
+        ({"name": "NPD", "K_d": "140 deg"}, None),
+        ({"name": "PD", "K_p": "4900 1/s^2"}, None),
+        ({"name": "npid", "K_i": "5e4 1/s^2"}, None),
+        ({"name": "foot barrier", "tolerance": "3 ms"}, None),
+        ({"observer": {"name": "Kalman", "drift": "3 rad/s"}}, None),
+        ({"feedforward": "1 s"}, None),
+    ],
+)
+def test_a_gain_has_the_unit_of_its_law_and_no_other(controller, number) -> None:
+    if number is None:
+        with pytest.raises(ba.BipedError, match=r"found .*, expected a (unit|number)"):
+            Scenario(controller)
+    else:
+        assert [*Scenario(controller).dotted().values()][-1] == pytest.approx(number, rel=1e-15)
+
+
+def test_a_whole_number_takes_no_unit() -> None:
+    for text in ("8 ms", "8 %", "8 rad"):
+        with pytest.raises(ba.BipedError, match=r"run.impacts: found .* without a unit"):
+            Scenario(run={"impacts": text})
+
+
+FROM_THE_SCENARIO = {
+    *("period", "gait", "biped", "reference", "torque_limit", "stones", "prediction", "feedforward")
+}
+"""Values that reach a part from fields of the scenario, which have their own units."""
+
+
+def test_each_number_of_a_packaged_part_has_a_unit() -> None:
+    """Those of the shapes of pushes but for noise are fields of a push."""
+    for kind in ("controller", "contact", "sensor", "touchdown"):
+        for name, entry in REGISTRY[kind].items():
+            assert not set(entry.units) - {"K_p", "K_d"} - set(takes(entry.load())), name
+            for value, parameter in takes(entry.load()).items():
+                number = re.search("loat", str(parameter.annotation))
+                if (
+                    number
+                    and value not in FROM_THE_SCENARIO
+                    and (kind, value) != ("contact", "window")
+                ):
+                    assert value in entry.units, (name, value)
+                    unit_of(entry.units[value] or "1")
+
+
 def test_every_value_is_known_by_its_name() -> None:
     for name in Scenario.names():
         what = Scenario.field_of(name)
-        unit_of(what.unit or "1")
+        if {float, tuple, dict} & set(what.types) and name != "pushes":
+            unit_of(what.unit)
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
             assert Scenario(**{name: what.default}) == Scenario()

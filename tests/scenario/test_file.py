@@ -15,7 +15,7 @@ SCENARIOS = [
     ba.Scenario(
         {"observer": {"poles": (-1.0, -2.0, -3.0)}, "text": 'x"y\n', "flag": True, "t": (1.0, 2)}
     ),
-    ba.Scenario(errors={"mass": {"the torso": 1.1}}, robot="three_link"),
+    ba.Scenario(errors={"mass": {"the torso": 0.1}}, robot="three_link"),
 ]
 
 

@@ -153,3 +153,25 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
     save(load(path), path, None, {**beside, "walker": json.dumps(record)})
     with pytest.raises(InputError, match=r"a\.npz"):
         ba.load_walk(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("q", lambda x: x[:1]),
+        ("u", lambda x: x.astype(str)),
+        ("t", lambda x: x.astype(str)),
+        ("xi", lambda x: x[:, :3]),
+        ("kinetic", lambda x: x[0]),
+        ("hip", lambda x: x[:, :1]),
+    ],
+)
+def test_signals_are_numbers_of_each_stored_time(name, change, biped, gait, tmp_path) -> None:
+    path = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).save(
+        tmp_path / "a.npz"
+    )
+    beside = load_beside(path)
+    assert ba.load_walk(save(load(path), path, None, beside)).impacts == 1
+    save(load(path), path, None, {**beside, f"signal.{name}": change(beside[f"signal.{name}"])})
+    with pytest.raises(InputError, match=f"signal {name} is .*expected numbers"):
+        ba.load_walk(path)

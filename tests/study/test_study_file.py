@@ -3,6 +3,7 @@
 import csv
 import math
 import sys
+from pathlib import Path
 
 import numpy as np
 import plants
@@ -12,7 +13,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.scenario import write_scenario
+from biped_adrc.scenario.scenario import read_scenario, write_scenario
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.space import Draw, Levels
@@ -68,6 +69,23 @@ def test_points_are_all_combinations_in_si_units(tmp_path):
         first, pushed = p.at["case"] == "first", p.at["condition"] == "pushed"
         assert s.hardware.torque_limit == (None if first else 150.0)
         assert s.pushes[0].onset == (0.1 if pushed else 0.05)
+
+
+def test_the_scenario_of_a_study_lies_beside_it(tmp_path):
+    """Files of the system are none that are read: some never end."""
+    (tmp_path / "below").mkdir()
+    (tmp_path / "base.toml").write_text('controller.name = "NPD"')
+    for name, why in (
+        ("../base.toml", "in its own folder"),
+        ("/proc/version", "in its own folder"),
+    ):
+        with pytest.raises(InputError, match=why):
+            read_study(written(tmp_path / "below", f'name = "x"\nscenario = "{name}"'))
+    (tmp_path / "below" / "base.toml").write_text('controller.name = "NPD"')
+    study = read_study(written(tmp_path / "below", 'name = "x"\nscenario = "base.toml"'))
+    assert study.base == {"controller.name": "NPD"}
+    with pytest.raises(InputError, match="not a regular file"):
+        read_scenario(Path("/proc/version"))
 
 
 def test_another_study_has_another_hash_and_another_description_has_not(tmp_path):

@@ -39,6 +39,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hardware.sample_hold import HeldSizes, read
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
+from biped_adrc.model.model_errors import ModelErrors
 
 PHASES = (0.15, 0.4, 0.65, 0.9)
 """Shares of the step's time at which a loop is linearised [1]; the first is after the impact's transient."""
@@ -107,8 +108,8 @@ def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
     d = plant.description
     legs = [link for link in d.links if link != d.trunk]
     for trunk, leg in ((-1, -1), (1, 1), (1, -1), (-1, 1)):
-        factors = {d.trunk: 1.0 + trunk * spread} | dict.fromkeys(legs, 1.0 + leg * spread)
-        yield plant.with_errors(mass=factors, inertia=factors)
+        errors = {d.trunk: trunk * spread} | dict.fromkeys(legs, leg * spread)
+        yield ModelErrors(errors, inertia=errors).apply(plant)
 
 
 def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) -> FrozenPoint:

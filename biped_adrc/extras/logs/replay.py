@@ -45,6 +45,7 @@ from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.extras.logs.log_file import read_log
+from biped_adrc.extras.logs.reading import check_reading
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -208,7 +209,7 @@ class Replay(Shown):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences on columns that were converted or ignored, and on resampling."""
+        """Sentences on columns that were converted or ignored, on a log that fits badly, and on resampling."""
         return self.log.remarks
 
     @cached_property
@@ -282,7 +283,7 @@ def replay(
     The period is that of the scenario, or the log's where the scenario has none; a log with another period, or
     an uneven one, is resampled, and the remarks say so. window [s]: time after a touchdown that counts as
     contact. filter_time [s]: of rates that the log does not have; the scenario's if None. Raises InputError
-    for a log or a scenario that cannot be used.
+    for a log or a scenario that cannot be used, and for a log that fits the model in another reading.
 
     >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
@@ -303,6 +304,8 @@ def replay(
             f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
             f"'{scenario.robot.name}'"
         )
+    remarks = *result.remarks, *check_reading(result, scene.biped)
+    result = replace(result, remarks=remarks)
     period = scenario.hardware.period or result.period
     if not result.even(period):
         result = result.resampled(period)

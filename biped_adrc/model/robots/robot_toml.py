@@ -36,7 +36,7 @@ from typing import Any
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError, check_positive
-from biped_adrc.core.files import data_folder, reading
+from biped_adrc.core.files import beside, data_folder, reading
 from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.model.robots.urdf_reader import read
@@ -164,6 +164,10 @@ class RobotDescription(Shown):
                 # the moments about x and z do not enter planar motion
                 moments = (p.inertia, 0.0, 0.0, p.inertia, 0.0, 0.05 * p.inertia)
                 inertials[link] = Inertial(p.mass, (0.0, 0.0, p.com), moments)
+        if unknown := sorted(set(inertials) - set(tree.links)):
+            raise ModelError(
+                f"robot '{self.name}' has {unknown} in its links, the URDF has {list(tree.links)}"
+            )
         return tree.with_inertials(inertials)
 
 
@@ -197,43 +201,78 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        friction, ranges = data.get("friction", {}), data.get("ranges", {})
-        actuated, passive = tuple(data["actuated"]), tuple(data.get("passive", ()))
+        friction, ranges = (_table(key, data.get(key, {})) for key in ("friction", "ranges"))
+        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in ("viscous", "static"))
+        _numbers("friction", rubs := [*viscous.values(), *static.values()], len(rubs), 0.0)
+        actuated, base = (_names(key, data[key]) for key in ("actuated", "base"))
+        passive = _names("passive", data.get("passive", ()))
         joints = (*actuated, *passive, data["unactuated"])
-        names = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
-        if unknown := sorted(set(ranges) - set(joints)):
-            raise ValueError(f"ranges names {unknown}, the joints are {list(joints)}")
+        _names("the list of all joints", (*joints, *base))
+        if len(base) != 2:
+            raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
+        texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
+        for key, table in (("ranges", ranges), ("friction", viscous | static)):
+            if unknown := sorted(set(table) - set(joints)):
+                raise ValueError(f"{key} names {unknown}, the joints are {list(joints)}")
         phase = _numbers("phase", data["phase"], len(joints))
         if phase[-1] == 0.0:
             raise ValueError(f"phase is {list(phase)}; the last number must not be 0")
         return RobotDescription(
-            **{name: data[name] for name in names},
-            urdf=path.parent / data["urdf"],
+            **{key: _name(key, data[key]) for key in texts},
+            urdf=beside(path, data["urdf"]),
             actuated=actuated,
             passive=passive,
-            base=(data["base"][0], data["base"][1]),
-            trunk=data.get("trunk", data["hip"]),
+            base=(base[0], base[1]),
+            trunk=_name("trunk", data.get("trunk", data["hip"])),
             phase=phase,
             offset=_numbers("offset", data.get("offset", [0.0] * len(joints)), len(joints)),
             peak_torque=_positive(data["peak_torque"], "peak_torque"),
             friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
             gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
-            viscous=dict(friction.get("viscous", {})),
-            static=dict(friction.get("static", {})),
-            links={body: tuple(links) for body, links in data["links"].items()},
-            presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
+            viscous=viscous,
+            static=static,
+            links={
+                body: _names(f"links.{body}", x)
+                for body, x in _table("links", data["links"]).items()
+            },
+            presets={
+                name: _preset(name, _table(f"presets.{name}", x), data)
+                for name, x in _table("presets", data["presets"]).items()
+            },
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
         )
+
+
+def _name(key: str, value: object) -> str:
+    """Check a name or a text. Raises ValueError that names the key."""
+    if not isinstance(value, str):
+        raise ValueError(f"{key} is {value!r}, expected a text")
+    return value
+
+
+def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
+    """Check a list of different names. Raises ValueError that names the key."""
+    if not isinstance(values, list | tuple) or len(set(map(str, values))) < len(values):
+        raise ValueError(f"{key} is {values!r}, expected a list of different names")
+    return tuple(_name(f"a name in {key}", x) for x in values)
+
+
+def _table(key: str, value: object) -> Mapping[str, Any]:
+    """Check a table. Raises ValueError that names the key."""
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{key} is {value!r}, expected a table")
+    return value
 
 
 def _numbers(
     key: str, values: Sequence[float], count: int, least: float = -math.inf
 ) -> tuple[float, ...]:
     """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
-    numbers = tuple(float(c) for c in values)
+    row = values if isinstance(values, list | tuple) else ()
+    numbers = tuple(float(x) if isinstance(x, int | float) else math.nan for x in row)
     if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
         above = f", at least {least:g}" if math.isfinite(least) else ""
-        raise ValueError(f"{key} is {list(values)}, expected {count} finite numbers{above}")
+        raise ValueError(f"{key} is {values!r}, expected {count} finite numbers{above}")
     return numbers
 
 
@@ -251,18 +290,18 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
     """
     bodies, where = {}, f"presets.{name}"
     for body in data["links"] if any(body in record for body in data["links"]) else ():
-        p = record[body]
+        p = _table(f"{where}.{body}", record[body])
         bodies[body] = BodyParameters(
             _positive(p["mass"], f"{where}.{body}.mass"),
-            float(p["com"]),
+            *_numbers(f"{where}.{body}.com", [p["com"]], 1),
             _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
     (armature,) = _numbers(f"{where}.armature", [record["armature"]], 1, least=0.0)
-    return Preset(name, record["source"], armature, bodies)
+    return Preset(name, _name(f"{where}.source", record["source"]), armature, bodies)
 
 
 def _positive(value: object, what: str) -> float:
     """Check that a value is a number above zero. Raises InputError that names it by `what`."""
-    number = float(value)  # type: ignore[arg-type]
+    (number,) = _numbers(what, [value], 1)
     check_positive(number, f"{what} is {value}")
     return number

@@ -1,0 +1,92 @@
+"""Which reading of a log fits the model: as it stands, with the legs exchanged, other signs, or degrees.
+
+On windows of single support the momentum D q' of the pinned robot changes by the impulses that act on it:
+
+    Delta(D q') = integral of (C' q' - G + B u) dt,     r = |left - right| / |D q', C' q' - G, B u|
+
+with q' from differences of the angles. r is about 0.1 for the right reading on exact sensors, 0.5 with
+encoders, friction and masses that are 30 % off, and 0.9 or more for a wrong one. The mirror image of a walk,
+angles and torques with the other sign, fits as well, but its swing foot lands behind the stance foot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
+from biped_adrc.extras.logs.log_file import exchanged
+from biped_adrc.extras.logs.robot_log import RobotLog
+from biped_adrc.model.biped import Biped
+
+HALF, WINDOW = 0.01, 0.04
+"""Half of the interval of differences, in which encoder steps are small, and the length of a window [s]."""
+FITS, POOR = 1.25, 0.8
+"""Ratio of r from which on another reading is meant; r above which none is trusted."""
+
+
+def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
+    """A remark where no reading of the log fits the model; a log that is too short has none.
+
+    Raises InputError where another reading fits better than the log as it stands, with its name.
+    """
+    fits = list(_fits(log, biped))
+    if not fits:
+        return ()
+    behind, r, _ = fits[0]
+    ahead, least, words = min(fits, key=lambda fit: (fit[0], round(fit[1], 2)))
+    lands = ", and the swing foot lands behind the stance foot" if behind else ""
+    off = f"the log is {r:.0%} off the model's balance of momentum{lands}"
+    if least > POOR:
+        return (f"{off}; look at the order, signs and units of its columns, and at its noise",)
+    if behind > ahead or r > FITS * least:
+        raise InputError(f"{off}; it is {least:.0%} off if {words}: change that")
+    return ()
+
+
+def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
+    """Iterate over the readings, the log as it stands first; none where no window fits into a support.
+
+    Each is whether the swing foot lands behind the stance foot, r, and words for it. Before a touchdown a walk
+    and its mirror image are not told apart.
+    """
+    half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
+    begins = np.arange(half, len(log.t) - rows - half)
+    begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]
+    begins = begins[:: len(begins) // 60 + 1]  # evenly over a long log
+    other = exchanged(np.full(len(log.t), 2.0), log.q, log.rates, log.u, biped)
+    readings = {
+        "": (log.q, log.u),
+        "the other leg stands (exchange 1 and 2 of 'contact')": (other[0], other[2]),
+        "all angles have the other sign": (-log.q, log.u),
+        "all angles are in degrees ('q1 [deg]')": (np.radians(log.q), log.u),
+        "all angles are in radians ('q1 [rad]')": (np.degrees(log.q), log.u),
+    }
+    for words, (q, u) in readings.items() if len(begins) else ():
+        ahead = [biped.swing_foot(q[k])[0] for k in np.flatnonzero(np.diff(log.step))] or [0.0]
+        free, driven = _impulses(log.t, q, u, biped, begins, half, rows)
+        whole = float(np.sum(free**2 + driven**2)) or 1.0
+        for sign, also in ((1.0, ""), (-1.0, "all torques have the other sign")):
+            r = float(np.sum((free - sign * driven) ** 2) / whole) ** 0.5
+            yield bool(np.median(ahead) < 0.0), r, " and ".join(filter(None, (words, also)))
+
+
+def _impulses(
+    t: Array, q: Array, u: Array, biped: Biped, begins: Array, half: int, rows: int
+) -> tuple[Array, Array]:
+    """Delta(D q') - integral of (C' q' - G) dt, and the integral of B u dt, (M, n) each [N m s].
+
+    Of windows of `rows` rows from those in `begins` (M,) on; q' is the difference over `half` rows on each
+    side.
+    """
+    free, driven = np.zeros((2, len(begins), biped.n))
+    for i, k in enumerate(begins):
+        at = np.linspace(k, k + rows, 5).round().astype(int)
+        v = (q[at + half] - q[at - half]) / (t[at + half] - t[at - half])[:, np.newaxis]
+        own = [biped.coriolis(x, w).T @ w - biped.gravity(x) for x, w in zip(q[at], v, strict=True)]
+        change = biped.inertia(q[at[-1]]) @ v[-1] - biped.inertia(q[k]) @ v[0]
+        free[i] = change - np.trapezoid(own, t[at], axis=0)
+        driven[i, : biped.p] = np.mean(u[k : k + rows], axis=0) * (t[k + rows] - t[k])
+    return free, driven
