@@ -210,6 +210,19 @@ def test_paired_ratios_against_a_closed_form():
     assert share(8, 10) == pytest.approx((0.8, 0.4902, 0.9433), abs=1e-4)
 
 
+def test_equal_numbers_have_no_sign_and_one_walk_no_interval():
+    """Zeros on both sides are a tie; the next float is none, though its ratio rounds to 1."""
+    assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[0].value == 1.0
+    assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[1:] == (1.0, 3)
+    y = np.array([1.9] * 6)
+    x = np.nextafter(y, 2.0)
+    assert paired(x.tolist(), y.tolist()).p == 2.0**-5
+    assert paired([-1.0] * 6, [-2.0] * 6).p == 2.0**-5
+    one = paired([1.0], [2.0])
+    assert (one.ratio.value, one.pairs) == (0.5, 1)
+    assert np.isnan((one.p, *one.ratio[1:], *share(1, 1)[1:], *median([1.0])[1:])).all()
+
+
 TABLE = {
     "name": "table",
     "base": {"controller.pause": 0.0},
