@@ -101,6 +101,15 @@ def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
     assert marked.exists()
 
 
+def test_workers_that_die_now_and_then_do_not_end_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "MOST_CRASHED", 2)
+    cases = {x: {"controller.x": x, "controller.of": 0} for x in "abc"}
+    base = {"controller.pause": 0.0, "controller.kill": 5}
+    study = {"name": "some", "base": base, "cases": cases, "grid": {"run.impacts": [5, 6]}}
+    found = ba.study(study, tmp_path, 1, function=plants.rows)
+    assert [row["status"] for row in found.rows()] == ["CRASHED", "COMPLETED"] * 3
+
+
 def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
     base = {"controller.pause": 0.0, "controller.of": 0, "controller.kill": 5}
