@@ -2,10 +2,12 @@
 
 A share has Wilson's interval (J. Am. Stat. Assoc. 22, 1927); a median that of the order statistics, which is
 exact for any distribution and takes infinite numbers; a paired ratio that of its median, and the sign test.
+One walk has a number and no interval, one pair no p-value.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -26,6 +28,8 @@ class Interval(NamedTuple):
 
 def share(successes: int, count: int) -> Interval:
     """Share of `successes` among `count` walks, at least one, with Wilson's interval."""
+    if count == 1:
+        return Interval(float(successes), math.nan, math.nan)
     result = scipy.stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
     return Interval(successes / count, float(result.low), float(result.high))
 
@@ -42,7 +46,8 @@ class Paired(NamedTuple):
     ratio: Interval
     """Median of the ratios, with its interval."""
     p: float
-    """p-value of the sign test: probability of as many ratios on one side of 1, were both equally likely."""
+    """p-value of the sign test: probability of as many differences of one sign, were both equally likely.
+    Equal numbers have no sign; NaN of one pair."""
     pairs: int
     """Number of pairs with a ratio: those without an infinite number on both sides."""
 
@@ -50,17 +55,14 @@ class Paired(NamedTuple):
 def paired(x: Sequence[float], y: Sequence[float]) -> Paired | None:
     """Compare two series of positive numbers or infinity, of the same walks, by their ratios x / y.
 
-    None where no pair has a ratio.
+    Equal numbers have the ratio 1, zeros too. None where no pair has a ratio.
     """
-    with np.errstate(invalid="ignore", divide="ignore"):
-        r = np.divide(x, y)
-    r = r[~np.isnan(r)]
-    if not r.size:
+    pairs = [(a, b) for a, b in zip(x, y, strict=True) if a != b or math.isfinite(a)]
+    if not pairs:
         return None
-    apart = r[r != 1.0]
-    p = (
-        float(scipy.stats.binomtest(int(np.sum(apart < 1.0)), apart.size).pvalue)
-        if apart.size
-        else 1.0
-    )
-    return Paired(median(r.tolist()), p, r.size)
+    a, b = np.array(pairs).T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        r = np.where(a == b, 1.0, a / b)
+    less, apart = int(np.sum(a < b)), int(np.sum(a != b))
+    p = float(scipy.stats.binomtest(less, apart).pvalue) if apart else 1.0
+    return Paired(median(r.tolist()), p if len(pairs) > 1 else math.nan, len(pairs))
