@@ -58,8 +58,8 @@ class Biped(Shown):
     """Links and joints as in the URDF, with the masses of the preset, rooted at the planar base."""
     preset: str
     """Name of the parameter set."""
-    armature: float
-    """Rotor inertia of every motor, reflected to its joint [kg m^2]."""
+    armature: float | tuple[float, ...]
+    """Rotor inertia of every motor, or of each one, reflected to its joint [kg m^2]."""
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
 

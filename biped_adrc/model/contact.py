@@ -69,7 +69,7 @@ class FloatingDynamics:
     [rad/s] are the paper's coordinates; m = n + 2 is the number of Pinocchio's velocities.
     """
 
-    def __init__(self, tree: Tree, d: RobotDescription, armature: float):
+    def __init__(self, tree: Tree, d: RobotDescription, armature: float | tuple[float, ...]):
         """Build the model of a tree with the armature [kg m^2] at every motor of the record `d`."""
         self.model = build(tree, d, armature)
         self.data = self.model.createData()

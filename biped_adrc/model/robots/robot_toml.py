@@ -65,8 +65,8 @@ class Preset:
     name: str
     source: str
     """Origin of the numbers."""
-    armature: float
-    """Rotor inertia per actuated joint, reflected to it [kg m^2]."""
+    armature: float | tuple[float, ...]
+    """Rotor inertia per actuated joint, reflected to it [kg m^2]; one number, or one for each motor."""
     bodies: Mapping[str, BodyParameters]
     """Parameters by class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
@@ -257,8 +257,11 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
             float(p["com"]),
             _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
-    (armature,) = _numbers(f"{where}.armature", [record["armature"]], 1, least=0.0)
-    return Preset(name, record["source"], armature, bodies)
+    rotors = record["armature"]
+    each = rotors if isinstance(rotors, list | tuple) else [rotors]
+    count = len(data["actuated"]) if each is rotors else 1
+    armature = _numbers(f"{where}.armature", each, count, least=0.0)
+    return Preset(name, record["source"], armature if each is rotors else armature[0], bodies)
 
 
 def _positive(value: object, what: str) -> float:
