@@ -23,14 +23,14 @@ import pinocchio as pin
 
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
 
 XZ = [0, 2]
 """The plane of motion among Pinocchio's axes x, y, z."""
 
 
-def build(tree: Tree, d: RobotDescription, armature: float | tuple[float, ...]) -> pin.Model:
+def build(tree: Tree, d: RobotDescription, armature: Rotors) -> pin.Model:
     """Make the Pinocchio model of `tree`, with rotor inertia `armature` [kg m^2] at
     every motor, or one number for each, and its gravity.
     """
@@ -81,13 +81,7 @@ class PinnedDynamics:
     tree's coordinates and `inverse` back, `swing` and `hip` are frame indices. `Biped` has the dynamics.
     """
 
-    def __init__(
-        self,
-        tree: Tree,
-        d: RobotDescription,
-        stance_chain: Array,
-        armature: float | tuple[float, ...],
-    ):
+    def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: Rotors):
         """Build the model; `stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates.
 
         Raises ModelError when the tree and the record have different numbers of coordinates.

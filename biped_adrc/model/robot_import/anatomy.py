@@ -25,16 +25,9 @@ import numpy as np
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.model.pinned import reroot
-from biped_adrc.model.robot_import.base import PlanarBase, added, free_name
-from biped_adrc.model.robots.urdf import (
-    Joint,
-    Link,
-    Note,
-    Tree,
-    absolute_angles,
-    bodies_between,
-    way,
-)
+from biped_adrc.model.robot_import.base import PlanarBase, added
+from biped_adrc.model.robots import urdf
+from biped_adrc.model.robots.urdf import Joint, Note, Tree
 
 _FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""
@@ -109,14 +102,14 @@ def on_feet(
         feet, sentence = _guessed_feet(body)
         body = body.noting(Note("assumed", sentence))
     known = len(feet) == 2 and set(feet) <= set(body.tree.links)
-    if not known or len(bodies_between(body.tree, (feet[0], feet[1]))) == 1:
+    if not known or len(urdf.bodies_between(body.tree, (feet[0], feet[1]))) == 1:
         raise ModelError(
             f"URDF '{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
             f"other, the stance foot first, by feet=(...) or --feet; the ends of the tree are {_ends(body)}"
         )
     pair = feet[0], feet[1]
     for ends in (pair, pair[::-1]):
-        body = _on_point(body, ends[0], way(body.tree, ends), actuated)
+        body = _on_point(body, ends[0], urdf.way(body.tree, ends), actuated)
     return _upright(body, pair)
 
 
@@ -134,7 +127,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
     Raises ModelError where neither rule gives exactly two.
     """
     ends = _ends(body)
-    apart = {pair: len(bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
+    apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
     most = max(apart.values(), default=0)
     farthest = [pair for pair, count in apart.items() if count == most]
     named = tuple(end for end in ends if _FOOT_NAMES.search(end))
@@ -179,18 +172,12 @@ def _upright(body: PlanarBase, feet: tuple[str, str]) -> tuple[PlanarBase, tuple
 
     A foot at the old root keeps its place by a link without mass, since `reroot` moves the frames of links.
     """
-    bodies, tree = bodies_between(body.tree, feet), body.tree
+    bodies, tree = urdf.bodies_between(body.tree, feet), body.tree
     middle = [*bodies[(len(bodies) - 1) // 2], *bodies[len(bodies) // 2]]
     if body.trunk in middle or not any(body.trunk in links for links in bodies):
         return body, feet
     if body.trunk in feet:
-        tip = free_name(tree, f"{body.trunk}_tip")
-        mount = Joint(
-            free_name(tree, f"{tip}_mount"), "fixed", body.trunk, tip, (0.0,) * 3, (1.0, 0.0, 0.0)
-        )
-        tree = replace(
-            tree, links={**tree.links, tip: Link(tip, None, ())}, joints=(*tree.joints, mount)
-        )
+        tree, tip = urdf.with_tip(tree, body.trunk, (0.0, 0.0, 0.0))
         feet = (tip, feet[1]) if feet[0] == body.trunk else (feet[0], tip)
     heaviest = max(middle, key=lambda link: getattr(tree.links[link].inertial, "mass", 0.0))
     turned = reroot(tree, heaviest, body.trunk)
@@ -267,6 +254,6 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
     points.append(position(tree, hip))
     lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
     counter_clockwise = -joints[-1].axis[1]
-    rows = absolute_angles(tree, tuple(joint.name for joint in joints), links)
+    rows = urdf.absolute_angles(tree, tuple(joint.name for joint in joints), links)
     c: Array = counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
     return c

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, text_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
 _Y = 1
@@ -158,13 +158,6 @@ def added(
     text = f"base: '{x}', '{z}' and the pitch '{pitch}' ({turns}) were put above the trunk '{root}'"
     tree = replace(tree, links=links, joints=joints + tree.joints)
     return PlanarBase(tree, (x, z), pitch, root, (Note("assumed", text),))
-
-
-def free_name(tree: Tree, name: str) -> str:
-    """The name itself, or with underscores appended until no link or joint of the tree has it."""
-    while name in tree.links or any(joint.name == name for joint in tree.joints):
-        name += "_"
-    return name
 
 
 def _check_below(on_base: PlanarBase) -> None:

@@ -48,9 +48,9 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.physical import checks
 from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
-from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, pairs, to_xml
-from biped_adrc.model.robots.urdf_reader import Contents, read, tip_of
+from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, pairs, to_xml, with_tip
+from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
@@ -131,7 +131,7 @@ def record_of(
     parts: Anatomy,
     actuated: tuple[str, ...],
     torque: float,
-    armature: float | tuple[float, ...],
+    armature: Rotors,
     hints: Hints,
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
@@ -271,13 +271,23 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:
-    """Read the URDF; also returns the feet: those of the hints, or links added at
+    """Read the file; also returns the feet: those of the hints, or links added at
     their tips. Raises ModelError.
     """
-    if hints.tip is not None and hints.feet is None:
-        raise ModelError(f"URDF '{path}': give the links with this tip by feet=(...) or --feet")
-    tips = {} if hints.tip is None else dict.fromkeys(hints.feet or (), hints.tip)
-    return read(path, tips), tuple(map(tip_of, tips)) or hints.feet
+    reading, feet = read(path), hints.feet
+    if hints.tip is None:
+        return reading, feet
+    if feet is None or not set(feet) <= set(reading.tree.links):
+        raise ModelError(
+            f"URDF '{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
+            f"are {list(reading.tree.links)}"
+        )
+    tree, tips = reading.tree, []
+    for foot in feet:
+        x, y, z = (reading.turns[foot] @ np.array(hints.tip)).tolist()
+        tree, tip = with_tip(tree, foot, (x, y, z))
+        tips.append(tip)
+    return replace(reading, tree=tree), tuple(tips)
 
 
 # -- motors ----------------------------------------------------------------------------------------
@@ -327,7 +337,7 @@ def _torque(
 
 def _armature(
     reading: Contents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[float | tuple[float, ...], tuple[Note, ...]]:
+) -> tuple[Rotors, tuple[Note, ...]]:
     """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
 
     The rotor of a joint without a motor is left out.

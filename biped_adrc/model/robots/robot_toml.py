@@ -41,6 +41,9 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.model.robots.urdf_reader import read
 
+Rotors = float | tuple[float, ...]
+"""Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
+
 
 @dataclass(frozen=True)
 class BodyParameters:
@@ -65,7 +68,7 @@ class Preset:
     name: str
     source: str
     """Origin of the numbers."""
-    armature: float | tuple[float, ...]
+    armature: Rotors
     """Rotor inertia per actuated joint, reflected to it [kg m^2]; one number, or one for each motor."""
     bodies: Mapping[str, BodyParameters]
     """Parameters by class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""

@@ -167,6 +167,22 @@ class Tree(Shown):
         return replace(self, links=links)
 
 
+def with_tip(tree: Tree, link: str, place: Vector) -> tuple[Tree, str]:
+    """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name."""
+    tip = free_name(tree, f"{link}_tip")
+    mount = free_name(tree, f"{tip}_mount")
+    joint = Joint(mount, "fixed", link, tip, place, (1.0, 0.0, 0.0))
+    links = {**tree.links, tip: Link(tip, None, ())}
+    return replace(tree, links=links, joints=(*tree.joints, joint)), tip
+
+
+def free_name(tree: Tree, name: str) -> str:
+    """The name itself, or with underscores appended until no link or joint of the tree has it."""
+    while name in tree.links or any(joint.name == name for joint in tree.joints):
+        name += "_"
+    return name
+
+
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `urdf_reader.read` of it gives the same tree back.
 

@@ -19,7 +19,7 @@ MOST_LINKS = 200
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-_OTHER_FORMATS = {"mujoco": "MJCF", "mujocoinclude": "a part of an MJCF", "sdf": "SDF"}
+_FORMATS = {"mujoco": "MJCF, <mujoco>", "sdf": "SDF, <sdf>"}
 
 
 def parse(path: Path | str) -> ET.Element:
@@ -38,11 +38,9 @@ def parse(path: Path | str) -> ET.Element:
             element.tag = element.tag.removeprefix(space)
         count = len(root.findall("link"))
         if root.tag != "robot" or count > MOST_LINKS:
-            other = _OTHER_FORMATS.get(root.tag, "of another format")
+            what = _FORMATS.get(root.tag, f"<{root.tag}>")
             raise ValueError(
-                f"<{root.tag}> with {count} links"
-                + (f" is {other}" if root.tag != "robot" else "")
-                + f", expected a URDF, <robot> with at most {MOST_LINKS} links"
+                f"{what} with {count} links, expected a URDF, <robot> with at most {MOST_LINKS} links"
             )
     return root
 

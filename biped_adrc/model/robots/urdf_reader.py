@@ -13,8 +13,8 @@ Shapes that are meshes or stand oblique after the turn are not kept: the tree ha
 
 Kept beside the tree are <limit effort lower upper>, the friction <dynamics damping friction>, and the
 inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, from <transmission>
-(`mechanicalReduction` and `motorInertia`, or Drake's `gear_ratio` and `rotor_inertia`). Every ModelError names
-the file, the element, what was found and what was expected.
+(`mechanicalReduction`, 1 if missing, and `motorInertia`). Every ModelError names the file, the element,
+what was found and what was expected.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ import pinocchio as pin
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
+from biped_adrc.model.robots import urdf_elements as xml
 from biped_adrc.model.robots.urdf import (
     FREE,
     GEOMETRY_SIZES,
@@ -47,15 +48,6 @@ from biped_adrc.model.robots.urdf import (
     Visual,
     check_inertial,
 )
-from biped_adrc.model.robots.urdf_elements import (
-    LARGEST,
-    by_joint,
-    name_of,
-    numbers,
-    parse,
-    place_of,
-    required,
-)
 
 PLANAR = 1e-4
 """Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
@@ -66,8 +58,6 @@ _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dime
 _UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
 _SLENDER = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05])  # moments of a link along z over its iyy
 _CIRCULAR = ("revolute", "continuous")
-_SLIDING = ("prismatic", "planar", "floating")
-_GEARS, _ROTORS = ("mechanicalReduction", "gear_ratio"), ("motorInertia", "rotor_inertia")
 _USED = re.compile(
     "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
 )
@@ -89,19 +79,15 @@ class Contents:
     """Static friction [N m], where <dynamics friction> is given."""
     rotor: Mapping[str, float]
     """Inertia of the rotor, reflected to the joint [kg m^2], where the file has one."""
+    turns: Mapping[str, Array]
+    """Rotation (3, 3) by link, from the axes that it has in the file to those of the world."""
     notes: tuple[Note, ...]
     """What was assumed and left out."""
 
 
-def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Contents:
-    """Read and check a URDF.
-
-    tips: link -> a place in its own frame [m] where a link without mass, `LINK_tip`, is added: a foot for legs
-    that end with a shin. Raises ModelError.
-    """
-    robot, file = parse(path), f"URDF '{path}'"
-    for link, place in (tips or {}).items():
-        _add_tip(robot, link, place)
+def read(path: Path | str) -> Contents:
+    """Read and check a URDF. Raises ModelError."""
+    robot, file = xml.parse(path), f"URDF '{path}'"
     movers = robot.findall("joint")
     ends = [_ends(joint, file) for joint in movers]
     names = {link.get("name") for link in robot.findall("link")}
@@ -109,7 +95,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Contents
         ET.SubElement(robot, "link", name="world")
     bodies = robot.findall("link")
     for (tag, name), count in Counter(
-        (e.tag, name_of(e, file)) for e in (*bodies, *movers)
+        (e.tag, xml.name_of(e, file)) for e in (*bodies, *movers)
     ).items():
         if count > 1:
             raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
@@ -118,115 +104,70 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> Contents
     yaw = _yaw(movers, ends, turns, file)
     if yaw:
         turns = _turns(order, movers, ends, file, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
-    still = _still(robot, movers, ends)
-    links = {link.get("name", ""): _link(link, file, turns) for link in bodies}
+    moved = {child for _, child in ends}
+    links = {link.get("name", ""): _link(link, file, turns, moved) for link in bodies}
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    low, high = (by_joint(turning, "limit", key, file, -LARGEST) for key in ("lower", "upper"))
+    low, high = (
+        xml.by_joint(turning, "limit", key, file, -xml.LARGEST) for key in ("lower", "upper")
+    )
     return Contents(
-        Tree(name_of(robot, file), links, joints, str(path)),
-        by_joint(turning, "limit", "effort", file),
+        Tree(xml.name_of(robot, file), links, joints, str(path)),
+        xml.by_joint(turning, "limit", "effort", file),
         {
             name: (low[name], high[name])
             for name in low
             if name in high and 0.0 < high[name] - low[name] < 2.0 * math.pi
         },
-        by_joint(turning, "dynamics", "damping", file),
-        by_joint(turning, "dynamics", "friction", file),
+        xml.by_joint(turning, "dynamics", "damping", file),
+        xml.by_joint(turning, "dynamics", "friction", file),
         _rotors(robot, file),
-        _notes(robot, links, still, yaw),
+        turns,
+        _notes(robot, links, yaw),
     )
 
 
-def _still(robot: ET.Element, joints: list[ET.Element], ends: list[tuple[str, str]]) -> set[str]:
-    """Links that cannot move: "world", and a root on which a base slides; their masses are not the robot's.
-
-    They are taken off the elements, so that nothing checks them; the result names those that had masses.
-    """
-    children = {child for _, child in ends}
-    bases = {a for j, (a, _) in zip(joints, ends, strict=True) if j.get("type") in _SLIDING}
-    heavy = set()
-    for link in robot.findall("link"):
-        name = link.get("name", "")
-        if name not in children and (name == "world" or name in bases):
-            for body in link.findall("inertial"):
-                link.remove(body)
-                heavy.add(name)
-    return heavy
-
-
-def _notes(
-    robot: ET.Element, links: Mapping[str, Link], still: set[str], yaw: float
-) -> tuple[Note, ...]:
+def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
     """What was assumed of a URDF, and what of it was left out."""
     bodies = robot.findall("link")
-    points = [
-        e.get("name")
-        for e in bodies
-        if e.find("inertial") is not None and e.find("inertial/inertia") is None
-    ]
-    undrawn = [
-        link.name
-        for e, link in zip(bodies, links.values(), strict=True)
-        if len(e.findall("visual")) > len(link.visuals)
-    ]
+    heavy = {link.get("name"): e for link in bodies if (e := link.find("inertial")) is not None}
+    points = [name for name, e in heavy.items() if e.find("inertia") is None]
+    frames = [name for name in heavy if name and links[name].inertial is None]
+    shapes = zip(bodies, links.values(), strict=True)
+    undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
     other = Counter(tag for tag in parts if not _USED.fullmatch(tag))
-    return tuple(
-        Note(kind, text)
-        for kind, text, applies in (
-            (
-                "assumed",
-                f"direction: turned by {math.degrees(yaw):g} deg about z, so that axes are y",
-                yaw,
-            ),
-            ("assumed", f"masses of {points}: points, as they have no <inertia>", points),
-            ("left out", f"masses of {sorted(still)}, which do not move", still),
-            ("left out", f"shapes of {undrawn}: meshes, or primitives that stand oblique", undrawn),
-            ("left out", ", ".join(f"<{tag}> x {k}" for tag, k in other.items()), other),
-        )
-        if applies
+    notes = (
+        ("assumed", yaw, f"direction: turned about z by {yaw:g} rad, so that axes are y"),
+        ("assumed", points, f"masses of {points}: points, as they have no <inertia>"),
+        ("left out", frames, f"<inertial> of {frames}: their mass is 0"),
+        ("left out", undrawn, f"shapes of {undrawn}: meshes, or primitives that stand oblique"),
+        ("left out", other, ", ".join(f"<{tag}> x {k}" for tag, k in other.items())),
     )
+    return tuple(Note(kind, text) for kind, found, text in notes if found)
 
 
 def _rotors(robot: ET.Element, file: str) -> dict[str, float]:
-    """N^2 J [kg m^2] by joint of each <transmission> that has the inertia J of its rotor; N is 1 if missing."""
+    """N^2 J [kg m^2] by joint of each <transmission>, from the texts of its elements."""
     result = {}
-    for transmission in robot.findall("transmission"):
-        found = {e.tag.rpartition("}")[2]: e for e in transmission.iter()}
-        J, N = (next((found[t] for t in tags if t in found), None) for tags in (_ROTORS, _GEARS))
-        joint = transmission.find("joint")
-        if J is None or joint is None:
-            continue
-        where = f"{place_of(transmission, file)} <{J.tag}>"
-        for e in (J, *(() if N is None else (N,))):  # a text, or Drake's attribute
-            e.set("value", e.get("value", e.text or ""))
-        inertia = numbers(J, "value", "", 1, where, 0.0)[0]
-        result[joint.get("name", "")] = numbers(N, "value", "1", 1, where)[0] ** 2 * inertia
+    for e in robot.iterfind("transmission[joint]"):
+        texts = {
+            tag: e.findtext(f".//{tag}", "1") for tag in ("mechanicalReduction", "motorInertia")
+        }
+        if e.find(".//motorInertia") is not None:
+            numbers = ET.Element("transmission", texts)
+            N, J = (xml.numbers(numbers, tag, "", 1, f"{file}, <transmission>")[0] for tag in texts)
+            result[xml.required(e, "joint", file).get("name", "")] = N * N * J
     return result
-
-
-def tip_of(link: str) -> str:
-    """Name of the link that `read` adds at the tip of `link`."""
-    return f"{link}_tip"
-
-
-def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
-    """Add a link without mass, fixed at a place [m] in the frame of `link`."""
-    ET.SubElement(robot, "link", name=tip_of(link))
-    joint = ET.SubElement(robot, "joint", name=f"{tip_of(link)}_mount", type="fixed")
-    ET.SubElement(joint, "parent", link=link)
-    ET.SubElement(joint, "child", link=tip_of(link))
-    ET.SubElement(joint, "origin", xyz=" ".join(repr(float(x)) for x in place))
 
 
 # -- frames ----------------------------------------------------------------------------------------
 def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
     """Names of the parent and the child link of a joint."""
-    where = place_of(joint, file)
+    where = xml.place_of(joint, file)
     parent, child = (
-        name_of(required(joint, role, where), where, "link") for role in ("parent", "child")
+        xml.name_of(xml.required(joint, role, where), where, "link") for role in ("parent", "child")
     )
     return parent, child
 
@@ -244,7 +185,7 @@ def _turns(
     each = list(zip(joints, ends, strict=True))
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
-            turns[child] = _origin(joint, place_of(joint, file), turns[parent])[1]
+            turns[child] = _origin(joint, xml.place_of(joint, file), turns[parent])[1]
     twice = [link for link, count in parents.items() if count > 1]
     circle = [link for link in links if link not in turns]
     missing = sorted({link for pair in ends for link in pair} - set(links))
@@ -285,8 +226,8 @@ def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
     rpy turns about the fixed axes x, y, z in this order.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
-    place = numbers(origin, "xyz", "0 0 0", 3, where)
-    turn = pin.rpy.rpyToMatrix(*numbers(origin, "rpy", "0 0 0", 3, where))
+    place = xml.numbers(origin, "xyz", "0 0 0", 3, where)
+    turn = pin.rpy.rpyToMatrix(*xml.numbers(origin, "rpy", "0 0 0", 3, where))
     return _vector(R @ place), R @ _clean(turn)
 
 
@@ -297,17 +238,20 @@ def _vector(values: Array) -> Vector:
 
 
 # -- links and joints ------------------------------------------------------------------------------
-def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> Link:
-    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError."""
-    where, R = place_of(element, file), turns[element.get("name", "")]
+def _link(element: ET.Element, file: str, turns: Mapping[str, Array], moved: set[str]) -> Link:
+    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError.
+
+    Without mass and moments it is a frame, and so is a root without mass, such as a world.
+    """
+    where, R = xml.place_of(element, file), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
     body, inertial = element.find("inertial"), None
     if body is not None:
         inertial = _inertial(body, where, R)
-        if inertial.mass or any(inertial.inertia):  # else it is a frame
-            check_inertial(inertial, where)
-        else:
+        if inertial.mass == 0.0 and not (any(inertial.inertia) and element.get("name") in moved):
             inertial = None
+        else:
+            check_inertial(inertial, where)
     return Link(element.get("name", ""), inertial, visuals)
 
 
@@ -317,10 +261,10 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion. Without <inertia> it is a point.
     """
-    mass = numbers(required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    mass = xml.numbers(xml.required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, turn = _origin(element, f"{where} <inertial>", R)
     inertia, where = element.find("inertia"), f"{where} <inertia>"
-    moments = np.array([numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
+    moments = np.array([xml.numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
     turned = turn @ moments[SYMMETRIC] @ turn.T
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
@@ -340,8 +284,8 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, GEOMETRY_SIZES[shape.tag]
-    size = sum((numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
-    rgba = numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
+    size = sum((xml.numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
+    rgba = xml.numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = _vector(axes @ size) if box else size
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
 
@@ -353,19 +297,19 @@ def _joint(
 
     Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
     """
-    where, kind = place_of(element, file), element.get("type", "")
+    where, kind = xml.place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
             f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
             "joints are not supported"
         )
     axis_element = None if kind in ("fixed", "floating") else element.find("axis")
-    axis = np.array(numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
+    axis = np.array(xml.numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
         axis = turns[child] @ axis
-    speed = numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    speed = xml.numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
     place = _origin(element, where, turns[parent])[0]
     speed = speed if 0.0 < speed < FREE else math.inf
     kind = "revolute" if kind == "continuous" else kind
