@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import os
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -194,3 +196,24 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
 def test_a_public_name_that_is_not_there_has_a_nearest_one():
     with pytest.raises(AttributeError, match="did you mean 'NPDController'"):
         _ = ba.PDController
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("__version__ = '0.4.3'", "version 0.4.3"),
+        ("raise ImportError('libboost.so.9: cannot open shared object file')", "libboost.so.9"),
+    ],
+)
+def test_another_pinocchio_in_front_is_named_with_its_path(tmp_path, text, word):
+    other = tmp_path / "pinocchio" / "__init__.py"
+    other.parent.mkdir()
+    other.write_text(text)
+    command = [sys.executable, "-m", "biped_adrc", "robot", "list"]
+    env = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    run = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
+    assert run.returncode == 3
+    assert run.stderr.startswith("error: ")
+    assert run.stderr.count("\n") == 1
+    assert str(other) in run.stderr
+    assert word in run.stderr

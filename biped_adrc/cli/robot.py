@@ -142,10 +142,10 @@ def _names(text: str | None) -> tuple[str, ...] | None:
 
 
 def _explain(derived: Derived) -> None:
-    """Print the robot, what was guessed about it, and whether each law holds."""
+    """Print the robot, what was read, assumed and left out, and whether each law holds."""
     _describe(derived.biped)
-    for sentence in derived.guesses:
-        console.say(f"guessed  {sentence}")
+    for note in derived.notes:
+        console.say(f"{note.kind:<8} {note.text}")
     for check in derived.checks:
         console.say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")
 

@@ -13,3 +13,28 @@
 
 Time, controllers and simulation are in rooms above; `closed_loop` and `engine` build on this one.
 """
+
+from importlib.util import find_spec
+
+from biped_adrc.core.errors import InputError
+
+
+def _check_pinocchio() -> None:
+    """Raise InputError where another `pinocchio` lies in front of Pinocchio, or it does not load."""
+    spec = find_spec("pinocchio")
+    try:
+        import pinocchio
+
+        version = getattr(pinocchio, "__version__", "unknown")
+        found = "" if version.split(".")[0] == "4" else f"version {version}"
+    except ImportError as error:
+        found = str(error)
+    if found:
+        raise InputError(
+            f"'import pinocchio' finds {spec and spec.origin}: {found}; expected Pinocchio 4, which is 'pip install "
+            "pin'. Try 'pip uninstall pinocchio' (a plugin of nose) and a shell without PYTHONPATH and "
+            "LD_LIBRARY_PATH, which a sourced ROS sets, or 'pip install --force-reinstall pin'"
+        )
+
+
+_check_pinocchio()

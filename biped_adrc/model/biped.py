@@ -31,7 +31,7 @@ from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
+from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors, load_description
 from biped_adrc.model.robots.urdf import Inertial, Tree, absolute_angles, relabelling, unlike
 
 STICTION_SPEED = 0.05
@@ -57,8 +57,8 @@ class Biped(Shown):
     """Links and joints as in the URDF, with the masses of the preset, rooted at the planar base."""
     preset: str
     """Name of the parameter set."""
-    armature: float
-    """Rotor inertia of every motor, reflected to its joint [kg m^2]."""
+    armature: Rotors
+    """Rotor inertia of every motor, or of each one, reflected to its joint [kg m^2]."""
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
 

@@ -32,7 +32,7 @@ from biped_adrc.core.errors import SingularError
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
-from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Tree
 
 
@@ -69,7 +69,7 @@ class FloatingDynamics:
     [rad/s] are the paper's coordinates; m = n + 2 is the number of Pinocchio's velocities.
     """
 
-    def __init__(self, tree: Tree, d: RobotDescription, armature: float):
+    def __init__(self, tree: Tree, d: RobotDescription, armature: Rotors):
         """Build the model of a tree with the armature [kg m^2] at every motor of the record `d`."""
         self.model = build(tree, d, armature)
         self.data = self.model.createData()

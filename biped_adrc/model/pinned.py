@@ -23,16 +23,16 @@ import pinocchio as pin
 
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
 
 XZ = [0, 2]
 """The plane of motion among Pinocchio's axes x, y, z."""
 
 
-def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
+def build(tree: Tree, d: RobotDescription, armature: Rotors) -> pin.Model:
     """Make the Pinocchio model of `tree`, with rotor inertia `armature` [kg m^2] at
-    every motor, and its gravity.
+    every motor, or one number for each, and its gravity.
     """
     model = pin.buildModelFromXML(to_xml(tree))
     rotor = np.zeros(model.nv)
@@ -81,7 +81,7 @@ class PinnedDynamics:
     tree's coordinates and `inverse` back, `swing` and `hip` are frame indices. `Biped` has the dynamics.
     """
 
-    def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
+    def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: Rotors):
         """Build the model; `stance_chain` (n,) gives the pin's angle as a sum of the robot's coordinates.
 
         Raises ModelError when the tree and the record have different numbers of coordinates.
@@ -185,7 +185,8 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     pitch = tree.joint_above(torso)
     assert pitch is not None
     origin = {joint.parent: joint.origin for joint in chain}  # of the new frames in the old ones
-    joints = [Joint(PIN_JOINT, "revolute", "ground", foot, ZERO, pitch.axis)]
+    pin_joint = Joint(PIN_JOINT, "revolute", "ground", foot, ZERO, pitch.axis)
+    joints = [pin_joint, *_beside(tree, foot, chain)]
     for joint in chain:
         axis = joint.axis if joint.type == "fixed" else _minus(ZERO, joint.axis)
         back = _minus(ZERO, origin.get(joint.child, ZERO))

@@ -8,6 +8,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from biped_adrc.analysis.gait_design import design_gait
+from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.optimise import _bounds, audit
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits, StepLimits
@@ -131,6 +133,13 @@ def test_the_audit_names_the_limit_that_a_gait_misses(robot, gait, orbit, limits
     asked = replace(ASKED, limits=StepLimits(**limits))
     missed = audit(robot, gait, orbit, asked)
     assert any(text.startswith(word) for text in missed) if word else missed == []
+
+
+def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give():
+    free = StepLimits(clearance=None)
+    with pytest.raises(GaitError, match="above the ground after 50%") as caught:
+        design_gait("three_link", 2.8, limits=free)
+    assert "clearance" not in str(caught.value)
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.0, 0), (0.4e-4, 0), (1.1e-4, 1), (-1.1e-4, 1)])

@@ -139,6 +139,242 @@ def test_a_file_as_frost_writes_it(urdf):
         close(derived.biped.swing_foot(q), full.swing_foot(q))
 
 
+# -- files as others write them --------------------------------------------------------------------
+HIP, COM, SHIN = 0.8, 0.3, 0.35  # [m]
+SLIDES = """<joint name="x" type="prismatic"><parent link="world"/><child link="a"/><axis xyz="1 0 0"/></joint>
+<link name="a"/><joint name="z" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>
+<link name="b"/><joint name="pitch" type="continuous"><parent link="b"/><child link="body"/><axis xyz="0 1 0"/>
+</joint>"""
+HEAVY = '<link name="world"><inertial><mass value="0"/><inertia iyy="3"/></inertial></link>'
+
+
+def mass(name, kilograms, z, inertia='<inertia ixx="0.02" iyy="0.03" izz="0.01"/>', y=0.0):
+    place = f'<origin xyz="0 {y} {z}"/>'
+    return f'<link name="{name}"><inertial>{place}<mass value="{kilograms}"/>{inertia}</inertial></link>'
+
+
+def two_legs(before="", inertia='<inertia ixx="0.02" iyy="0.03" izz="0.01"/>', axis="0 1 0"):
+    """A body of 7 kg on two legs of 2 kg without knees."""
+    text = mass("body", 7, 0.2, inertia)
+    for side in ("left", "right"):
+        turn = f'type="revolute"><axis xyz="{axis}"/><limit effort="30" velocity="8"/>'
+        text += mass(f"{side}_leg", 2, -COM, inertia) + f'<link name="{side}_foot"/>'
+        text += f'<joint name="{side}_hip" {turn}<parent link="body"/><child link="{side}_leg"/></joint>'
+        text += f'<joint name="{side}_tip" type="fixed"><parent link="{side}_leg"/>'
+        text += f'<child link="{side}_foot"/><origin xyz="0 0 {-HIP}"/></joint>'
+    return f'<robot name="two"{" xmlns=" if before == "space" else ">"}' + (
+        f'"https://example.org/x">{text}</robot>'
+        if before == "space"
+        else f"{before}{text}</robot>"
+    )
+
+
+def top(kind):
+    ends = '<parent link="world"/><child link="body"/><axis xyz="0 1 0"/>'
+    return f'<joint name="top" type="{kind}">{ends}</joint>'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        two_legs("space"),
+        two_legs(SLIDES),
+        two_legs(HEAVY + SLIDES),
+        two_legs('<link name="world"/>' + top("planar")),
+        two_legs(top("planar")),
+        two_legs(top("floating")),
+        two_legs(top("fixed")),
+        two_legs(axis="-1 0 0", inertia='<inertia ixx="0.03" iyy="0.02" izz="0.01"/>'),
+    ],
+    ids=[
+        "namespace",
+        "world",
+        "heavy world",
+        "planar",
+        "own world",
+        "floating",
+        "fixed",
+        "along y",
+    ],
+)
+def test_form_does_not_change_the_physics(urdf, text):
+    one, own = (biped_from_urdf(urdf(x, f"{k}.urdf")) for k, x in enumerate((two_legs(), text)))
+    for q, v in states(3):
+        for found, expected in (
+            (own.inertia(q), one.inertia(q)),
+            (own.bias(q, v), one.bias(q, v)),
+            (own.impact(q, v).v, one.impact(q, v).v),
+            (own.swing_foot(q), one.swing_foot(q)),
+        ):
+            size = np.max(np.abs(expected))
+            np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * size)
+
+
+@pytest.mark.parametrize("inertia", ["", '<inertia ixx="0" iyy="0" izz="0"/>'])
+def test_point_masses_have_the_inertia_of_points(urdf, inertia):
+    """D_s = sum m Re(d* d') with d the derivative of the place z = i exp(-i a) l of each point."""
+    derived = derive(urdf(two_legs(inertia=inertia)))
+    assert derived.broken == ()
+    for q, _ in states(3, 5):
+        stance, swing, trunk = np.exp(-1j * np.array([q[0] + q[2], q[1] + q[2], q[2]]))
+        hip = HIP * stance * np.array([1.0, 0.0, 1.0])
+        points = (
+            (7.0, hip + 0.2 * trunk * np.array([0.0, 0.0, 1.0])),
+            (2.0, (HIP - COM) * stance * np.array([1.0, 0.0, 1.0])),
+            (2.0, hip - COM * swing * np.array([0.0, 1.0, 1.0])),
+        )
+        D = sum(m * np.real(np.outer(d.conj(), d)) for m, d in points)
+        np.testing.assert_allclose(derived.biped.inertia(q), D, rtol=0, atol=1e-12)
+    said = [note for note in derived.notes if "<inertia>" in note.text]
+    assert len(said) == (inertia == "")
+
+
+def test_rotors_of_transmissions_are_reflected_by_their_gears(urdf):
+    """N^2 J on the diagonal of D_s, by joint; an equal rotor in either leg."""
+    gear = "<mechanicalReduction>40</mechanicalReduction>"
+    left, right = (
+        f'<transmission><joint name="{side}_hip"/><actuator name="m">{x}</actuator></transmission>'
+        for side, x in (
+            ("left", gear + "<motorInertia>2e-4</motorInertia>"),
+            ("right", "<motorInertia>0.32</motorInertia>"),
+        )
+    )
+    one = biped_from_urdf(urdf(two_legs()))
+    derived = derive(urdf(two_legs(left + right), "geared.urdf"))
+    for q, _ in states(3, 5):
+        rotor = derived.biped.inertia(q) - one.inertia(q)
+        np.testing.assert_allclose(rotor, np.diag([0.32, 0.32, 0.0]), rtol=0, atol=1e-12)
+    (said,) = (note for note in derived.notes if "rotor" in note.text)
+    assert said.kind == "read"
+    assert "0.32 kg m^2 on 'left_hip'" in said.text
+    with pytest.raises(ModelError, match="legs differ"):
+        derive(urdf(two_legs(left), "lame.urdf"))
+    with pytest.raises(ModelError, match="motorInertia"):
+        derive(urdf(two_legs(left.replace("2e-4", "much")), "text.urdf"))
+
+
+def test_rotors_that_differ_are_kept_by_the_record(tmp_path):
+    text = (data_folder("urdf") / "rabbit" / "robot.toml").read_text()
+    one = ba.Biped.load("rabbit")
+    (tmp_path / "robot.toml").write_text(
+        text.replace("armature = 0.83", "armature = [0.5, 0.5, 0.2, 0.2]")
+    )
+    (tmp_path / "floating.urdf").write_text(
+        (data_folder("urdf") / "rabbit" / "floating.urdf").read_text()
+    )
+    own = ba.Biped.load(tmp_path / "robot.toml")
+    q = np.array([3.3, 3.6, -0.5, -0.6, 0.1])
+    gap = own.inertia(q) - one.inertia(q)
+    np.testing.assert_allclose(gap, np.diag([-0.33, -0.33, -0.63, -0.63, 0.0]), atol=1e-12)
+
+
+def hung(root):
+    """A body on two legs with knees, hung from `root` of its left leg; "pinned": to the world at its foot."""
+    turn = '<axis xyz="0 1 0"/><limit effort="30" velocity="8"/>'
+    heads = (
+        ("left_knee", "left_thigh", "left_shin"), ("left_hip", "body", "left_thigh"),
+        ("right_hip", "body", "right_thigh"), ("right_knee", "right_thigh", "right_shin"),
+    )  # fmt: skip
+    # the frames: of the body at the hip, or of a link hung the other way at the joint that carries it
+    up = root != "body"
+    text = mass("body", 7, 0.2)
+    for side in ("left", "right"):
+        turned = up and side == "left"
+        foot = SHIN if turned else 0.0  # the left shin's frame lies at the foot
+        text += mass(f"{side}_thigh", 3, HIP - SHIN - 0.2 if turned else -0.2)
+        text += mass(f"{side}_shin", 2, foot - 0.15)
+        if not turned:
+            text += f'<link name="{side}_foot"/><joint name="{side}_end" type="fixed">'
+            text += f'<parent link="{side}_shin"/>'
+            text += f'<child link="{side}_foot"/><origin xyz="0 0 {-SHIN}"/></joint>'
+    for name, parent, child in heads:
+        if up and name.startswith("left"):
+            z = SHIN if name == "left_knee" else HIP - SHIN
+            parent, child = child, parent
+        else:
+            z = SHIN - HIP if name.endswith("knee") else 0.0
+        text += (
+            f'<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="{child}"/>'
+        )
+        text += f'<origin xyz="0 0 {z}"/>{turn}</joint>'
+    if root == "left_foot":
+        text += (
+            '<link name="left_foot"/><joint name="left_end" type="fixed"><parent link="left_foot"/>'
+        )
+        text += '<child link="left_shin"/></joint>'
+    if root == "pinned":
+        text += (
+            '<joint name="pin" type="continuous"><parent link="world"/><child link="left_shin"/>'
+        )
+        text += '<axis xyz="0 1 0"/></joint>'
+    return f'<robot name="hung">{text}</robot>'
+
+
+@pytest.mark.parametrize("root", ["left_shin", "left_foot", "pinned"])
+def test_a_tree_that_hangs_from_a_leg_is_the_same_robot(urdf, root):
+    """Joints that are walked backwards keep their angles, with the other sign."""
+    end = "left_foot" if root == "left_foot" else "left_shin"
+    one = biped_from_urdf(urdf(hung("body")))
+    derived = derive(urdf(hung(root), "leg.urdf"), Hints((end, "right_foot")))
+    own = derived.biped
+    assert derived.broken == ()
+    assert (own.description.trunk, own.n) == ("body", 5)
+    order = [own.description.joints.index(name) for name in one.description.joints]
+    for q, v in states(5, 5):
+        Q, V = np.empty(5), np.empty(5)
+        sign = np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
+        Q[order], V[order] = sign * q, sign * v
+        close(own.inertia(Q)[np.ix_(order, order)] * np.outer(sign, sign), one.inertia(q))
+        close(own.bias(Q, V)[order] * sign, one.bias(q, v))
+        close(own.swing_foot(Q), one.swing_foot(q))
+        close(own.impact(Q, V).v[order] * sign, one.impact(q, v).v)
+
+
+def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):
+    """Goswami's D_s of a compass: points m at a from the foot, b from the hip, and M at the hip."""
+    text = mass("hip", 9, 0, "") + mass("left_leg", 4, -0.4, "") + mass("right_leg", 4, -0.4, "")
+    for side, kind in (("left", "fixed"), ("right", "continuous")):
+        axis = '<axis xyz="0 -1 0"/><limit effort="20" velocity="9"/>'
+        text += f'<joint name="{side}" type="{kind}">{axis}<parent link="hip"/>'
+        text += f'<child link="{side}_leg"/></joint>'
+        text += f'<link name="{side}_foot"/><joint name="{side}_tip" type="fixed">'
+        text += f'<parent link="{side}_leg"/>'
+        text += f'<child link="{side}_foot"/><origin xyz="0 0 -0.9"/></joint>'
+    own = biped_from_urdf(urdf(f'<robot name="welded">{text}</robot>'))
+    a, b, length = 0.5, 0.4, 0.9
+    for q, _ in states(2, 5):
+        both = -4 * length * b * math.cos(q[0])
+        D = np.array([[4 * b**2, both], [both, 13 * length**2 + 4 * a**2]])
+        T = np.array([[1.0, 1.0], [0.0, 1.0]])  # swing leg absolute, stance leg absolute
+        np.testing.assert_allclose(own.inertia(q), T.T @ D @ T, rtol=0, atol=1e-12)
+
+
+def test_a_sole_is_a_point_at_its_ankle_unless_its_joint_is_named(urdf):
+    """The foot keeps its mass; its joint is welded, and that is said."""
+    axis = '<axis xyz="0 1 0"/><limit effort="30" velocity="8"/>'
+    text = two_legs().replace('_tip" type="fixed">', f'_tip" type="revolute">{axis}')
+    for side in ("left", "right"):
+        text = text.replace(f'<link name="{side}_foot"/>', mass(f"{side}_foot", 1, -0.05))
+    derived = derive(urdf(text))
+    assert derived.biped.description.actuated == ("left_hip", "right_hip")
+    assert derived.biped.mass == pytest.approx(13.0)
+    assert ["left_tip" in n.text for n in derived.notes if n.kind == "left out"] == [True, False]
+    named = ("left_hip", "right_hip", "left_tip", "right_tip")
+    with pytest.raises(ModelError, match="--set tip="):
+        derive(urdf(text), Hints(actuated=named))
+    feet = Hints(("left_foot", "right_foot"), named, tip=(0.0, 0.0, -0.1))
+    assert derive(urdf(text), feet).biped.n == 5
+
+
+def test_what_is_left_out_is_said(urdf):
+    text = two_legs('<link name="world"/><gazebo/><gazebo/>' + top("planar")).replace(
+        '<link name="left_foot"/>', '<link name="left_foot"><collision/></link>'
+    )
+    left = [note.text for note in derive(urdf(text)).notes if note.kind == "left out"]
+    assert any("<gazebo> x 2" in said and "<collision> x 1" in said for said in left)
+    assert any("'top'" in said for said in left)
+
+
 # -- what is said ----------------------------------------------------------------------------------
 
 
@@ -149,7 +385,7 @@ def test_guesses_are_said_and_laws_hold(urdf):
     assert d.joints == ("q1_right", "q1_left", "q2_right", "q2_left", "base_pitch")
     assert d.peak_torque == 150.0
     assert derived.broken == ()
-    said = "\n".join(derived.guesses)
+    said = "\n".join(note.text for note in derived.notes)
     for part in ("base_x", "right_toe", "150 N m", "balls"):
         assert part in said
     assert derived.biped.mass == pytest.approx(32.0)

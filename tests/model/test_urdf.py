@@ -29,10 +29,10 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
         (TORSO_MASS, '<mass value="-12"/>', "mass -12 kg"),
         (TORSO_MASS, '<mass value="nan"/>', "nan"),
         (THIGH_INERTIA, 'ixx="0.47" ixy="0" ixz="0" iyy="4.7"', "triangle inequality"),
-        (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive definite"),
-        (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive definite"),
+        (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive semidefinite"),
+        (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive semidefinite"),
         (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
-        ('name="left_hip" type="revolute"', 'name="left_hip" type="planar"', "'planar'"),
+        ('name="left_hip" type="revolute"', 'name="left_hip" type="screw"', "'screw'"),
         ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
         (HIP, HIP.replace("torso", "pelvis"), "links ['pelvis'] that are not there"),
         (

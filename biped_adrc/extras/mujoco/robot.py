@@ -131,7 +131,8 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
             continue
         own = {"name": joint.name, "type": KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:
-            own["armature"] = text(biped.armature)
+            rotors = np.broadcast_to(biped.armature, biped.p)
+            own["armature"] = text(float(rotors[d.actuated.index(joint.name)]))
         if joint.name in d.joints:
             k = d.joints.index(joint.name)
             own |= {"damping": text(viscous[k]), "frictionloss": text(static[k])}

@@ -40,6 +40,8 @@ SHORTEST = 0.05
 """Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5
 """Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
+LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
+"""What is asked of a foot that needs no clearance."""
 SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2
@@ -199,7 +201,8 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     above = [i for i, x in enumerate(s) if x > (0.0 if limits.clearance else PASSED) and x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
-    rows.append(Bounded("foot clearance", height, 0.0, infinite, legs))
+    name = LATE if limits.clearance is None else "foot clearance"
+    rows.append(Bounded(name, height, 0.0, infinite, legs))
     for joint, (low, high) in limits.ranges.items():
         j = k.biped.description.joint_index(joint)
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))

@@ -1,7 +1,8 @@
 """Import of a robot from one URDF: the content of its robot.toml, derived and checked.
 
 - `import_robot` the whole way from a URDF to a Biped, and the two files written for it
-- `anatomy`      planar base, feet, hip, order of the joints and phase variable
+- `base`         planar base, found or added
+- `anatomy`      feet, hip, order of the joints and phase variable
 
 The laws of mechanics that the result must obey are in `model.physical`.
 

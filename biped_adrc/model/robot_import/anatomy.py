@@ -1,5 +1,4 @@
-"""The parts of a planar biped found in its tree: planar base, feet, hip, order of the
-joints, and the phase variable.
+"""The parts of a planar biped found in its tree: feet, hip, order of the joints, and the phase variable.
 
 The phase is the absolute angle of the virtual stance leg from the hip to the stance foot, counter-clockwise
 with x to the right and z up, so that it falls while the robot walks to +x. With a_k the absolute angles of the
@@ -10,14 +9,8 @@ links of the stance leg and l_k the lengths of the leg in them,
 which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
 triangle), for others its first-order part about the straight leg; a virtual constraint needs a constant row c.
 
-`import_robot.derive` calls `anatomy` after the base is known. What the URDF does not say is guessed only when
-there is one answer, and every guess is a sentence in `Derived.guesses`.
-
-The planar base (x, z, pitch) is found in a URDF, or added above its root. It is two prismatic joints along x
-and z and one revolute joint about y, in this order from the root, with no mass in between. The stance contact
-determines its position, so only the pitch remains as a coordinate, q_N. A URDF without a base floats on its
-root link; the base put there turns in the sense of its other joints. Places along y do not enter planar
-motion, and stay as they are. `import_robot.derive` calls `on_planar_base` first.
+`import_robot.derive` calls `anatomy` after base and feet are known. What the file does not say is guessed only
+when there is one answer, and every guess is a sentence in `Derived.notes`.
 """
 
 from __future__ import annotations
@@ -25,14 +18,16 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
-from itertools import pairwise, zip_longest
+from itertools import combinations, pairwise, zip_longest
 
 import numpy as np
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.model.pinned import PIN_JOINT
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, absolute_angles, text_of
+from biped_adrc.model.pinned import reroot
+from biped_adrc.model.robot_import.base import PlanarBase, added
+from biped_adrc.model.robots import urdf
+from biped_adrc.model.robots.urdf import Joint, Note, Tree
 
 _FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""
@@ -51,30 +46,28 @@ class Anatomy:
     """Revolute joints without the pitch, in the order q1, q2, ..."""
     phase: tuple[float, ...]
     """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
-    remarks: tuple[str, ...]
+    notes: tuple[Note, ...]
     """Sentences on what was guessed."""
 
 
-def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> Anatomy:
-    """Find the parts of a biped; `feet` (stance, swing) and `hip` are guessed when they are None.
+def anatomy(body: PlanarBase, pair: tuple[str, str], hip: str | None) -> Anatomy:
+    """Find the parts of a biped with the feet `pair` (stance, swing); `hip` is guessed when it is None.
 
     Raises ModelError with the candidates and the option to give when a guess is not certain.
     """
-    guesses: tuple[str, ...] = ()
-    if feet is None:
-        feet, guesses = _guessed_feet(body)
-    pair = _checked_feet(body, feet)
+    notes: tuple[Note, ...] = ()
     if hip is None:
         hip, sentence = _guessed_hip(body.tree, pair)
-        guesses = (*guesses, sentence)
+        notes = (Note("assumed", sentence),)
     _check_hip(body, hip, pair[0])
     moving = _in_order(body, pair)
     pitch = next(joint for joint in body.tree.joints if joint.name == body.pitch)
     c = _phase(body.tree, pair[0], hip, (*moving, pitch))
     terms = zip(c, (*moving, pitch), strict=True)
     text = " ".join(f"{w:+.6g} {joint.name}" for w, joint in terms if w != 0.0)
-    guesses = (*guesses, f"phase: Theta = {text}, the virtual leg from the hip to '{pair[0]}'")
-    return Anatomy(pair, hip, moving, tuple(float(w) for w in c), guesses)
+    phase = f"phase: Theta = {text}, the virtual leg from the hip to '{pair[0]}'"
+    notes = (*notes, Note("assumed", phase))
+    return Anatomy(pair, hip, moving, tuple(float(w) for w in c), notes)
 
 
 def position(tree: Tree, link: str) -> Array:
@@ -97,62 +90,101 @@ def _chain(body: PlanarBase, link: str) -> list[Joint]:
 
 
 # -- feet ------------------------------------------------------------------------------------------
-def _leaves(body: PlanarBase) -> list[str]:
-    """Names of the links at the ends of the tree, in the order of the file."""
-    tree = body.tree
-    ends = (link for link in tree.links if not tree.joints_below(link))
-    return [link for link in ends if tree.path_below(link, body.trunk) is not None]
+def on_feet(
+    body: PlanarBase, feet: tuple[str, ...] | None, actuated: tuple[str, ...]
+) -> tuple[PlanarBase, tuple[str, str]]:
+    """The robot on two points, and its feet (stance, swing): guessed where `feet` is None.
+
+    A joint between shin and foot is welded at its zero unless it is one of `actuated`. A tree that hangs from
+    one of its legs is turned round, so that the trunk carries both. Raises ModelError.
+    """
+    if feet is None:
+        feet, sentence = _guessed_feet(body)
+        body = body.noting(Note("assumed", sentence))
+    known = len(feet) == 2 and set(feet) <= set(body.tree.links)
+    if not known or len(urdf.bodies_between(body.tree, (feet[0], feet[1]))) == 1:
+        raise ModelError(
+            f"URDF '{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
+            f"other, the stance foot first, by feet=(...) or --feet; the ends of the tree are {_ends(body)}"
+        )
+    pair = feet[0], feet[1]
+    for ends in (pair, pair[::-1]):
+        body = _on_point(body, ends[0], urdf.way(body.tree, ends), actuated)
+    return _upright(body, pair)
 
 
-def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Guess the two feet: the two ends below the most joints, or the two whose names say
-    foot; also returns the reason.
+def _ends(body: PlanarBase) -> list[str]:
+    """Names of the links at the ends of the tree, the trunk among them where one joint hangs on it."""
+    tree, trunk = body.tree, body.trunk
+    below = (link for link in tree.links if tree.path_below(link, trunk) is not None)
+    return [link for link in below if len(tree.joints_below(link)) <= (link == trunk)]
+
+
+def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
+    """Guess the two feet: the two ends with the most joints between them, or the two whose names say foot;
+    also returns the reason.
 
     Raises ModelError where neither rule gives exactly two.
     """
-    leaves = _leaves(body)
-    depth = {leaf: len(_chain(body, leaf)) for leaf in leaves}
-    most = max(depth.values())
-    deepest = [leaf for leaf in leaves if depth[leaf] == most]
-    named = [leaf for leaf in leaves if _FOOT_NAMES.search(leaf)]
-    for guess, why in (
-        (deepest, f"the two ends that hang by most joints, {most} below the trunk"),
-        (named, "the two ends that are called feet"),
+    ends = _ends(body)
+    apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
+    most = max(apart.values(), default=0)
+    farthest = [pair for pair, count in apart.items() if count == most]
+    named = tuple(end for end in ends if _FOOT_NAMES.search(end))
+    for guesses, why in (
+        (farthest, f"the two ends with the most joints between them, {most}"),
+        ([named] if len(named) == 2 else [], "the two ends that are called feet"),
     ):
-        if len(guess) == 2:
-            sentence = f"feet: '{guess[0]}' (drawn as the stance foot) and '{guess[1]}', {why}"
-            return tuple(guess), (sentence,)
+        if len(guesses) == 1:
+            one, other = guesses[0]
+            return guesses[0], f"feet: '{one}' (drawn as the stance foot) and '{other}', {why}"
     raise ModelError(
-        f"URDF '{body.tree.source}': which two of the links {leaves} are the feet is not certain; say it by "
+        f"URDF '{body.tree.source}': which two of the links {ends} are the feet is not certain; say it by "
         "feet=('stance', 'swing') or --feet stance,swing"
     )
 
 
-def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
-    """The feet (stance, swing), after a check that they are two links that a joint moves against each other.
+def _on_point(
+    body: PlanarBase, foot: str, leg: list[tuple[Joint, str]], actuated: tuple[str, ...]
+) -> PlanarBase:
+    """The robot with a foot that lies away from the last joint of its leg.
 
-    Raises ModelError that names what is wrong.
+    leg: the way from the foot to the other one. Raises ModelError with a hint how to add a tip.
     """
-    known = len(feet) == 2 and set(feet) <= set(body.tree.links)
-    if not known or _chain(body, feet[0]) == _chain(body, feet[1]):
-        raise ModelError(
-            f"URDF '{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
-            f"other, the stance foot first, by feet=(...) or --feet; the ends of the tree are {_leaves(body)}"
+    tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
+    if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
+        return body
+    if last.name not in actuated and _FOOT_NAMES.search(foot) and len(leg) > 1:
+        welded = (replace(j, type="fixed") if j == last else j for j in tree.joints)
+        text = f"joint '{last.name}': welded at its zero, as '{foot}' is a point here, at the axis; its sole"
+        return replace(body, tree=replace(tree, joints=tuple(welded))).noting(
+            Note("left out", f"{text} is no contact. --actuated {last.name},... keeps the joint")
         )
-    for foot in feet:
-        _check_foot(body.tree, foot)
-    return feet[0], feet[1]
+    raise ModelError(
+        f"URDF '{tree.source}': foot '{foot}' lies on the axis of its own joint '{last.name}', so the "
+        "leg has no end; put a link without mass at its tip and name it by feet=(...) or --feet, or give "
+        "the place of the tip in the link's frame by tip=(x, y, z) or --set tip=x,y,z"
+    )
 
 
-def _check_foot(tree: Tree, foot: str) -> None:
-    """Raise ModelError unless the foot lies away from the joint that moves it, with a hint how to add a tip."""
-    last = next(joint for joint in tree.path_to_root(foot) if joint.type == "revolute")
-    if math.dist(position(tree, foot), position(tree, last.child)) < _AWAY:
-        raise ModelError(
-            f"URDF '{tree.source}': foot '{foot}' lies on the axis of its own joint '{last.name}', so the "
-            "leg has no end; put a link without mass at its tip and name it by feet=(...) or --feet, or give "
-            "the place of the tip in the link's frame by tip=(x, y, z) or --tip x,y,z"
-        )
+def _upright(body: PlanarBase, feet: tuple[str, str]) -> tuple[PlanarBase, tuple[str, str]]:
+    """The tree hung from a link in the middle between the feet, where it hangs from a leg; also its feet.
+
+    A foot at the old root keeps its place by a link without mass, since `reroot` moves the frames of links.
+    """
+    bodies, tree = urdf.bodies_between(body.tree, feet), body.tree
+    middle = [*bodies[(len(bodies) - 1) // 2], *bodies[len(bodies) // 2]]
+    if body.trunk in middle or not any(body.trunk in links for links in bodies):
+        return body, feet
+    if body.trunk in feet:
+        tree, tip = urdf.with_tip(tree, body.trunk, (0.0, 0.0, 0.0))
+        feet = (tip, feet[1]) if feet[0] == body.trunk else (feet[0], tip)
+    heaviest = max(middle, key=lambda link: getattr(tree.links[link].inertial, "mass", 0.0))
+    turned = reroot(tree, heaviest, body.trunk)
+    links = {name: link for name, link in turned.links.items() if name != "ground"}
+    again = added(Tree(tree.name, links, turned.joints[1:], tree.source), heaviest)
+    text = f"trunk: '{heaviest}', in the middle between the feet; the file hangs from '{body.trunk}', in a leg"
+    return again.noting(*body.notes[1:], Note("assumed", text)), feet
 
 
 # -- joints ----------------------------------------------------------------------------------------
@@ -222,145 +254,6 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
     points.append(position(tree, hip))
     lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
     counter_clockwise = -joints[-1].axis[1]
-    rows = absolute_angles(tree, tuple(joint.name for joint in joints), links)
+    rows = urdf.absolute_angles(tree, tuple(joint.name for joint in joints), links)
     c: Array = counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
     return c
-
-
-PLANAR = 1e-4
-"""Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
-_Y = 1
-
-
-@dataclass(frozen=True)
-class PlanarBase:
-    """A tree with its planar base of two prismatic joints and the pitch."""
-
-    tree: Tree
-    base: tuple[str, str]
-    """Names of the prismatic joints along x and z."""
-    pitch: str
-    """Name of the revolute joint about y that carries the trunk."""
-    trunk: str
-    """Link that the base carries."""
-    remarks: tuple[str, ...]
-    """Sentences on what was found or added."""
-
-
-def on_planar_base(tree: Tree) -> PlanarBase:
-    """The planar tree with the base it has, or with one added above its root.
-
-    Raises ModelError for joints out of the plane, a base of another kind or with mass,
-    and joints that move no mass.
-    """
-    tree = replace(tree, joints=tuple(_in_plane(tree, joint) for joint in tree.joints))
-    slides = [joint for joint in tree.joints if joint.type == "prismatic"]
-    on_base = _own(tree, slides) if slides else _added(tree)
-    _check_below(on_base)
-    return on_base
-
-
-def _in_plane(tree: Tree, joint: Joint) -> Joint:
-    """The joint with its axis rounded to the nearest allowed one. Raises ModelError if it is not near one."""
-    if joint.type == "fixed":
-        return joint
-    x, _, z = map(abs, joint.axis)
-    along = _Y if joint.type == "revolute" else 0 if x > z else 2
-    axis = [0.0, 0.0, 0.0]
-    axis[along] = math.copysign(1.0, joint.axis[along])
-    if math.dist(axis, joint.axis) < PLANAR:
-        return replace(joint, axis=(axis[0], axis[1], axis[2]))
-    raise ModelError(
-        f"URDF '{tree.source}', joint '{joint.name}': its axis is {text_of(joint.axis)} in the frame of the "
-        f"world at zero angles, expected along {'y' if along == _Y else 'x or z'}; the robot must walk in the "
-        "plane x-z, so make the joint 'fixed'"
-    )
-
-
-def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
-    """The planar base that the URDF has already, its slides turned to the directions +x and +z.
-
-    Raises ModelError where it is incomplete or has mass.
-    """
-    turning = [joint for joint in tree.joints if joint.type == "revolute"]
-    above = {joint.name: tree.path_to_root(joint.parent) for joint in turning}
-    tops = [j for j in turning if not any(a.type == "revolute" for a in above[j.name])]
-    carriers = above[tops[0].name] if tops else ()
-    heavy = [j.child for j in carriers if tree.links[j.child].inertial is not None]
-    along = {("x" if joint.axis[0] else "z"): joint.name for joint in slides}
-    complete = len(slides) == len(along) == 2 and all(joint in carriers for joint in slides)
-    if not complete or len(tops) != 1 or heavy:
-        raise ModelError(
-            f"URDF '{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
-            f"{[j.name for j in tops]} and has mass in {heavy}; expected one prismatic joint along x, one "
-            "along z, then one revolute pitch about y, and no mass above the trunk. Complete the base, or "
-            "remove it and one is put there"
-        )
-    (pitch,), (x, z) = tops, (along["x"], along["z"])
-    forward = tuple(
-        replace(j, axis=(abs(j.axis[0]), 0.0, abs(j.axis[2]))) if j in slides else j
-        for j in tree.joints
-    )
-    remark = (
-        f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
-    )
-    return PlanarBase(replace(tree, joints=forward), (x, z), pitch.name, pitch.child, (remark,))
-
-
-def _added(tree: Tree) -> PlanarBase:
-    """The tree with a base added above the root link; its pitch turns in the sense of
-    the first revolute joint.
-    """
-    root = next(link for link in tree.links if tree.joint_above(link) is None)
-    axis = next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
-    names = ("base_x", "base_z", "base_pitch", "world", "base_x_carriage", "base_z_carriage")
-    x, z, pitch, world, cart, lift = (_free(tree, name) for name in names)
-    zero = (0.0, 0.0, 0.0)
-    joints = (
-        Joint(x, "prismatic", world, cart, zero, (1.0, 0.0, 0.0)),
-        Joint(z, "prismatic", cart, lift, zero, (0.0, 0.0, 1.0)),
-        Joint(pitch, "revolute", lift, root, zero, axis),
-    )
-    links = {name: Link(name, None, ()) for name in (world, cart, lift)} | dict(tree.links)
-    remark = (
-        f"base: the URDF has none; '{x}', '{z}' and the pitch '{pitch}' (axis {axis[_Y]:+g} y, as "
-        f"the first joint) were put above its root '{root}', the trunk"
-    )
-    tree = replace(tree, links=links, joints=joints + tree.joints)
-    return PlanarBase(tree, (x, z), pitch, root, (remark,))
-
-
-def _free(tree: Tree, name: str) -> str:
-    """The name itself, or with underscores appended until no link or joint of the tree has it."""
-    while name in tree.links or any(joint.name == name for joint in tree.joints):
-        name += "_"
-    return name
-
-
-def _check_below(on_base: PlanarBase) -> None:
-    """Check that each joint below the trunk moves some mass, and that no name of the stance contact is used.
-
-    Raises ModelError that names the joint.
-    """
-    tree, where = on_base.tree, f"URDF '{on_base.tree.source}'"
-    below = [j for j in tree.joints if tree.path_below(j.child, on_base.trunk)]
-    if not any(joint.type == "revolute" for joint in below):
-        raise ModelError(
-            f"{where}: no revolute joint below the trunk '{on_base.trunk}'; a biped has at least one between "
-            "its feet"
-        )
-    for joint in sorted(below, key=lambda joint: joint.parent == on_base.trunk):
-        wrong = ""
-        if joint.type == "revolute" and not _mass(tree, joint.child) > 0:
-            wrong = f"it moves no mass; give link '{joint.child}' an <inertial>, or make it 'fixed'"
-        elif joint.child == "ground" or joint.name == PIN_JOINT:
-            wrong = f"link 'ground' and joint '{PIN_JOINT}' are of the stance contact; rename it"
-        if wrong:
-            raise ModelError(f"{where}, joint '{joint.name}': {wrong}")
-
-
-def _mass(tree: Tree, link: str) -> float:
-    """Mass of `link` and all links below it [kg]."""
-    inertial = tree.links[link].inertial
-    below = sum(_mass(tree, joint.child) for joint in tree.joints_below(link))
-    return below + (0.0 if inertial is None else inertial.mass)

@@ -2,7 +2,7 @@
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
-    derived.guesses  what was guessed, in sentences
+    derived.notes    what was read, assumed and left out, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
 The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
@@ -14,7 +14,8 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
 
     urdf_reader.read      links and joints, frames turned parallel at zero angles
     on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
-    anatomy               feet, hip, order of the joints, phase variable
+    on_feet               feet that are points, legs that hang from a trunk
+    anatomy               hip, order of the joints, phase variable
     drawable              shapes to draw, balls where there are none
     _motors, _torque      joints with a motor, and their torque limit
     record_of             the robot.toml, from which the Biped is made
@@ -45,10 +46,11 @@ from biped_adrc.core.files import toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.physical import checks
-from biped_adrc.model.robot_import.anatomy import Anatomy, PlanarBase, anatomy, on_planar_base
-from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, pairs, to_xml
-from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
+from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
+from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
+from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, pairs, to_xml, with_tip
+from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
@@ -57,7 +59,7 @@ _RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and 
 _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
 
 
-def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
+def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
     """The tree itself where a link has a shape, else the tree with balls, and a sentence about it.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
@@ -70,8 +72,8 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
-    said = "shapes: the URDF has none that can be drawn, so rods and balls are drawn instead"
-    return replace(tree, links=links), (said,)
+    text = "shapes: the file has none that can be drawn, so rods and balls are drawn instead"
+    return replace(tree, links=links), (Note("assumed", text),)
 
 
 def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
@@ -121,8 +123,8 @@ class Hints:
     """Torque limit of every motor [N m]."""
     friction_coefficient: float | None = None
     """Dry friction mu of the feet, dimensionless."""
-    armature: float = 0.0
-    """Rotor inertia per motor, reflected to the joint [kg m^2]."""
+    armature: float | None = None
+    """Rotor inertia per motor, reflected to the joint [kg m^2]; None for that of the file."""
     gravity: float = GRAVITY
     """Gravity [m/s^2]."""
     tip: tuple[float, float, float] | None = None
@@ -130,16 +132,17 @@ class Hints:
 
 
 def record_of(
-    reading: UrdfContents,
+    reading: Contents,
     body: PlanarBase,
     parts: Anatomy,
     actuated: tuple[str, ...],
     torque: float,
+    armature: Rotors,
     hints: Hints,
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
-    torque: limit of every motor [N m].
+    torque: limit of every motor [N m]. armature: of every motor, or of each [kg m^2].
     """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
@@ -167,7 +170,7 @@ def record_of(
         "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
         "friction": {"viscous": of_moving(reading.viscous), "static": of_moving(reading.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": source, "armature": hints.armature}},
+        "presets": {PRESET: {"source": source, "armature": armature}},
     }
 
 
@@ -196,11 +199,11 @@ def to_toml(record: Mapping[str, object]) -> str:
 
 @dataclass(frozen=True)
 class Derived:
-    """A biped derived from a URDF, with the guesses and checks of the derivation."""
+    """A biped derived from a URDF, with the notes and checks of the derivation."""
 
     biped: Biped
-    guesses: tuple[str, ...]
-    """Sentences on what was found and guessed."""
+    notes: tuple[Note, ...]
+    """Sentences on what was read, assumed and left out, in this order."""
     checks: tuple[Check, ...]
     """The laws of `model.physical` with their numbers."""
     record: Mapping[str, Any]
@@ -231,7 +234,7 @@ def biped_from_urdf(
     actuated: tuple[str, ...] | None = None,
     hip: str | None = None,
     torque: float | None = None,
-    armature: float = 0.0,
+    armature: float | None = None,
     tip: tuple[float, float, float] | None = None,
 ) -> Biped:
     """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
@@ -255,34 +258,48 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     """
     hints = Hints() if hints is None else hints
     reading, feet = _with_tips(path, hints)
-    body = on_planar_base(reading.tree)
-    parts = anatomy(body, feet, hints.hip)
+    body, pair = on_feet(on_planar_base(reading.tree), feet, hints.actuated or ())
+    parts = anatomy(body, pair, hints.hip)
     tree, of_shapes = drawable(body.tree, parts.feet)
     actuated, of_motors = _motors(reading, parts.moving, hints)
     torque, of_torque = _torque(reading, actuated, hints)
-    record = record_of(reading, body, parts, actuated, torque, hints)
+    armature, of_rotors = _armature(reading, actuated, hints)
+    record = record_of(reading, body, parts, actuated, torque, armature, hints)
     description = description_of(record, Path(path))
-    biped = Biped(description, tree, PRESET, hints.armature)
+    biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
-    guesses = (*body.remarks, *parts.remarks, *of_motors, *of_torque, *of_shapes)
-    guesses += _remarks(reading, hints)
-    return Derived(biped, guesses, checks(biped), record)
+    notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
+    notes += (*reading.notes, *_remarks(reading, parts.moving, hints))
+    order = ("read", "assumed", "left out")
+    return Derived(
+        biped, tuple(sorted(notes, key=lambda n: order.index(n.kind))), checks(biped), record
+    )
 
 
-def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:
-    """Read the URDF; also returns the feet: those of the hints, or links added at
+def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:
+    """Read the file; also returns the feet: those of the hints, or links added at
     their tips. Raises ModelError.
     """
-    if hints.tip is not None and hints.feet is None:
-        raise ModelError(f"URDF '{path}': give the links with this tip by feet=(...) or --feet")
-    tips = {} if hints.tip is None else dict.fromkeys(hints.feet or (), hints.tip)
-    return read(path, tips), tuple(map(tip_of, tips)) or hints.feet
+    reading, feet = read(path), hints.feet
+    if hints.tip is None:
+        return reading, feet
+    if feet is None or not set(feet) <= set(reading.tree.links):
+        raise ModelError(
+            f"URDF '{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
+            f"are {list(reading.tree.links)}"
+        )
+    tree, tips = reading.tree, []
+    for foot in feet:
+        x, y, z = (reading.turns[foot] @ np.array(hints.tip)).tolist()
+        tree, tip = with_tip(tree, foot, (x, y, z))
+        tips.append(tip)
+    return replace(reading, tree=tree), tuple(tips)
 
 
 # -- motors ----------------------------------------------------------------------------------------
 def _motors(
-    reading: UrdfContents, moving: tuple[Joint, ...], hints: Hints
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    reading: Contents, moving: tuple[Joint, ...], hints: Hints
+) -> tuple[tuple[str, ...], tuple[Note, ...]]:
     """Names of the joints with a motor in order, and a sentence where they were guessed.
 
     Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or doubled names.
@@ -292,7 +309,8 @@ def _motors(
         result = tuple(name for name in names if reading.effort.get(name) != 0.0)
         free = ", ".join(f"'{name}'" for name in names if name not in result)
         motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(result)) or "none"
-        return result, (f"motors: {motors}" + (f"; {free} free (effort 0)" if free else ""),)
+        text = f"motors: {motors}" + (f"; {free} free (effort 0)" if free else "")
+        return result, (Note("assumed", text),)
     if len(set(hints.actuated) & set(names)) < len(hints.actuated):
         raise ModelError(
             f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
@@ -302,8 +320,8 @@ def _motors(
 
 
 def _torque(
-    reading: UrdfContents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[float, tuple[str, ...]]:
+    reading: Contents, actuated: tuple[str, ...], hints: Hints
+) -> tuple[float, tuple[Note, ...]]:
     """The torque limit of all motors [N m], that of the hints or else the least one in the
     URDF, and a sentence on it.
 
@@ -320,20 +338,41 @@ def _torque(
     efforts = {name: reading.effort[name] for name in actuated}
     least = min(efforts.values())
     which = "every motor" if least == max(efforts.values()) else f"the weakest of {efforts}"
-    return least, (f"torque limit: {least:g} N m, of {which}",)
+    return least, (Note("read", f"torque limit: {least:g} N m, of {which}"),)
 
 
-def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
-    """Sentences on what the URDF leaves open and the defaults used."""
-    result = []
+def _armature(
+    reading: Contents, actuated: tuple[str, ...], hints: Hints
+) -> tuple[Rotors, tuple[Note, ...]]:
+    """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
+
+    The rotor of a joint without a motor is left out.
+    """
+    if hints.armature is not None:
+        return hints.armature, ()
+    each = tuple(reading.rotor.get(name, 0.0) for name in actuated)
+    text = ", ".join(
+        f"{x:g} kg m^2 on '{name}'" for name, x in zip(actuated, each, strict=True) if x
+    )
+    none = Note("assumed", "rotor inertia: none; the file does not say. --set armature= gives it")
+    notes = [Note("read", f"rotor inertia, reflected by the gear: {text}") if text else none]
+    if other := sorted(name for name, x in reading.rotor.items() if x and name not in actuated):
+        notes.append(Note("left out", f"rotor inertia of {other}, which have no motor"))
+    return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)
+
+
+def _remarks(reading: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
+    """Sentences on friction: of the feet, and of the joints."""
+    notes = []
     if hints.friction_coefficient is None:
-        result.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")
-    if hints.armature == 0.0:
-        result.append("rotor inertia: none; a URDF does not say")
-    if any(reading.viscous.values()) or any(reading.static.values()):
-        result.append("joint friction: read from <dynamics>, off unless asked for")
-    if reading.undrawn:
-        result.append(
-            f"shapes of {list(reading.undrawn)} are meshes or stand oblique, and are not drawn"
-        )
-    return tuple(result)
+        text = f"dry friction of the feet: {FRICTION}, as of RABBIT; the file does not say"
+        notes.append(Note("assumed", text))
+    for what, values, unit in (
+        ("viscous", reading.viscous, "N m s/rad"),
+        ("static", reading.static, "N m"),
+    ):
+        text = ", ".join(f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name))
+        if text:
+            text = f"{what} joint friction [{unit}]: {text}; it acts where hardware.friction is set"
+            notes.append(Note("read", text))
+    return tuple(notes)

@@ -41,6 +41,9 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.model.robots.urdf_reader import read
 
+Rotors = float | tuple[float, ...]
+"""Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
+
 
 @dataclass(frozen=True)
 class BodyParameters:
@@ -65,8 +68,8 @@ class Preset:
     name: str
     source: str
     """Origin of the numbers."""
-    armature: float
-    """Rotor inertia per actuated joint, reflected to it [kg m^2]."""
+    armature: Rotors
+    """Rotor inertia per actuated joint, reflected to it [kg m^2]; one number, or one for each motor."""
     bodies: Mapping[str, BodyParameters]
     """Parameters by class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
@@ -296,8 +299,12 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
             *_numbers(f"{where}.{body}.com", [p["com"]], 1),
             _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
-    (armature,) = _numbers(f"{where}.armature", [record["armature"]], 1, least=0.0)
-    return Preset(name, _name(f"{where}.source", record["source"]), armature, bodies)
+    rotors = record["armature"]
+    each = rotors if isinstance(rotors, list | tuple) else [rotors]
+    count = len(data["actuated"]) if each is rotors else 1
+    armature = _numbers(f"{where}.armature", each, count, least=0.0)
+    source = _name(f"{where}.source", record["source"])
+    return Preset(name, source, armature if each is rotors else armature[0], bodies)
 
 
 def _positive(value: object, what: str) -> float:

@@ -15,7 +15,7 @@ that count from a torso, and a combination for a hip that counts from the other 
 with spokes; it comes from the record.
 
 This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
-not. Twins are paired upwards from the feet.
+not. Twins are paired along the way from foot to foot, from both ends to its middle.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,7 +35,8 @@ from biped_adrc.core.types import Array
 Vector = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""
 
-JOINT_TYPES = ("revolute", "prismatic", "fixed")
+JOINT_TYPES = ("revolute", "prismatic", "fixed", "planar", "floating")
+"""The last two leave a robot free in the plane; `robot_import` puts a planar base in their place."""
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}
 """Attributes of a shape's size by the shape's name."""
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -43,6 +45,14 @@ SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
 FREE = 1000.0
 """Number that stands for no limit in <limit>, where one is compulsory."""
+
+
+class Note(NamedTuple):
+    """A sentence on how the file of a robot was understood."""
+
+    kind: str
+    """"read", "assumed" or "left out"."""
+    text: str
 
 
 @dataclass(frozen=True)
@@ -157,6 +167,22 @@ class Tree(Shown):
         return replace(self, links=links)
 
 
+def with_tip(tree: Tree, link: str, place: Vector) -> tuple[Tree, str]:
+    """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name."""
+    tip = free_name(tree, f"{link}_tip")
+    mount = free_name(tree, f"{tip}_mount")
+    joint = Joint(mount, "fixed", link, tip, place, (1.0, 0.0, 0.0))
+    links = {**tree.links, tip: Link(tip, None, ())}
+    return replace(tree, links=links, joints=(*tree.joints, joint)), tip
+
+
+def free_name(tree: Tree, name: str) -> str:
+    """The name itself, or with underscores appended until no link or joint of the tree has it."""
+    while name in tree.links or any(joint.name == name for joint in tree.joints):
+        name += "_"
+    return name
+
+
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `urdf_reader.read` of it gives the same tree back.
 
@@ -210,17 +236,19 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
 def check_inertial(inertial: Inertial, where: str) -> None:
     """Raise ModelError unless mass and moments are those of a rigid body.
 
-    They must be positive and finite, and no principal moment above the sum of the other two. Moments are
-    scaled, so that tiny bodies do not underflow.
+    The mass must be positive, no principal moment negative or above the sum of the other two. A point mass or
+    a rod has moments that are zero: D_s of the whole robot must be definite, not that of each body. Moments
+    are scaled, so that tiny bodies do not underflow.
     """
     J = np.array(inertial.inertia)[SYMMETRIC]
     size = float(np.sum(np.abs(J)))
-    fits = 0.0 < inertial.mass < math.inf and 0.0 < size < math.inf
-    principal = np.linalg.eigvalsh(J / size) if fits else np.zeros(3)
-    if principal[0] <= 0.0 or 2.0 * principal[2] > np.sum(principal) * (1.0 + 1e-9):
+    fits = 0.0 < inertial.mass < math.inf and size < math.inf
+    principal = np.linalg.eigvalsh(J / (size or 1.0)) if fits else np.array([-1.0, 0.0, 0.0])
+    least = min(float(principal[0]), float(np.sum(principal) - 2.0 * principal[2]))
+    if not least >= -1e-9:
         raise ModelError(
             f"{where}: mass {inertial.mass:g} kg and moments of inertia {inertial.inertia} kg m^2 are those of "
-            "no body; expected a positive mass and a positive definite matrix that obeys the triangle "
+            "no body; expected a positive mass and a positive semidefinite matrix that obeys the triangle "
             "inequality. A frame without mass has no <inertial>"
         )
 
@@ -228,16 +256,32 @@ def check_inertial(inertial: Inertial, where: str) -> None:
 _EXACT = 1e-9  # largest residual of A R = P A, dimensionless
 
 
+def way(tree: Tree, feet: tuple[str, str]) -> list[tuple[Joint, str]]:
+    """Joints on the way from one foot to the other, each with the link behind it."""
+    one, other = (tree.path_to_root(foot) for foot in feet)
+    up = [(joint, joint.parent) for joint in one if joint not in other]
+    return up + [(joint, joint.child) for joint in reversed(other) if joint not in one]
+
+
+def bodies_between(tree: Tree, feet: tuple[str, str]) -> list[list[str]]:
+    """Links on the way from one foot to the other, those that fixed joints hold together in one list."""
+    bodies = [[feet[0]]]
+    for joint, link in way(tree, feet):
+        if joint.type == "fixed":
+            bodies[-1].append(link)
+        else:
+            bodies.append([link])
+    return bodies
+
+
 def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
-    """Each link's twin in the other leg, paired upwards from the feet; links not in the
-    result are their own twins.
+    """Each link's twin in the other leg, paired from both feet to the middle of the way between them;
+    links not in the result are their own twins.
     """
-    paired: dict[str, str] = {}
-    chains = ([joint.child for joint in tree.path_to_root(foot)] for foot in feet)
-    for one, other in zip(*chains, strict=False):
-        if one == other or one in paired or other in paired:
-            break
-        paired |= {one: other, other: one}
+    bodies, paired = bodies_between(tree, feet), dict[str, str]()
+    for near, far in zip(bodies[: len(bodies) // 2], reversed(bodies), strict=False):
+        for one, other in zip(near, reversed(far), strict=False):
+            paired |= {one: other, other: one}
     return paired
 
 
@@ -264,10 +308,13 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     residual is not zero or R R is not the identity.
     """
     pairs = twins(tree, feet)
-    chains = (joint.child for foot in feet for joint in tree.path_to_root(foot))
     turned = (joint.child for joint in tree.joints if joint.name in joints)
-    links = list(dict.fromkeys((*chains, *turned)))
+    links = list(dict.fromkeys((*pairs, *turned)))
     A = absolute_angles(tree, joints, links)
+    # a link fixed to one that has a twin turns as that one does: a hip welded to a leg has no rule of its own
+    paired = A[: len(pairs)].tolist()
+    own = [k for k, row in enumerate(A.tolist()) if k < len(paired) or row not in paired]
+    A, links = A[own], [links[k] for k in own]
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
     R = np.where(np.abs(R) < _EXACT, 0.0, R)
@@ -282,9 +329,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
 
 def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     """Pairs (link of the stance leg, its twin in the swing leg), from the feet upwards."""
-    result = twins(tree, feet)
-    stance = [joint.child for joint in tree.path_to_root(feet[0])]
-    return tuple((link, result[link]) for link in stance if link in result)
+    return tuple(twins(tree, feet).items())[::2]
 
 
 def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:

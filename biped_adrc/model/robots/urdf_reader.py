@@ -7,11 +7,14 @@ frame at zero angles and (x, R) the origin of a joint in it,
     c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
 
 so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles
-keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv.
+keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Where the
+joints turn about another horizontal axis than y, the whole robot is turned about z until they do.
 Shapes that are meshes or stand oblique after the turn are not kept: the tree has upright primitives only.
 
-The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside
-the tree. Every ModelError names the file, the element, what was found and what was expected.
+Kept beside the tree are <limit effort lower upper>, the friction <dynamics damping friction>, and the
+inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, from <transmission>
+(`mechanicalReduction`, 1 if missing, and `motorInertia`). Every ModelError names the file, the element,
+what was found and what was expected.
 """
 
 from __future__ import annotations
@@ -28,8 +31,8 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
+from biped_adrc.model.robots import urdf_elements as xml
 from biped_adrc.model.robots.urdf import (
     FREE,
     GEOMETRY_SIZES,
@@ -39,29 +42,30 @@ from biped_adrc.model.robots.urdf import (
     Inertial,
     Joint,
     Link,
+    Note,
     Tree,
     Vector,
     Visual,
     check_inertial,
 )
 
-MOST_LINKS = 200
-"""Largest number of links of a robot."""
-LARGEST = 1e100
-"""Bound on every number in a URDF, in any unit; products of larger ones overflow."""
+PLANAR = 1e-4
+"""Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
 SMALLEST = 1e-9
 """Least size of a shape [m]."""
-_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
 _UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
 _SLENDER = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05])  # moments of a link along z over its iyy
 _CIRCULAR = ("revolute", "continuous")
+_USED = re.compile(
+    "link|joint|transmission|inertial|visual|origin|parent|child|axis|limit|dynamics"
+)
 
 
 @dataclass(frozen=True)
-class UrdfContents:
-    """Content of a URDF: the tree with parallel frames, and limits and friction by joint."""
+class Contents:
+    """Content of a robot's file: the tree with parallel frames, and limits, friction and rotors by joint."""
 
     tree: Tree
     """Links and joints with parallel frames."""
@@ -73,168 +77,115 @@ class UrdfContents:
     """Viscous friction [N m s/rad], where <dynamics damping> is given."""
     static: Mapping[str, float]
     """Static friction [N m], where <dynamics friction> is given."""
-    undrawn: tuple[str, ...]
-    """Links with a shape that was not kept: a mesh, or one that stands oblique."""
+    rotor: Mapping[str, float]
+    """Inertia of the rotor, reflected to the joint [kg m^2], where the file has one."""
+    turns: Mapping[str, Array]
+    """Rotation (3, 3) by link, from the axes that it has in the file to those of the world."""
+    notes: tuple[Note, ...]
+    """What was assumed and left out."""
 
 
-def parse(path: Path | str) -> ET.Element:
-    """The element <robot> of a URDF file. Raises ModelError for another file."""
-    path = Path(path)
-    with reading("URDF", path, ModelError):
-        data = path.read_bytes()
-        if path.suffix == ".xacro" or b"<xacro:" in data:
-            raise ValueError(
-                "it holds xacro macros, expected the URDF they expand to; try "
-                f"'xacro {path.name} > robot.urdf' and give robot.urdf"
-            )
-        root = ET.fromstring(data)
-        count = len(root.findall("link"))
-        if root.tag != "robot" or count > MOST_LINKS:
-            raise ValueError(
-                f"<{root.tag}> with {count} links, expected <robot> with at most {MOST_LINKS}"
-            )
-    return root
-
-
-def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
-    """Read and check a URDF.
-
-    tips: link -> a place in its own frame [m] where a link without mass, `LINK_tip`, is added: a foot for legs
-    that end with a shin. Raises ModelError.
-    """
-    robot, file = parse(path), f"URDF '{path}'"
-    for link, place in (tips or {}).items():
-        _add_tip(robot, link, place)
-    bodies, movers = robot.findall("link"), robot.findall("joint")
-    for (tag, name), count in Counter((e.tag, _name(e, file)) for e in (*bodies, *movers)).items():
+def read(path: Path | str) -> Contents:
+    """Read and check a URDF. Raises ModelError."""
+    robot, file = xml.parse(path), f"URDF '{path}'"
+    movers = robot.findall("joint")
+    ends = [_ends(joint, file) for joint in movers]
+    names = {link.get("name") for link in robot.findall("link")}
+    if "world" not in names and any(parent == "world" for parent, _ in ends):
+        ET.SubElement(robot, "link", name="world")
+    bodies = robot.findall("link")
+    for (tag, name), count in Counter(
+        (e.tag, xml.name_of(e, file)) for e in (*bodies, *movers)
+    ).items():
         if count > 1:
             raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
-    ends = [_ends(joint, file) for joint in movers]
-    turns = _turns([link.get("name", "") for link in bodies], movers, ends, file)
-    links = {link.get("name", ""): _link(link, file, turns) for link in bodies}
+    order = [link.get("name", "") for link in bodies]
+    turns = _turns(order, movers, ends, file, np.eye(3))
+    yaw = _yaw(movers, ends, turns, file)
+    if yaw:
+        turns = _turns(order, movers, ends, file, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
+    moved = {child for _, child in ends}
+    links = {link.get("name", ""): _link(link, file, turns, moved) for link in bodies}
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    low, high = (_by_joint(turning, "limit", key, file, -LARGEST) for key in ("lower", "upper"))
-    return UrdfContents(
-        Tree(_name(robot, file), links, joints, str(path)),
-        _by_joint(turning, "limit", "effort", file),
+    low, high = (
+        xml.by_joint(turning, "limit", key, file, -xml.LARGEST) for key in ("lower", "upper")
+    )
+    return Contents(
+        Tree(xml.name_of(robot, file), links, joints, str(path)),
+        xml.by_joint(turning, "limit", "effort", file),
         {
             name: (low[name], high[name])
             for name in low
             if name in high and 0.0 < high[name] - low[name] < 2.0 * math.pi
         },
-        _by_joint(turning, "dynamics", "damping", file),
-        _by_joint(turning, "dynamics", "friction", file),
-        tuple(
-            link.name
-            for e, link in zip(bodies, links.values(), strict=True)
-            if len(e.findall("visual")) > len(link.visuals)
-        ),
+        xml.by_joint(turning, "dynamics", "damping", file),
+        xml.by_joint(turning, "dynamics", "friction", file),
+        _rotors(robot, file),
+        turns,
+        _notes(robot, links, yaw),
     )
 
 
-def tip_of(link: str) -> str:
-    """Name of the link that `read` adds at the tip of `link`."""
-    return f"{link}_tip"
+def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
+    """What was assumed of a URDF, and what of it was left out."""
+    bodies = robot.findall("link")
+    heavy = {link.get("name"): e for link in bodies if (e := link.find("inertial")) is not None}
+    points = [name for name, e in heavy.items() if e.find("inertia") is None]
+    frames = [name for name in heavy if name and links[name].inertial is None]
+    shapes = zip(bodies, links.values(), strict=True)
+    undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
+    parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
+    other = Counter(tag for tag in parts if not _USED.fullmatch(tag))
+    notes = (
+        ("assumed", yaw, f"direction: turned about z by {yaw:g} rad, so that axes are y"),
+        ("assumed", points, f"masses of {points}: points, as they have no <inertia>"),
+        ("left out", frames, f"<inertial> of {frames}: their mass is 0"),
+        ("left out", undrawn, f"shapes of {undrawn}: meshes, or primitives that stand oblique"),
+        ("left out", other, ", ".join(f"<{tag}> x {k}" for tag, k in other.items())),
+    )
+    return tuple(Note(kind, text) for kind, found, text in notes if found)
 
 
-def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
-    """Add a link without mass, fixed at a place [m] in the frame of `link`."""
-    ET.SubElement(robot, "link", name=tip_of(link))
-    joint = ET.SubElement(robot, "joint", name=f"{tip_of(link)}_mount", type="fixed")
-    ET.SubElement(joint, "parent", link=link)
-    ET.SubElement(joint, "child", link=tip_of(link))
-    ET.SubElement(joint, "origin", xyz=" ".join(repr(float(x)) for x in place))
-
-
-# -- attributes ------------------------------------------------------------------------------------
-def _place_of(element: ET.Element, file: str) -> str:
-    """Text for messages that names a link or joint: file, kind of element and name."""
-    return f"{file}, {element.tag} '{element.get('name')}'"
-
-
-def _name(element: ET.Element, where: str, key: str = "name") -> str:
-    """The attribute `key` of an element, after a check that it is printable.
-
-    Line breaks and tabs would spoil tables and messages. Raises ModelError.
-    """
-    name = element.get(key, "")
-    if not name or not name.isprintable():
-        raise ModelError(
-            f"{where}: <{element.tag}> has {key}={name!r}, expected a name on one line"
-        )
-    return name
-
-
-def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
-    """The first child <tag>. Raises ModelError where it is missing."""
-    child = element.find(tag)
-    if child is None:
-        raise ModelError(f"{where}: <{tag}> is missing")
-    return child
-
-
-def _numbers(
-    element: ET.Element | None,
-    key: str,
-    default: str,
-    count: int,
-    where: str,
-    least: float = -LARGEST,
-) -> Vector:
-    """`count` numbers of an attribute, none below `least`; `default` where it is missing.
-
-    Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
-    would also read "nan", "inf" and "1_0".
-    """
-    text = default if element is None else element.get(key, default)
-    words = text.split()
-    values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
-    if len(values) != count or not all(least <= value < LARGEST for value in values):
-        raise ModelError(
-            f"{where}: {key}={text!r}, expected {count} number(s) from {least:g} to {LARGEST:g}"
-        )
-    return values  # type: ignore[return-value]
-
-
-def _by_joint(
-    joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
-) -> dict[str, float]:
-    """The number <tag key> of each joint that has it, by name of the joint."""
-    values = {}
-    for joint in joints:
-        element = joint.find(tag)
-        if element is not None and key in element.attrib:
-            where = f"{_place_of(joint, file)} <{tag}>"
-            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, least)[0]
-    return values
+def _rotors(robot: ET.Element, file: str) -> dict[str, float]:
+    """N^2 J [kg m^2] by joint of each <transmission>, from the texts of its elements."""
+    result = {}
+    for e in robot.iterfind("transmission[joint]"):
+        texts = {
+            tag: e.findtext(f".//{tag}", "1") for tag in ("mechanicalReduction", "motorInertia")
+        }
+        if e.find(".//motorInertia") is not None:
+            numbers = ET.Element("transmission", texts)
+            N, J = (xml.numbers(numbers, tag, "", 1, f"{file}, <transmission>")[0] for tag in texts)
+            result[xml.required(e, "joint", file).get("name", "")] = N * N * J
+    return result
 
 
 # -- frames ----------------------------------------------------------------------------------------
 def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
     """Names of the parent and the child link of a joint."""
-    where = _place_of(joint, file)
+    where = xml.place_of(joint, file)
     parent, child = (
-        _name(_required(joint, role, where), where, "link") for role in ("parent", "child")
+        xml.name_of(xml.required(joint, role, where), where, "link") for role in ("parent", "child")
     )
     return parent, child
 
 
 def _turns(
-    links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str
+    links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str, R: Array
 ) -> dict[str, Array]:
-    """Rotation R (3, 3) of each link at zero angles, from its axes to those of the root; link -> R.
+    """Rotation (3, 3) of each link at zero angles, from its axes to those of the world; link -> rotation.
 
-    ends: (parent, child) of each joint. Raises ModelError unless the links form one tree.
+    ends: (parent, child) of each joint. R (3, 3): of the root. Raises ModelError unless the links are one tree.
     """
     parents = Counter(child for _, child in ends)
     roots = [link for link in links if link not in parents]
-    turns = dict.fromkeys(roots, np.eye(3))
+    turns = dict.fromkeys(roots, R)
     each = list(zip(joints, ends, strict=True))
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
-            turns[child] = _origin(joint, _place_of(joint, file), turns[parent])[1]
+            turns[child] = _origin(joint, xml.place_of(joint, file), turns[parent])[1]
     twice = [link for link, count in parents.items() if count > 1]
     circle = [link for link in links if link not in turns]
     missing = sorted({link for pair in ends for link in pair} - set(links))
@@ -247,18 +198,37 @@ def _turns(
     return turns
 
 
+def _yaw(
+    joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array], file: str
+) -> float:
+    """Angle [rad] about z that turns the axis of the first joint to y or -y; 0 where it is not horizontal.
+
+    From -pi/2, which makes a robot that walks along y walk along x, to below pi/2.
+    """
+    for joint, pair in zip(joints, ends, strict=True):
+        if joint.get("type") in _CIRCULAR:
+            x, y, z = _joint(joint, file, turns, *pair).axis
+            yaw = (math.atan2(x, y) + 0.5 * math.pi) % math.pi - 0.5 * math.pi
+            return yaw if abs(z) < PLANAR and abs(math.sin(yaw)) > PLANAR else 0.0
+    return 0.0
+
+
+def _clean(turn: Array) -> Array:
+    """A turn whose round-off of pi is set to zero, so that turns by right angles stay exact."""
+    return np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
+
+
 def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
     """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`.
 
     R (3, 3): from the axes of the element to the result's. where: place in the file, for errors.
 
-    rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so that
-    turns by right angles stay exact.
+    rpy turns about the fixed axes x, y, z in this order.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
-    place = _numbers(origin, "xyz", "0 0 0", 3, where)
-    turn = pin.rpy.rpyToMatrix(*_numbers(origin, "rpy", "0 0 0", 3, where))
-    return _vector(R @ place), R @ np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
+    place = xml.numbers(origin, "xyz", "0 0 0", 3, where)
+    turn = pin.rpy.rpyToMatrix(*xml.numbers(origin, "rpy", "0 0 0", 3, where))
+    return _vector(R @ place), R @ _clean(turn)
 
 
 def _vector(values: Array) -> Vector:
@@ -268,14 +238,20 @@ def _vector(values: Array) -> Vector:
 
 
 # -- links and joints ------------------------------------------------------------------------------
-def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> Link:
-    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError."""
-    where, R = _place_of(element, file), turns[element.get("name", "")]
+def _link(element: ET.Element, file: str, turns: Mapping[str, Array], moved: set[str]) -> Link:
+    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError.
+
+    Without mass and moments it is a frame, and so is a root without mass, such as a world.
+    """
+    where, R = xml.place_of(element, file), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
     body, inertial = element.find("inertial"), None
     if body is not None:
         inertial = _inertial(body, where, R)
-        check_inertial(inertial, where)
+        if inertial.mass == 0.0 and not (any(inertial.inertia) and element.get("name") in moved):
+            inertial = None
+        else:
+            check_inertial(inertial, where)
     return Link(element.get("name", ""), inertial, visuals)
 
 
@@ -283,12 +259,12 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     """Mass properties of an element, in axes turned by R.
 
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
-    which do not enter planar motion.
+    which do not enter planar motion. Without <inertia> it is a point.
     """
-    mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    mass = xml.numbers(xml.required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, turn = _origin(element, f"{where} <inertial>", R)
-    inertia, where = _required(element, "inertia", where), f"{where} <inertia>"
-    moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
+    inertia, where = element.find("inertia"), f"{where} <inertia>"
+    moments = np.array([xml.numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
     turned = turn @ moments[SYMMETRIC] @ turn.T
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
@@ -308,8 +284,8 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, GEOMETRY_SIZES[shape.tag]
-    size = sum((_numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
-    rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
+    size = sum((xml.numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
+    rgba = xml.numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = _vector(axes @ size) if box else size
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
 
@@ -321,19 +297,19 @@ def _joint(
 
     Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
     """
-    where, kind = _place_of(element, file), element.get("type", "")
+    where, kind = xml.place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
             f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
-            "joints are not supported, and a robot that floats needs no joint, its planar base is added"
+            "joints are not supported"
         )
-    axis_element = None if kind == "fixed" else element.find("axis")
-    axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
+    axis_element = None if kind in ("fixed", "floating") else element.find("axis")
+    axis = np.array(xml.numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
         axis = turns[child] @ axis
-    speed = _numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    speed = xml.numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
     place = _origin(element, where, turns[parent])[0]
     speed = speed if 0.0 < speed < FREE else math.inf
     kind = "revolute" if kind == "continuous" else kind
