@@ -40,6 +40,8 @@ SHORTEST = 0.05
 """Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5
 """Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
+FOOT_PAST = "the height of the swing foot in the second half of the step"
+"""Name of the row that remains without a clearance: contact counts with the swing foot ahead."""
 SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2
@@ -196,10 +198,11 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
-    above = [i for i, x in enumerate(s) if x > (0.0 if limits.clearance else PASSED) and x < 1.0]
+    passed = limits.clearance is None
+    above = [i for i, x in enumerate(s) if x > (PASSED if passed else 0.0) and x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
-    rows.append(Bounded("foot clearance", height, 0.0, infinite, legs))
+    rows.append(Bounded(FOOT_PAST if passed else "foot clearance", height, 0.0, infinite, legs))
     for joint, (low, high) in limits.ranges.items():
         j = k.biped.description.joint_index(joint)
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))

@@ -39,7 +39,7 @@ from scipy.optimize import least_squares
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.nlp import ASKED, LONGEST, Bounds, relaxed, solve, transcribe
+from biped_adrc.gait.design.nlp import ASKED, FOOT_PAST, LONGEST, Bounds, relaxed, solve, transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.step import Unknowns, at_gait, flat
 from biped_adrc.gait.gait import Gait, onto_section
@@ -200,8 +200,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     )
     allowed = dict.fromkeys(ASKED, SPEED)
     # the foot may scuff, and is kept up in the second half at the nodes alone
-    if limits.clearance is None:
-        allowed["foot clearance"] = np.inf
+    allowed[FOOT_PAST] = np.inf
     result = programme.missed(flat(x))
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, EXACT)}
     return programme.in_words(missed)
