@@ -143,6 +143,18 @@ def test_elements_of_arrays_are_named(suffix, biped, gait, tmp_path):
             ba.import_gait(path, biped, "paper", names | {"theta_plus": wrong})
 
 
+def test_rows_of_an_array_are_named_as_optimtraj_stacks_them(step, biped, gait, tmp_path):
+    back, path = convention("optimtraj").to_paper.inverse, tmp_path / "soln.mat"
+    state = np.column_stack((back.angles(step.q), back.rates(step.v))).T
+    savemat(path, {"soln": structs({"grid": {"time": step.t, "state": state}})})
+    names = {
+        "t": "soln(1).grid.time(:)",
+        "q": "soln.grid.state(1:5,:)",
+        "v": "soln.grid.state(6:10,:)",
+    }
+    assert close(ba.import_gait(path, biped, "optimtraj", names), gait)
+
+
 def frost_domains(step, biped, left):
     """A step and an impact as FROST's exportSolution hands them out: the base first, time along the rows."""
     back = convention("frost").to_paper.inverse

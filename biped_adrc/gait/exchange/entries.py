@@ -2,7 +2,7 @@
 
     R.alpha                an entry of a struct, or of an object of JSON
     gait(3).states.x       an entry of one struct of an array, {} of a cell
-    p(2), a(2,1), a(:,1)   an element or a column, counted from 1 and down the columns as in MATLAB
+    p(2), a(2,1), x(1:5,:) elements, counted from 1 and down the columns as in MATLAB
 
 The reader drops dimensions of length 1 and a name may state them: gait(1).x is also the x of a single struct,
 and p(1,2) the second number of a row.
@@ -54,9 +54,16 @@ def entry(found: Mapping[str, Any], name: str) -> Any:
             return found[known]
         if element and element[1] in found and "0" not in (index := element[2].split(",")):
             a = np.asarray(found[element[1]])
-            places = tuple(slice(None) if i == ":" else int(i) - 1 for i in index)
+            places = tuple(_place(*i.split(":")) for i in index)
             return a[places] if len(places) > 1 else a.ravel(order="F")[places]
     raise KeyError(name)
+
+
+def _place(first: str, last: str | None = None) -> int | slice:
+    """The place that MATLAB calls 3, or the places 2:5 or ":"."""
+    if last is None:
+        return int(first) - 1
+    return slice(int(first) - 1 if first else None, int(last) if last else None)
 
 
 def frost_steps(found: Mapping[str, Any]) -> dict[str, dict[str, Any]]:

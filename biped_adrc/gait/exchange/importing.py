@@ -163,7 +163,7 @@ def read_record(
         for ours, theirs in names.items():
             try:
                 entries[ours] = entry(entries, theirs)
-            except (KeyError, IndexError):
+            except (KeyError, IndexError, ValueError, TypeError):
                 absent.append(theirs)
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
         absent += [key for key in REQUIRED if not samples and key not in entries]
