@@ -160,8 +160,7 @@ def gait_show(
         _list(biped)
         return
     result = ba.load_gait(gait, biped)
-    for key, value in result.provenance.items():
-        console.say(f"{key}: {value}")
+    _say_origin(result)
     console.print(f"period {result.period:.6f} s, slope {result.slope:g} rad", highlight=False)
     usual = {"friction": biped.description.friction_coefficient, "slope": result.slope}
     report = ba.zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
@@ -172,6 +171,12 @@ def gait_show(
 
         write_figure(plot, zero_dynamics_figure(report))
         console.written(plot)
+
+
+def _say_origin(gait: ba.Gait) -> None:
+    """Print the origin of a gait, and what an import changed or left out."""
+    for key, value in gait.provenance.items():
+        console.say(f"{key}: {value}")
 
 
 def _list(biped: ba.Biped) -> None:
@@ -220,9 +225,10 @@ def gait_import(
     read = (file, *inputs(robot))
     out = target(out, GAITS, read)
     biped = ba.Biped.load(robot, preset)
-    names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
+    names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha or theta_minus=p(1)")
     gait = ba.import_gait(file, biped, convention, names, slopes, degree, slope)
     path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)
+    _say_origin(gait)
     console.print(f"period {gait.period:.6f} s", highlight=False)
     console.written(path)

@@ -123,6 +123,12 @@ def test_what_stands_in_the_way_is_named() -> None:
         design_gait("three_link", 0.9, 0.6, limits=weak)
 
 
+def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
+    with pytest.raises(GaitError, match="swing foot in the second half of the step") as caught:
+        design_gait("rabbit", 2.5, 0.3, limits=StepLimits(clearance=None))
+    assert "clearance" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("asked", "word"),
     [

@@ -10,7 +10,7 @@ import pytest
 
 from biped_adrc.analysis.gait_design import design_gait
 from biped_adrc.core.errors import GaitError
-from biped_adrc.gait.design.nlp import transcribe
+from biped_adrc.gait.design.nlp import LATE, transcribe
 from biped_adrc.gait.design.optimise import _bounds, audit
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits, StepLimits
 from biped_adrc.gait.design.step import Unknowns, at_gait, flat
@@ -110,6 +110,15 @@ def test_the_peak_keeps_the_reserve(robot, limits, unknowns, objective, low):
     _, symbols = transcribe(robot, asked, limits, direction)
     least, most = _bounds(symbols, numbers, asked, limits)
     assert (least[-1], most[-1]) == (low, 0.9)
+
+
+def test_a_clearance_of_zero_keeps_the_foot_up_in_the_whole_step(robot, unknowns):
+    counts = []
+    for clearance in (None, 0.0, 0.02):
+        kept = StepLimits(clearance=clearance).of(robot)
+        rows = transcribe(robot, ASKED, kept, unknowns[1])[0].rows
+        counts += [row.value.numel() for row in rows if row.name in (LATE, "foot clearance")]
+    assert counts[1] == counts[2] > counts[0]
 
 
 # -- the audit -------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@ from biped_adrc.gait.conventions import CONVENTIONS, own_convention
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.exchange.importing import (
     RUN_UNITS,
-    closing_conventions,
     export_gait,
     export_run,
     import_gait,
@@ -203,7 +202,6 @@ def test_a_gait_that_is_not_one_of_the_robot_is_refused(name, biped, gait, recor
 def test_wrong_convention_is_recognised(made, claimed, biped, gait):
     words = replace(record_of(gait, biped, made), phase=None)  # each with its own phase
     wrong = replace(words, convention=claimed)
-    assert made in closing_conventions(wrong, biped)
     with pytest.raises(GaitError, match=made):
         import_gait(wrong, biped)
 
@@ -241,7 +239,7 @@ def test_what_is_no_number_is_refused(record, wrong):
         (
             "new.mat",
             b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + b"\x89HDF\r\n\x1a\n" * 64,
-            "HDF",
+            "-v7'",
         ),
         ("bad.json", b"{", "JSON"),
         ("bad.json", b'{"coefficients": 1}', "missing"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from dataclasses import replace
 
@@ -12,8 +13,14 @@ from scipy.io import savemat
 
 import biped_adrc as ba
 from biped_adrc.core.files import data_folder
-from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.conventions import convention
+from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.exchange.causes import with_legs
+from biped_adrc.gait.exchange.importing import read_mat
+from biped_adrc.gait.exchange.record import GaitRecord, record_of
 from biped_adrc.gait.exchange.samples import Samples
+from biped_adrc.gait.gait import onto_section
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, invariant_constraint
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +108,97 @@ def test_entries_of_a_struct_are_named(biped, gait, tmp_path):
             ba.import_gait(path, biped, "paper", names)
 
 
+def structs(*rows):
+    """A MATLAB array of structs."""
+    array = np.empty((1, len(rows)), dtype=[(name, object) for name in rows[0]])
+    for place, row in enumerate(rows):
+        for name, x in row.items():
+            array[0, place][name] = x
+    return array
+
+
+def cells(*rows):
+    """A MATLAB cell."""
+    array = np.empty((1, len(rows)), dtype=object)
+    for place, x in enumerate(rows):
+        array[0, place] = x
+    return array
+
+
+@pytest.mark.parametrize("suffix", ["mat", "json"])
+def test_elements_of_arrays_are_named(suffix, biped, gait, tmp_path):
+    alpha, plus, minus = entries(gait)
+    path, column = tmp_path / f"R.{suffix}", alpha.ravel(order="F")
+    steps = [{"a": 0.0 * column, "p": [9.0, 9.0]}, {"a": column, "p": [minus, plus]}]
+    if suffix == "mat":
+        savemat(path, {"R": structs(*steps), "one": structs({"x": 1.0})})
+        assert read_mat(path)["one"] == {"x": 1.0}
+    else:
+        path.write_text(json.dumps({"R": [dict(s, a=[*s["a"]]) for s in steps]}))
+    names = {"theta_plus": "R{2}.p(2)", "theta_minus": "R(1,2).p(1)", "coefficients": "R(2).a"}
+    if suffix == "mat":
+        assert close(ba.import_gait(path, biped, "paper", names), gait)
+    for wrong in ("R(3).p(1)", "R(2).p(0)", "R(2).p(3)", "R(2).b"):
+        with pytest.raises(ba.BipedError, match=re.escape(wrong)):
+            ba.import_gait(path, biped, "paper", names | {"theta_plus": wrong})
+
+
+def test_rows_of_an_array_are_named_as_optimtraj_stacks_them(step, biped, gait, tmp_path):
+    back, path = convention("optimtraj").to_paper.inverse, tmp_path / "soln.mat"
+    state = np.column_stack((back.angles(step.q), back.rates(step.v))).T
+    savemat(path, {"soln": structs({"grid": {"time": step.t, "state": state}})})
+    names = {
+        "t": "soln(1).grid.time(:)",
+        "q": "soln.grid.state(1:5,:)",
+        "v": "soln.grid.state(6:10,:)",
+    }
+    assert close(ba.import_gait(path, biped, "optimtraj", names), gait)
+
+
+def frost_domains(step, biped, left):
+    """A step and an impact as FROST's exportSolution hands them out: the base first, time along the rows."""
+    back = convention("frost").to_paper.inverse
+    q, v = (x @ biped.R.T if left else x for x in (step.q, step.v))
+    hips = (
+        [biped.hip(x) for x in step.q],
+        [biped.hip_velocity(x, w) for x, w in zip(step.q, step.v, strict=True)],
+    )
+    x, dx = (
+        np.column_stack(both).T for both in zip(hips, (back.angles(q), back.rates(v)), strict=True)
+    )
+    params = {"atime": np.arange(24.0)[:, np.newaxis], "ptime": [[step.t[-1]], [0.0]]}
+    course = {"tspan": step.t[np.newaxis], "states": {"x": x, "dx": dx}, "params": params}
+    return course, {"tspan": [], "states": {"x": x[:, -1:], "xn": x[:, :1]}, "params": {"a": 1.0}}
+
+
+@pytest.mark.parametrize("left", [False, True])
+@pytest.mark.parametrize(
+    ("form", "where"),
+    [
+        ("structs", "gait(1); left out: gait(3)"),
+        ("cells", "states(1); left out: states(3)"),
+        ("library", "all(2,1)(3); left out: all(1,1)(1)"),
+    ],
+)
+def test_results_of_frost_as_they_are(form, where, left, step, biped, gait, tmp_path):
+    course, impact = frost_domains(step, biped, left)
+    domains, names = (
+        (course, impact, course),
+        {"step": "all{2,1}(3)".replace("{", "(").replace("}", ")")},
+    )
+    content = {
+        "structs": lambda: {"gait": structs(*domains)},
+        "cells": lambda: {name: cells(*(d[name] for d in domains)) for name in course},
+        "library": lambda: {"all": np.vstack([cells(structs(*domains), 0.8)] * 2)},
+    }
+    savemat(tmp_path / "walk.mat", content[form]())
+    found = ba.import_gait(tmp_path / "walk.mat", biped, names=names if form == "library" else None)
+    assert close(found, gait)
+    assert found.provenance["source"].startswith(f"walk.mat, {where}")
+    assert found.provenance["left out"] == "position of the base"
+    assert ("stance leg" in found.provenance) is left
+
+
 # -- samples over time ------------------------------------------------------------------------------
 @pytest.mark.parametrize("rates", [True, False])
 def test_samples_give_back_the_gait_they_were_made_with(step, rates, biped, gait):
@@ -158,3 +256,84 @@ def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
     heavy = ba.ModelErrors(mass={"torso": 2.0}, inertia={"torso": 2.0}).apply(biped)
     with pytest.raises(ba.BipedError, match="masses"):
         ba.import_gait(step, heavy)
+
+
+# -- a foot that is nearly on the ground, and robots that are other ones -----------------------------
+def low(biped, step, height):
+    """The step with its foot this much [m] above the ground at both ends."""
+    J = biped.swing_foot_jacobian(step.q[-1])[1, : biped.p]
+    dq = np.append(J * height / (J @ J), 0.0)
+    theta = step.q @ biped.phase
+    along = ((theta - theta[0]) / (theta[-1] - theta[0]))[:, np.newaxis]
+    return step._replace(q=step.q + biped.R @ dq + along * (dq - biped.R @ dq))
+
+
+@pytest.mark.parametrize("height", [-1.27e-3, 4e-3])
+def test_a_foot_near_the_ground_is_put_onto_it_and_that_is_said(height, step, biped, gait):
+    for found in (
+        ba.import_gait(low(biped, step, height), biped),
+        ba.import_gait(low_record(biped, gait, height), biped),
+    ):
+        assert abs(biped.swing_foot(found.q_minus)[1]) < 1e-9
+        assert found.period == pytest.approx(gait.period, abs=4e-3)
+        millimetres = float(found.provenance["swing foot put onto the ground"].split()[2])
+        assert millimetres == pytest.approx(1e3 * height, abs=0.05)
+    with pytest.raises(ba.BipedError, match="above the ground"):
+        ba.import_gait(low(biped, step, 6e-3), biped)
+
+
+def low_record(biped, gait, height):
+    """The gait as arrays whose curves end with the foot this much [m] above the ground."""
+    r = record_of(gait, biped)
+    J = biped.swing_foot_jacobian(gait.q_minus)[1, : biped.p]
+    dq, level = np.append(J * height / (J @ J), 0.0), np.zeros(biped.p)
+    first = biped.R @ dq
+    a = r.coefficients + Bezier.between(first[:-1], level, level, dq[:-1], 6)
+    ends = r.theta_plus + biped.phase @ first, r.theta_minus + biped.phase @ dq
+    return GaitRecord("paper", a, *ends)
+
+
+@pytest.mark.parametrize("k", [0.165, 0.378, 1.6])
+def test_another_gravity_is_told_from_other_masses_and_lengths(k, step, biped):
+    """q(t) in k times the gravity is q(sqrt(k) t)."""
+    there = Samples(step.t / np.sqrt(k), step.q, step.v * np.sqrt(k))
+    with pytest.raises(
+        ba.BipedError, match=rf"fit with gravity \(or one over all lengths\) times {k:g}"
+    ):
+        ba.import_gait(there, biped)
+
+
+def of_robot(biped, gait):
+    """Samples at the nodes of the zero dynamics of a robot with the poses of a gait, whose impact it has."""
+    q, dq, _ = configuration(gait.constraint, gait.constraint.theta_minus)
+    h = invariant_constraint(Bezier, biped, onto_section(biped, q), dq, 6)
+    zero = ZeroDynamics.of(biped, h)
+    cycle = zero.cycle
+    t = zero.cumulative @ (1.0 / (cycle.v @ h.phase))
+    last = zero.end_state(1.0)[0]
+    q = np.vstack((biped.relabel(last), cycle.q, last))
+    return Samples(np.array([0.0, *t, cycle.period]), q)
+
+
+OTHERS = {
+    "the length of the legs times 1.3$": lambda b: with_legs(b, 1.3),
+    "masses and inertias of torso times 1.5$": lambda b: b.with_errors(
+        {"torso": 1.5}, {"torso": 1.5}
+    ),
+    'close in .*tac2003.*preset="tac2003"': lambda b: ba.Biped.load("rabbit", "tac2003"),
+}
+
+
+@pytest.mark.parametrize("cause", OTHERS)
+def test_lengths_and_masses_are_told_apart_before_one_is_named(cause, biped, gait):
+    other = OTHERS[cause](biped)
+    samples = of_robot(other, gait)
+    ba.import_gait(samples, other)
+    with pytest.raises(ba.BipedError, match=cause):
+        ba.import_gait(samples, biped)
+
+
+def test_another_convention_of_samples_is_named(step, biped):
+    there = convention("optimtraj").to_paper.inverse
+    with pytest.raises(ba.BipedError, match=r"close in .*optimtraj"):
+        ba.import_gait(Samples(step.t, there.angles(step.q)), biped)

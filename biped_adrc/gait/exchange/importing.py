@@ -45,12 +45,16 @@ from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_json
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
+from biped_adrc.gait.exchange.causes import explained
+from biped_adrc.gait.exchange.entries import entry, flat, frost_steps
 from biped_adrc.gait.exchange.record import (
     ENTRIES,
     REQUIRED,
     SLOPES,
     GaitRecord,
     coordinates,
+    foot_down,
+    onto_ground,
     record_of,
 )
 from biped_adrc.gait.exchange.samples import Samples, gait_of_samples, read_csv
@@ -78,7 +82,13 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     """
     path = Path(path)
     with reading("MATLAB file", path, InputError):
-        result = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
+        try:
+            result = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
+        except NotImplementedError:
+            raise InputError(
+                f"MATLAB file '{path}' is of version 7.3 (HDF5), expected version 5 to 7; load it in MATLAB "
+                "and write it again with save('file.mat', '-v7')"
+            ) from None
     return {name: _text(value) for name, value in result.items() if not name.startswith("__")}
 
 
@@ -92,6 +102,8 @@ def _text(value: object) -> object:
 FORMAT = "biped_adrc exchanged gait 1"
 """Entry `format` of a gait file written here; files of other programs need none."""
 _KEYS = tuple(f.name for f in fields(GaitRecord))
+SHOWN = 30
+"""Most names of entries that an error lists."""
 
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
@@ -118,46 +130,59 @@ def read_record(
     convention: str | None = None,
     names: Mapping[str, str] | None = None,
     usual: str | None = None,
-) -> GaitRecord | Samples:
+) -> tuple[GaitRecord | Samples, str, str]:
     """Read the record in a .json or .mat file, or the samples of a step where it has t
-    and q and no coefficients.
+    and q and no coefficients, or is a result of FROST; its convention; and where it stood.
 
     convention: where the file does not state its own; usual: where neither does. names: the file's names of
-    its entries where they differ from ours, such as {"coefficients": "alpha"}; entries of a struct are
-    "struct.entry". A stored gait is in the robot's own coordinates. A .csv has samples. Raises InputError and
-    GaitError that name the file.
+    its entries where they differ from ours, such as {"coefficients": "alpha"}, as `entries` reads them;
+    "step" is one of FROST's. A stored gait is in the robot's own coordinates. A .csv has samples. Raises
+    InputError and GaitError that name the file.
     """
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".csv":
-        return read_csv(path)
+        return read_csv(path), convention or OWN, path.name
     if suffix not in (".json", ".mat"):
         raise InputError(
             f"gait file '{path}' ends in '{path.suffix}', expected .json, .mat or .csv"
         )
     result = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
     with reading("gait file", path, GaitError):
-        entries = _flat(result)
+        entries, source = flat(result), path.name
+        known, steps, names = list(entries), frost_steps(entries), dict(names or {})
         cut_off = result.get("format") == FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []
-        absent += [theirs for theirs in (names or {}).values() if theirs not in entries]
-        entries |= {ours: entries.get(theirs) for ours, theirs in (names or {}).items()}
+        if steps and not {"coefficients", "q"} & {*names, *entries}:
+            step = names.pop("step", next(iter(steps)))
+            others = ", ".join(x for x in steps if x != step)
+            source += f", {step}" + (f"; left out: {others}" if others else "")
+            absent += [] if step in steps else [f"step {step} of {list(steps)}"]
+            entries |= steps.get(step, {})
+            convention = convention or usual or "frost"
+        for ours, theirs in names.items():
+            try:
+                entries[ours] = entry(entries, theirs)
+            except (KeyError, IndexError, ValueError, TypeError):
+                absent.append(theirs)
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
         absent += [key for key in REQUIRED if not samples and key not in entries]
         if absent:
+            more = f" and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
             raise GaitError(
-                f"the entries {absent} are missing; the file has {sorted(_flat(result))}. Say what they are "
-                'called there with names={"coefficients": "..."}, or --name coefficients=...'
+                f"the entries {absent} are missing; the file has {sorted(known)[:SHOWN]}{more}. Say what they "
+                'are called there with names={"coefficients": "..."}, or --name coefficients=...'
             )
-        if samples:
-            return Samples(entries["t"], entries["q"], entries.get("v"))
         own = entries.get("convention")
-        convention_ = own or convention or (OWN if result.get("format") == STORED else usual)
+        stored = result.get("format") == STORED or samples
+        convention_ = own or convention or (OWN if stored else usual)
         if convention_ is None or (own and convention not in (None, own)):
             raise GaitError(
                 f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "
                 "a name: add an entry 'convention', or give convention=..."
             )
+        if samples:
+            return Samples(entries["t"], entries["q"], entries.get("v")), convention_, source
         record = {key: entries[key] for key in _KEYS if key in entries}
         for key in ("coefficients", "outputs"):
             if isinstance(record.get(key), np.ndarray):
@@ -165,19 +190,8 @@ def read_record(
         provenance = record.get("provenance", {})
         if isinstance(provenance, str):
             provenance = json.loads(provenance)
-        return GaitRecord(
-            **{**record, "convention": str(convention_), "provenance": dict(provenance)}
-        )
-
-
-def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Entries of a file by name, those of structs as "struct.entry"."""
-    flat = dict[str, Any]()
-    for name, x in found.items():
-        flat[above + name] = x
-        if isinstance(x, Mapping) and name not in ("units", "provenance"):
-            flat |= _flat(x, f"{above}{name}.")
-    return flat
+        record |= {"convention": str(convention_), "provenance": dict(provenance)}
+        return GaitRecord(**record), str(convention_), source
 
 
 RUN_FORMAT = "biped_adrc exchanged run 1"
@@ -248,41 +262,54 @@ def import_gait(
     """
     check_part(biped, "biped", Biped)
     check_part(gait, "gait", GaitRecord, Samples, str, Path)
-    source = "arrays"
+    source, title = "arrays", "samples"
     if isinstance(gait, str | Path):
-        source = Path(gait).name
-        gait = read_record(gait, convention, names, None if of_the_paper(biped) else OWN)
-    if isinstance(gait, Samples):
-        layout = layout_of(convention or OWN, biped)
-        title = "samples" if source == "arrays" else Path(source).stem
-        return gait_of_samples(gait, biped, layout, degree, slope, title, source)
+        title, usual = Path(gait).stem, None if of_the_paper(biped) else OWN
+        gait, convention, source = read_record(gait, convention, names, usual)
+    own = gait.convention if isinstance(gait, GaitRecord) else convention or OWN
+
+    def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
+        if isinstance(gait, Samples):
+            layout = layout_of(convention, robot)
+            return gait_of_samples(gait, robot, layout, degree, slope, title, source)
+        result = _gait_of(replace(gait, convention=convention), robot, source)
+        if slopes:
+            check_slopes(result, robot)
+        return result
+
+    def closes(convention: str, robot: Biped, slopes: bool) -> bool:
+        with suppress(
+            GaitError, InputError
+        ):  # another number of joints, or a phase that says nothing
+            return bool(attempt(convention, robot, slopes))
+        return False
+
     try:
-        result = _gait_of(gait, biped, source)
+        return attempt(own, biped, slopes)
     except GaitError as error:
-        others = [name for name in closing_conventions(gait, biped) if name != gait.convention]
-        hint = f'; it would close in {others}, try convention="{others[0]}"' if others else ""
+        d, hint = biped.description, ""
+        presets = [x for x in d.presets if closes(own, _with_preset(biped, x), slopes)]
+        right = closes(own, biped, False)  # and the masses differ
+        layouts = [x for x in CONVENTIONS if not right and closes(x, biped, False)]
+        for word, others in (("preset", presets), ("convention", layouts)):
+            if others:
+                hint = f'; it would close in {others}, try {word}="{others[0]}"'
+        if isinstance(gait, Samples) and not hint:
+            with suppress(GaitError, InputError):  # of poses that are no step of these legs
+                hint = explained(gait, biped, layout_of(own, biped), degree, slope)
         raise GaitError(f"{error}{hint}") from error
-    if slopes:
-        check_slopes(result, biped)
-    return result
 
 
-def closing_conventions(record: GaitRecord, biped: Biped) -> tuple[str, ...]:
-    """Names of the conventions in which the same numbers would be a gait that closes,
-    without a check of slopes.
-    """
-    closing = []
-    for name in CONVENTIONS:
-        with suppress(GaitError):  # another number of joints, or a phase that says nothing there
-            _gait_of(replace(record, convention=name), biped, "")
-            closing.append(name)
-    return tuple(closing)
+def _with_preset(biped: Biped, name: str) -> Biped:
+    """The robot with another of its presets."""
+    d = biped.description
+    return replace(biped, preset=name, tree=d.tree(name), armature=d.presets[name].armature)
 
 
 def _gait_of(record: GaitRecord, biped: Biped, source: str) -> Gait:
     """The gait of a record, completed by the zero dynamics and checked. Raises GaitError."""
     layout = layout_of(record.convention, biped)
-    along = coordinates(record, layout)
+    along, remark = onto_ground(coordinates(record, layout), biped, record.slope)
     constraint, span = along.constraint, along.theta_minus - along.theta_plus
     q, dq, _ = along.curve(1.0)
     provenance = dict(record.provenance) or {
@@ -291,16 +318,15 @@ def _gait_of(record: GaitRecord, biped: Biped, source: str) -> Gait:
     }
     if along.turns.any():
         provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
+    provenance |= remark
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
     names = record.name, robot, preset
     # of |Theta'| = 1 rad/s: what the curve alone says of the state before impact
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
         to_paper = layout.to_paper
-        q, v = (
-            to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns,
-            to_paper.rates(record.v_minus),
-        )
+        q = to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
+        q, v = q + foot_down(biped, q, record.slope)[0], to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))
         if not gap[joint] <= RATES:

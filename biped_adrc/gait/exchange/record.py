@@ -25,10 +25,11 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention, layout_of
-from biped_adrc.gait.curves import Curve, curve_kind
-from biped_adrc.gait.gait import CLOSES, Gait
+from biped_adrc.gait.curves import Bezier, Curve, curve_kind
+from biped_adrc.gait.gait import CLOSES, Gait, onto_section
 from biped_adrc.gait.outputs import all_coordinates
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 
 _TURN = 2.0 * np.pi
 _PARALLEL = 1e-12
@@ -47,6 +48,8 @@ ENTRIES = {
     "slope": (0, "rad"),
 }
 """Name of each numeric entry -> number of its dimensions, and unit."""
+NEAR = 5e-3
+"""Largest distance of a swing foot from its ground that an import takes away [m]."""
 REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 """Names of the entries without a default."""
 
@@ -133,6 +136,31 @@ class Coordinates(NamedTuple):
         return VirtualConstraint(curve, self.phase, self.theta_plus, self.theta_minus)
 
 
+def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, str]]:
+    """The least change of q- (n,) [rad] that puts a swing foot onto the ground, and a remark.
+
+    Zero, without a remark, within CLOSES of the ground and beyond NEAR.
+    """
+    height = float(ground_axes(slope)[1] @ biped.swing_foot(q))
+    if not CLOSES < abs(height) <= NEAR:
+        return np.zeros(len(q)), {}
+    said = f"it ended {1e3 * height:.3g} mm above it"
+    return onto_section(biped, q, slope) - q, {"swing foot put onto the ground": said}
+
+
+def onto_ground(
+    along: Coordinates, biped: Biped, slope: float
+) -> tuple[Coordinates, dict[str, str]]:
+    """Bezier curves of a step that ends with the foot on the ground, with the same slopes at both ends."""
+    dq, remark = foot_down(biped, along.curve(1.0)[0], slope)
+    if not remark or not isinstance(along.curve, Bezier):
+        return along, {}
+    a, first, level = along.curve.coefficients, biped.R @ dq, 0.0 * dq
+    curve = Bezier(a + Bezier.between(first, level, level, dq, a.shape[1] - 1))
+    plus, minus = along.theta_plus + along.phase @ first, along.theta_minus + along.phase @ dq
+    return Coordinates(curve, along.phase, float(plus), float(minus), along.turns), remark
+
+
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree; A (rows, p), b (rows,) [rad]."""
     return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
@@ -165,8 +193,10 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
     """Curves (n, M + 1) of all coordinates of a convention; c (n,): row of the phase. Raises
     GaitError if they do not fit.
     """
-    n, rows = layout.n, len(record.coefficients)
-    outputs = record.outputs
+    n, outputs, a = layout.n, record.outputs, record.coefficients
+    if outputs is None and len(a) == 1 and a.size % len(layout.outputs) == 0:
+        a = a.reshape(len(layout.outputs), -1, order="F")  # column below column, as FROST has them
+    rows = len(a)
     if outputs is None:
         outputs = np.eye(n) if rows == n else layout.outputs
     half = (record.q_minus is None) != (record.v_minus is None)
@@ -180,7 +210,7 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
             f"rows or one per coordinate, which are {', '.join(layout.coordinates)}; phase, q_minus and "
             f"v_minus have {n} numbers each, the last two are both given or both left out"
         )
-    curve = curve_kind(record.curve)(record.coefficients)
+    curve = curve_kind(record.curve)(a)
     plus, minus = record.theta_plus, record.theta_minus
     if rows != n or record.outputs is not None:
         return all_coordinates(curve, outputs, c, (plus, minus))

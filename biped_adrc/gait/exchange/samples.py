@@ -27,10 +27,11 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.exchange.record import whole_turns
+from biped_adrc.gait.exchange.record import NEAR, foot_down, whole_turns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 
 LARGEST = 4.0 * np.pi
 """Largest angle of a sample [rad]; a larger one is probably in degrees."""
@@ -66,8 +67,8 @@ def gait_of_samples(
     slope [rad]: of the ground. Raises InputError for arrays that are no samples of a step, and GaitError where
     the fit is bad, or where impact or zero dynamics of this robot do not fit the samples.
     """
-    s = _in_robot(_checked(samples, layout.n, degree), layout)
-    fitted = _fitted(s, biped, degree)
+    s, remarks = poses(samples, biped, layout, degree, slope)
+    fitted = fit(s, biped, degree)
     gaps = np.abs([fitted.h(x)[0] for x in s.q @ fitted.phase] - s.q[:, : biped.p])
     k, joint = np.unravel_index(int(np.argmax(gaps)), gaps.shape)
     said = f"{gaps[k, joint]:.2g} rad, {biped.description.joints[joint]} at {s.t[k]:.4g} s"
@@ -75,28 +76,67 @@ def gait_of_samples(
         raise GaitError(
             f"the fit is bad: curves of degree {degree} miss the samples by {said}, expected at most {FITS:g} "
             f"rad; try a degree up to {DEGREES[-1]}. The first sample has to be just after an impact, the last "
-            "just before the next, of this robot's masses, in the order and signs of its joints"
+            "just before the next, of this robot's masses"
         )
     provenance = {
         "method": f"Bezier curves of degree {degree} fitted to {len(s.t)} samples over time",
         "source": source,
         "misses the samples by at most": said,
+        **remarks,
     }
     gait = Gait.of_cycle(name, ZeroDynamics.of(biped, fitted), provenance, slope)
     lasted = float(s.t[-1] - s.t[0])
     if abs(gait.period - lasted) > LASTS * lasted:
         raise GaitError(
             f"the samples last {lasted:.4g} s, and this robot takes {gait.period:.4g} s for the same curves, "
-            f"expected the same within {100.0 * LASTS:g} %; the fit is good, so the samples are of other "
-            "masses, another gravity, or of no periodic step"
+            f"expected the same within {100.0 * LASTS:g} %; the fit is good, so lengths, masses or gravity "
+            "differ, or it is no periodic step"
         )
     return gait.check(biped)
 
 
+def poses(
+    samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float
+) -> tuple[Samples, dict[str, str]]:
+    """The samples in the robot's coordinates with the foot on the ground, and remarks on what that changed.
+
+    Raises InputError and GaitError for what is no step of these legs, whatever their masses.
+    """
+    s, remarks = _in_robot(_checked(samples, layout.n, degree), layout, biped)
+    if layout.n + 2 in np.shape(samples.q):
+        remarks["left out"] = "position of the base"
+    c, q, joints = biped.phase, s.q, biped.description.joints
+    gaps = np.abs(biped.relabel(q[-1]) - q[0])
+    joint, height = int(np.argmax(gaps)), float(ground_axes(slope)[1] @ biped.swing_foot(q[-1]))
+    if gaps[joint] > FITS:
+        raise GaitError(
+            f"the samples: {joints[joint]} of the last one, relabelled, is {gaps[joint]:.3g} rad from the "
+            f"first, expected at most {FITS:g}: the first is not just after an impact or the last not just "
+            "before one, or a sign, the order of joints or the convention is another"
+        )
+    if abs(height) > NEAR:
+        raise GaitError(
+            f"the samples: the swing foot ends {1e3 * height:.3g} mm above the ground, expected at most "
+            f"{1e3 * NEAR:g}: thighs or shins of other lengths, another slope, or a last sample too early"
+        )
+    dq, remark = foot_down(biped, q[-1], slope)
+    along = ((q - q[0]) @ c / ((q[-1] - q[0]) @ c))[:, np.newaxis]
+    first = biped.R @ dq
+    q = q + first + (dq - first) * along**2 * (3.0 - 2.0 * along)  # slopes at the ends stay
+    return s._replace(q=q), remarks | remark
+
+
 def _checked(samples: Samples, n: int, degree: int) -> Samples:
-    """The samples as float arrays of one step. Raises InputError."""
+    """The samples as float arrays of one step; rows over time become columns, the base's position is left out.
+
+    Raises InputError.
+    """
     t, q = numbers(samples.t, "t of the samples"), numbers(samples.q, "q of the samples")
     v = None if samples.v is None else numbers(samples.v, "q' of the samples")
+    if q.shape in ((n, t.size), (n + 2, t.size)):
+        q, v = q.T, None if v is None else v.T
+    if q.shape == (t.size, n + 2):
+        q, v = q[:, 2:], None if v is None else v[..., 2:]
     shapes, largest = {x.shape for x in (q, v) if x is not None}, np.max(np.abs(q), initial=0.0)
     finite = all(np.all(np.isfinite(x)) for x in (t, q, v) if x is not None)
     rising = t.ndim == 1 and degree in DEGREES and len(t) > degree and np.all(np.diff(t) > 0.0)
@@ -109,15 +149,19 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
     return Samples(t, q, v)
 
 
-def _in_robot(s: Samples, layout: Convention) -> Samples:
+def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, dict[str, str]]:
     """The samples in the robot's coordinates, with whole turns as in the gaits of the package.
 
-    Raises GaitError where Theta turns back.
+    Legs that are called by side are exchanged where the left one stands. Raises GaitError where Theta turns
+    back.
     """
-    q = layout.to_paper.angles(s.q)
+    q, v = layout.to_paper.angles(s.q), None if s.v is None else layout.to_paper.rates(s.v)
     if layout.name != OWN:
         q = q + 2.0 * np.pi * whole_turns(q[len(q) // 2])
-    theta = q @ layout.paper_phase
+    theta, remark = q @ layout.paper_phase, dict[str, str]()
+    if layout.name == "frost" and theta[-1] > theta[0]:
+        q, v, remark = q @ biped.R.T, None if v is None else v @ biped.R.T, {"stance leg": "left"}
+        theta = q @ layout.paper_phase
     along = np.diff(theta) * np.sign(theta[-1] - theta[0])
     if not np.all(along > 0.0):
         k = int(np.argmin(along))
@@ -126,10 +170,10 @@ def _in_robot(s: Samples, layout: Convention) -> Samples:
             "expected one step in which it only grows or falls; leave out samples of other steps, and look at "
             "order and sign of the joints"
         )
-    return Samples(s.t, q, None if s.v is None else layout.to_paper.rates(s.v))
+    return Samples(s.t, q, v), remark
 
 
-def _fitted(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
+def fit(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
     """The constraint whose curve has the ends and end slopes of the step, fitted to the
     samples between by least squares.
     """

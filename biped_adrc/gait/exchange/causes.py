@@ -1,0 +1,91 @@
+"""Which one change of a robot explains samples of a step that its dynamics do not give.
+
+From angles over time alone, gravity and a scale of all lengths are the same (q(t) depends on g / L), so the
+candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
+body. For each the factor is solved for that gives the step its duration; then what is left is compared: the
+largest distance of the samples q(t) from the orbit of that robot [rad].
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.optimize import newton
+
+from biped_adrc.core.errors import BipedError
+from biped_adrc.gait.conventions import Convention
+from biped_adrc.gait.exchange.samples import Samples, fit, poses
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+
+EXPLAINS = 5e-3
+"""Largest distance of samples from the orbit of the robot that explains them [rad]."""
+WIDE = math.log(10.0)
+"""Largest logarithm of a factor that is tried."""
+CLEARLY = 3.0
+"""Ratio of distances from which one cause is better than another."""
+
+
+def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float) -> str:
+    """Name the changes that explain samples whose poses fit the robot, as the end of a sentence.
+
+    Raises InputError and GaitError where the poses do not fit.
+    """
+    s = poses(samples, biped, layout, degree, slope)[0]
+
+    def orbit(make: Callable[[float], Biped], k: float) -> ZeroDynamics:
+        return ZeroDynamics.of(make(k), fit(s, make(k), degree))
+
+    def late(log_k: float, make: Callable[[float], Biped]) -> float:
+        k = math.exp(min(max(log_k, -WIDE), WIDE))
+        return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
+
+    d, found = biped.description, dict[str, tuple[float, float]]()
+    makes: dict[str, Callable[[float], Biped]] = {
+        "gravity (or one over all lengths)": lambda k: replace(
+            biped, description=replace(d, gravity=k * d.gravity)
+        ),
+        "the length of the legs": lambda k: with_legs(biped, k),
+    } | {f"masses and inertias of {x}": partial(_heavier, biped, x) for x in d.links}
+    for name, make in makes.items():
+        with suppress(BipedError, RuntimeError):  # no factor gives the duration
+            # log k: with gravity alone the logarithm of the period is a straight line
+            k = math.exp(newton(late, 0.0, x1=0.05, tol=1e-6, args=(make,)))
+            found[name] = _distance(s, orbit(make, k)), k
+    best = min((gap for gap, _ in found.values()), default=math.inf)
+    if best > EXPLAINS:
+        return "; no other gravity, length of the legs or mass of one body alone explains them"
+    causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= CLEARLY * best]
+    return f"; they would fit with {' or '.join(causes)}"
+
+
+def with_legs(biped: Biped, k: float) -> Biped:
+    """The robot with legs k times as long, and the COMs of their links as far out; masses and inertias stay."""
+    tree, d = biped.tree, biped.description
+    legs = {j.child for foot in d.feet for j in tree.path_below(foot, d.trunk) or ()}
+    com = {link: k for link in legs if tree.links[link].inertial is not None}
+    joints = (
+        replace(j, origin=(k * j.origin[0], k * j.origin[1], k * j.origin[2]))
+        if j.parent in legs
+        else j
+        for j in tree.joints
+    )
+    return replace(biped, tree=replace(biped.scaled({"com": com}), joints=tuple(joints)))
+
+
+def _heavier(biped: Biped, body: str, k: float) -> Biped:
+    """The robot with k times the masses and inertias of a body."""
+    return biped.with_errors(mass={body: k}, inertia={body: k})
+
+
+def _distance(s: Samples, zero: ZeroDynamics) -> float:
+    """Largest distance of the samples from the orbit at equal times [rad]."""
+    times = s.t[0] + zero.cumulative @ (1.0 / (zero.cycle.v @ zero.constraint.phase))
+    inside = (times > s.t[0]) & (times < s.t[-1])
+    return float(np.max(np.abs(CubicSpline(s.t, s.q)(times) - zero.cycle.q)[inside]))

@@ -1,0 +1,79 @@
+"""What a file holds by name: structs, arrays of structs, cells, elements of arrays, and the steps of FROST.
+
+    R.alpha                an entry of a struct, or of an object of JSON
+    gait(3).states.x       an entry of one struct of an array, {} of a cell
+    p(2), a(2,1), x(1:5,:) elements, counted from 1 and down the columns as in MATLAB
+
+The reader drops dimensions of length 1 and a name may state them: gait(1).x is also the x of a single struct,
+and p(1,2) the second number of a row.
+
+FROST (ayonga/frost-dev) hands out a step as `exportSolution` makes it, and users save it as an array of structs
+or as cells, at any depth of a file:
+
+    gait(1).tspan           t (1, K) [s]
+    gait(1).states.x, .dx   q', v' (n + 2, K), the base's position first [m, rad]
+    gait(1).params.a..., p  Bezier coefficients, column below column [rad], and their phase at end and start
+
+An impact has no course over time, so it is no step. The parameters may run over any phase, so that the states
+are the gait; with `names`, parameters over the phase of convention `frost` are one too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.io.matlab import mat_struct
+
+
+def flat(x: Any, name: str = "") -> dict[str, Any]:
+    """All entries of a file by name, structs with what they hold."""
+    if isinstance(x, mat_struct):
+        x = {key: getattr(x, key) for key in x._fieldnames}
+    result = {name: x} if name else {}
+    inner = dict[str, Any]()
+    if isinstance(x, Mapping) and name not in ("units", "provenance"):
+        inner = {f"{name}.{key}" if name else key: y for key, y in x.items()}
+    elif np.asarray(x[:1] if isinstance(x, list) else x).dtype == object:
+        cells = np.ndenumerate(np.array(x, dtype=object))
+        inner = {f"{name}({','.join(str(i + 1) for i in place)})": y for place, y in cells}
+    for key, y in inner.items():
+        result |= flat(y, key)
+    return result
+
+
+def entry(found: Mapping[str, Any], name: str) -> Any:
+    """The entry or element of this name. Raises KeyError or IndexError where the file has none."""
+    name = name.translate(str.maketrans("{}", "()", " "))
+    row = re.sub(r"\((?:1,(\d+)|(\d+),1)\)", r"(\1\2)", name)
+    for known in (name, row, re.sub(r"\(1\)(?=[.(])", "", row)):
+        element = re.fullmatch(r"(.+)\(([\d,:]+)\)", known)
+        if known in found:
+            return found[known]
+        if element and element[1] in found and "0" not in (index := element[2].split(",")):
+            a = np.asarray(found[element[1]])
+            places = tuple(_place(*i.split(":")) for i in index)
+            return a[places] if len(places) > 1 else a.ravel(order="F")[places]
+    raise KeyError(name)
+
+
+def _place(first: str, last: str | None = None) -> int | slice:
+    """The place that MATLAB calls 3, or the places 2:5 or ":"."""
+    if last is None:
+        return int(first) - 1
+    return slice(int(first) - 1 if first else None, int(last) if last else None)
+
+
+def frost_steps(found: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Entries t, q and v of the steps of FROST, by the name of their struct; empty without any."""
+    steps = dict[str, dict[str, Any]]()
+    for key, x in found.items():
+        place = re.fullmatch(r"(.*?)states(\([\d,]+\))?\.x", key)
+        t: Any = found.get(f"{place[1]}tspan{place[2] or ''}", ()) if place else ()
+        if place and np.ndim(t) == 1 and np.shape(x)[1:] == np.shape(t):
+            states = key.removesuffix(".x")
+            name = states if place[2] else place[1].rstrip(".")
+            steps[name] = {"t": t, "q": x, "v": found.get(f"{states}.dx")}
+    return steps
