@@ -81,7 +81,7 @@ def with_legs(biped: Biped, k: float) -> Biped:
 
 def _heavier(biped: Biped, body: str, k: float) -> Biped:
     """The robot with k times the masses and inertias of a body."""
-    return biped.with_errors(mass={body: k}, inertia={body: k})
+    return replace(biped, tree=biped.scaled({"mass": {body: k}, "inertia": {body: k}}))
 
 
 def _distance(s: Samples, zero: ZeroDynamics) -> float:

@@ -296,10 +296,10 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
         p = _table(f"{where}.{body}", record[body])
         bodies[body] = BodyParameters(
             _positive(p["mass"], f"{where}.{body}.mass"),
-            *_numbers(f"{where}.{body}.com", [p["com"]], 1),
+            _numbers(f"{where}.{body}.com", [p["com"]], 1)[0],
             _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
-    rotors = record["armature"]
+    rotors: Any = record["armature"]
     each = rotors if isinstance(rotors, list | tuple) else [rotors]
     count = len(data["actuated"]) if each is rotors else 1
     armature = _numbers(f"{where}.armature", each, count, least=0.0)

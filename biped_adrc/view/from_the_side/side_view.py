@@ -43,7 +43,7 @@ class Bone:
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """Find the lines of a robot, link by link in the order of the URDF; a wheel has each once for every spoke."""
+    """Find the lines of a robot, link by link in the order of the file; a wheel has each once a spoke."""
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     result = [
         Bone(name, ends, leg.get(name, ""))
