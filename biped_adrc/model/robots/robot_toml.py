@@ -268,7 +268,7 @@ def _table(key: str, value: object) -> Mapping[str, Any]:
 
 
 def _numbers(
-    key: str, values: Sequence[float], count: int, least: float = -math.inf
+    key: str, values: Sequence[Any], count: int, least: float = -math.inf
 ) -> tuple[float, ...]:
     """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
     row = values if isinstance(values, list | tuple) else ()
