@@ -293,14 +293,14 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
         p = _table(f"{where}.{body}", record[body])
         bodies[body] = BodyParameters(
             _positive(p["mass"], f"{where}.{body}.mass"),
-            *_numbers(f"{where}.{body}.com", [p["com"]], 1),
+            _numbers(f"{where}.{body}.com", [p["com"]], 1)[0],
             _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
     (armature,) = _numbers(f"{where}.armature", [record["armature"]], 1, least=0.0)
     return Preset(name, _name(f"{where}.source", record["source"]), armature, bodies)
 
 
-def _positive(value: object, what: str) -> float:
+def _positive(value: Any, what: str) -> float:
     """Check that a value is a number above zero. Raises InputError that names it by `what`."""
     (number,) = _numbers(what, [value], 1)
     check_positive(number, f"{what} is {value}")
