@@ -307,7 +307,7 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
     return Preset(name, source, armature if each is rotors else armature[0], bodies)
 
 
-def _positive(value: object, what: str) -> float:
+def _positive(value: Any, what: str) -> float:
     """Check that a value is a number above zero. Raises InputError that names it by `what`."""
     (number,) = _numbers(what, [value], 1)
     check_positive(number, f"{what} is {value}")
