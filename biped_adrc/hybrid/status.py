@@ -41,8 +41,7 @@ class Status(Enum):
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     """The integration method could not go on: no acceptable step, or too many steps."""
     EVENT_LIMIT = (
-        "the events accumulate (Zeno) closer than a run can tell apart, or there are more than max_events; "
-        "end the run before, give what rests a mode of its own, or raise max_events"
+        "the events accumulate (Zeno) or exceed max_events; end the run before, or raise max_events"
     )
     """The next event would come within 1 us, or `RunOptions.max_events` came before the run was complete."""
     RAN_AWAY = (
