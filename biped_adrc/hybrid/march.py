@@ -318,7 +318,7 @@ def event(r: Run, t0: float, t1: float) -> int:
 def arm(r: Run) -> None:
     """`values` of the event functions at the start of an arc.
 
-    What is left of the one that has just fired is round-off and taken as zero, which never fires.
+    What is left of the one that has just fired is round-off and taken as zero, for `lift`.
     """
     r.t_arc = r.t
     watch(r, r.t, r.x0, r.values)
