@@ -22,13 +22,7 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant
-from biped_adrc.control.base import (
-    Controller,
-    Measurement,
-    check_methods,
-    discrete_controller,
-    nested,
-)
+from biped_adrc.control.base import Controller, Measurement, check_methods, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
@@ -155,7 +149,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def law(self) -> Controller:
         """The controller in this time base."""
         if isinstance(self.timing, SampledTime):
-            return discrete_controller(self.controller, self.timing.period)
+            return self.controller.at_ticks(self.timing.period)
         return self.controller.continuous()
 
     @cached_property

@@ -157,18 +157,20 @@ class Controller(Part):
         self._has_no("innovation that could be projected")
 
     def sampled(self, period: float) -> Controller:
-        """The same controller for ticks every `period` [s].
-
-        Raises InputError for a controller that has a state in continuous time and no discrete form.
-        """
-        self.check_discrete()
+        """The same controller for ticks every `period` [s]; itself where its `predict` needs no other form."""
         return self
 
-    def check_discrete(self) -> None:
-        """Raise InputError for a state that has a flow, and in sampled time nothing that predicts it."""
-        if self._writes("flow") and not self._writes("predict"):
-            how = "write predict(s, m, u), the state s at the next sample instant, or use ContinuousTime()"
-            self._has_no("discrete form", how)
+    def at_ticks(self, period: float) -> Controller:
+        """What `sampled` returns. Raises InputError for a state that flows and that nothing predicts."""
+        law = self.sampled(period)
+        check_part(law, f"what {type(self).__name__}.sampled returned", Controller)
+        for part in nested(law):
+            if part._writes("flow") and not part._writes("predict"):
+                how = (
+                    "write predict(s, m, u), s at the next sample instant, or use ContinuousTime()"
+                )
+                part._has_no("discrete form", how)
+        return law
 
     def continuous(self) -> Controller:
         """The controller itself, for continuous time. Raises InputError for one that
@@ -201,18 +203,6 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
     while controller is not None:
         yield controller
         controller = getattr(controller, "inner", None)
-
-
-def discrete_controller(controller: Controller, period: float) -> Controller:
-    """The controller for ticks every `period` [s], in which each state is predicted that flows.
-
-    Raises InputError for one without such a form.
-    """
-    law = controller.sampled(period)
-    check_part(law, f"what {type(controller).__name__}.sampled returned", Controller)
-    for part in nested(law):
-        part.check_discrete()
-    return law
 
 
 def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:

@@ -39,7 +39,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices, frozen
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.reduction import BodyTerms, Reduction
-from biped_adrc.observers.base import Estimate, Observer, ResetPolicy, discrete_observer
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 
 HIGHEST = 1e15
 """Largest gain [1/s^2], [1/s]; above it products of gains and poles overflow."""
@@ -256,7 +256,7 @@ class ObservingController(Controller):
         return self.joint_estimate(self.estimated(s), m)
 
     def sampled(self, period: float) -> Self:
-        sampled: Self = replace(self, observer=discrete_observer(self.observer, period))  # type: ignore[type-var]
+        sampled: Self = replace(self, observer=self.observer.at_ticks(period))  # type: ignore[type-var]
         return sampled
 
     def continuous(self) -> Self:

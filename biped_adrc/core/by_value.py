@@ -6,7 +6,7 @@ shape, its dtype and its numbers. NaN equals NaN, so that a thing equals itself 
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Set
+from collections.abc import Hashable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -19,10 +19,8 @@ class ByValue:
     def __init_subclass__(cls, **kwargs: Any) -> None:
         """Copy both methods into the class, since a dataclass would otherwise replace them."""
         super().__init_subclass__(**kwargs)
-        if "__eq__" not in vars(cls):
-            cls.__eq__ = cls.__eq__  # type: ignore[method-assign]
-            if "__hash__" not in vars(cls):
-                cls.__hash__ = cls.__hash__  # type: ignore[method-assign]
+        for name in {"__eq__", "__hash__"} - vars(cls).keys():
+            setattr(cls, name, getattr(cls, name))
 
     def __eq__(self, other: object) -> bool:
         if self is other or type(self) is not type(other):
@@ -36,16 +34,11 @@ class ByValue:
 def value_of(x: Any) -> Hashable:
     """A value that stands for x, equal and with one hash for what is equal by class and numbers."""
     if isinstance(x, np.ndarray):
-        if x.dtype.hasobject:
-            return (np.ndarray, x.shape, value_of(x.tolist()))
-        x = np.where(np.isnan(x), np.nan, x + 0.0).astype(x.dtype) if x.dtype.kind in "fc" else x
-        return (np.ndarray, x.shape, x.dtype.str, x.tobytes())
+        return (np.ndarray, x.shape, x.dtype.str, value_of(x.tolist()))
     if isinstance(x, Mapping):
         return (type(x), frozenset((name, value_of(item)) for name, item in x.items()))
     if isinstance(x, tuple | list):
         return (type(x), *map(value_of, x))
-    if isinstance(x, Set):
-        return frozenset(map(value_of, x))
     if is_dataclass(x) and not isinstance(x, type) and type(x).__eq__ is not object.__eq__:
         return (type(x), *(value_of(getattr(x, f.name)) for f in fields(x) if f.compare))
-    return (float, "nan") if isinstance(x, float) and x != x else x
+    return "nan" if isinstance(x, float | complex) and x != x else x

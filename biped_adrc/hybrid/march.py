@@ -251,37 +251,35 @@ def pieces(t0: float, t1: float) -> int:
     return max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
 
 
-@unit
-def lift(r: Run, t0: float, t1: float) -> float:
-    """End [s] of the part of an arc's first step from t0 to t1 [s] that is looked through on its own; t0 for
-    none; below t0 where a guard does not let the arc begin (EVENT_LIMIT). `after` is left there.
-
-    A reset leaves its event function at zero, and the next event may come before the first look: the look is
-    halved until the function is above zero in it. One that still is not after TOGETHER falls. If it falls
-    steadily, w(s) = 2 w(s/2), the reset has let it pass. If it bends down, as s^2 does (4 w(s/2)) and a shorter
-    hop (more), what the event is about is pressed back at once: a ball at rest.
-    """
-    s, sunk = (t1 - t0) / pieces(t0, t1), False
-    if s < t1 - t0:
-        retake(r, t0, t0 + s)
-        copy(r.tried, r.after, r.guards)
+@inner
+def begins_low(r: Run) -> bool:
+    """Whether an event function is at zero or below where the step starts, as after its own reset."""
+    low = False
     for guard in range(r.guards):
-        while r.values[guard] <= 0.0 >= r.after[guard]:
-            sunk = True
-            if s <= TOGETHER:
-                break
-            s *= 0.5
-            retake(r, t0, t0 + s)
-            copy(r.tried, r.after, r.guards)
-    if not sunk:
-        return t0
-    if s <= TOGETHER:
-        retake(r, t0, t0 + 0.5 * s)
-        for guard in range(r.guards):
-            w = r.after[guard]
-            if r.values[guard] == 0.0 > w and w < 3.0 * r.tried[guard] and accepts(r, guard, t0):
-                return left(t0)
-    return t0 + s
+        low = low or r.values[guard] <= 0.0
+    return low
+
+
+@unit
+def lift(r: Run, t0: float, s: float) -> int:
+    """Code of an event in (t0, s] [s], the first TOGETHER of an arc; `values` become those at s.
+
+    So an event function that begins at zero is above it at s, and watched, however soon it falls again. One
+    that is below fell steadily, w(s) = 2 w(s/2), where the reset lets it pass, as a time that is over. If it
+    bent down, as s^2 does, 4 w(s/2), and a hop shorter than s, more than that, a ball is at rest on its floor:
+    the next events are not told apart (EVENT_LIMIT).
+    """
+    retake(r, t0, t0 + 0.5 * (s - t0))
+    copy(r.tried, r.after, r.guards)
+    retake(r, t0, s)
+    for guard in range(r.guards):
+        w = r.tried[guard]
+        if r.values[guard] == 0.0 > w and w < 3.0 * r.after[guard] and accepts(r, guard, t0):
+            return EVENT_LIMIT
+    copy(r.tried, r.after, r.guards)
+    code = crossed(r, t0, t0, s)
+    copy(r.after, r.values, r.guards)
+    return code
 
 
 @unit
@@ -292,16 +290,12 @@ def event(r: Run, t0: float, t1: float) -> int:
     crossings within it are. Without an event `values` become those at t1.
     """
     count, before = pieces(t0, t1), t0
-    watch(r, t1, r.x1, r.after)
-    if t0 == r.t_arc:
-        before = lift(r, t0, t1)
-        code = EVENT_LIMIT if before < t0 else 0
-        if before > t0:
-            code = crossed(r, t0, t0, before)
-            copy(r.after, r.values, r.guards)
+    if t0 == r.t_arc and begins_low(r):
+        before = min(t0 + TOGETHER, t1)
+        code = lift(r, t0, before)
         if code != 0:
             return code
-        watch(r, t1, r.x1, r.after)
+    watch(r, t1, r.x1, r.after)
     if count > 1 and not suspect(r, t0, t1, count):
         copy(r.after, r.values, r.guards)
         return 0
@@ -324,7 +318,7 @@ def event(r: Run, t0: float, t1: float) -> int:
 def arm(r: Run) -> None:
     """`values` of the event functions at the start of an arc.
 
-    What is left of the one that has just fired is round-off and taken as zero, which never fires.
+    What is left of the one that has just fired is round-off and taken as zero, for `lift`.
     """
     r.t_arc = r.t
     watch(r, r.t, r.x0, r.values)

@@ -40,10 +40,7 @@ class Status(Enum):
     """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     """The integration method could not go on: no acceptable step, or too many steps."""
-    EVENT_LIMIT = (
-        "the events accumulate (Zeno) closer than a run can tell apart, or there are more than max_events; "
-        "end the run before, give what rests a mode of its own, or raise max_events"
-    )
+    EVENT_LIMIT = "events accumulate (Zeno), or exceed max_events: end the run before, or raise it"
     """The next event would come within 1 us, or `RunOptions.max_events` came before the run was complete."""
     RAN_AWAY = (
         "the motion or a torque grew beyond anything that the robot has, or a joint turned all the way round; "

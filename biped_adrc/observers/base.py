@@ -133,9 +133,19 @@ class Observer(Part):
     def sampled(self, period: float) -> Observer:
         """The discrete form for ticks every `period` [s]. Raises InputError where there is none."""
         self._only(
-            "has no discrete form; give it a method sampled(period), the observer with correct(z, y) and "
-            "predict(z, input), or use ContinuousTime()"
+            "has no discrete form; give it a method sampled(period), or use ContinuousTime()"
         )
+
+    def at_ticks(self, period: float) -> Observer:
+        """What `sampled` returns. Raises InputError for one that does not correct and predict."""
+        found = self.sampled(period)
+        check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
+        for name in ("correct", "predict"):
+            if getattr(type(found), name) is getattr(Observer, name):
+                found._only(
+                    f"has no method {name}; write it for sampled time, or use ContinuousTime()"
+                )
+        return found
 
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics, for the exponential method; None where there are none."""
@@ -144,18 +154,6 @@ class Observer(Part):
     def _only(self, sentence: str) -> NoReturn:
         """Raise the InputError of a method that this observer has not."""
         raise InputError(f"{type(self).__name__} {sentence}")
-
-
-def discrete_observer(observer: Observer, period: float) -> Observer:
-    """The observer for ticks every `period` [s]. Raises InputError without `correct` and `predict`."""
-    found = observer.sampled(period)
-    check_part(found, f"what {type(observer).__name__}.sampled returned", Observer)
-    for name in ("correct", "predict"):
-        if getattr(type(found), name) is getattr(Observer, name):
-            found._only(
-                f"has no method {name}, which sampled time asks for: write it, or use ContinuousTime()"
-            )
-    return found
 
 
 MOST_POLES = 20
