@@ -12,6 +12,7 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
 from importlib import import_module
@@ -36,6 +37,8 @@ def main() -> None:
     for name in ("stdout", "stderr"):
         if (stream := getattr(sys, name)) is not None:
             setattr(sys, name, Lasting(stream))
+    # as Ctrl-C: workers are ended, and where the work stands is said
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     warnings.showwarning = lambda message, *_: errors.say(f"warning: {message}")
     code, lost = _run(), getattr(sys.stdout, "lost", None)
     if lost is not None and not isinstance(lost, BrokenPipeError):
