@@ -40,10 +40,12 @@ def study(
 
         check_table(table)
     if dry_run:
-        result.rehearse()
+        undrawn = result.rehearse()
         most = "at most " if result.search else ""
         over = f", over {', '.join(result.axes)}" if result.axes else ""
-        console.say(f"{result.name}: {most}{result.count} walks{over}")
+        console.say(f"{result.name}: {most}{result.count_of(undrawn)} walks{over}")
+        if undrawn:
+            console.say(result.walked_once(undrawn))
         return
     from biped_adrc.studies.build import NO_WALK
     from biped_adrc.studies.page import chosen, headings, texts, write_page
@@ -59,13 +61,14 @@ def study(
 
             done = ba.study(result, out, workers, cluster=cluster, progress=progress)
     except KeyboardInterrupt:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        for each in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(each, signal.SIG_IGN)
         begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
         console.say(f"{begun} {out}; the same command goes on from there")
         raise typer.Exit(EXIT_INTERRUPTED) from None
     console.table(headings(done), (texts(line, short=True) for line in done.table()))
-    if done.too_few:
-        console.say(done.too_few)
+    for note in done.notes:
+        console.say(note)
     for name, words in chosen(done).items():
         console.say(f"{name}: {words}")
     statuses = done.statuses()

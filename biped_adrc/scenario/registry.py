@@ -5,8 +5,9 @@ and values where a scenario has none. Besides these a name may be one that `regi
 `package.module:Class` of the user's own, in Python, on the command line and in study files alike.
 
 Classes are imported when a walker is built, never when a file is read. Those of the user are also looked for in
-the working directory, so that worker processes find them. `construct` calls a class with those values that its
-constructor takes by name, which is how a new controller gets gains, reference or observer without code here.
+the working directory and in the folder of the study file that names them. `construct` calls a class with those
+values that its constructor takes by name, which is how a new controller gets gains, reference or observer
+without code here.
 
 What becomes of a name:
 
@@ -23,8 +24,10 @@ import sys
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from importlib.machinery import PathFinder
 from inspect import Parameter, signature
 from pkgutil import resolve_name
+from threading import RLock
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -36,6 +39,10 @@ from biped_adrc.scenario.dotted import unknown
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
 
+FOLDERS: dict[str, str] = {}
+"""By name of a module the folder of the study file that names a class of it; workers are handed a copy."""
+_IMPORTING = RLock()
+"""Held while folders are on the path: threads share it, and a module may name others while it is imported."""
 _T = TypeVar("_T")
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
@@ -157,22 +164,33 @@ def _plain(name: str) -> str:
     return name.casefold().replace("-", " ").replace("_", " ").strip()
 
 
-def _imported(home: str) -> Callable[..., object]:
-    """The class `module:Class`, from Python's path or the working directory.
+def top_of(home: str) -> str:
+    """The module or package of `package.module:Class` that lies in a folder of the path."""
+    return home.partition(":")[0].partition(".")[0]
 
-    The working directory is put at the end of the path, so that it cannot hide an installed module. Whatever
-    the user's module raises when it is imported becomes an InputError with the cause, as does a missing class.
+
+def _imported(home: str) -> Callable[..., object]:
+    """The class `module:Class`, from Python's path, the folder of its study file or the working directory.
+
+    A folder that has the module is at the end of the path while it is imported, so that it cannot hide an
+    installed module, and nothing else is ever imported from there. Whatever the user's module raises when it
+    is imported becomes an InputError with the cause, as does a missing class.
     """
-    here = os.getcwd()
-    if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
-        sys.path.append(here)
-    try:
-        return resolve_name(home)
-    except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
-        raise InputError(
-            f"'{home}' cannot be imported, {type(error).__name__}: {error}; expected package.module:Class, in "
-            f"'{here}' or installed, here and where workers run"
-        ) from error
+    (module, _, _), here = home.partition(":"), os.getcwd()
+    with _IMPORTING:
+        places = {} if module in sys.modules else {FOLDERS.get(top_of(home), here): 0, here: 0}
+        added = [x for x in places if x not in sys.path and PathFinder.find_spec(top_of(home), [x])]
+        sys.path += added
+        try:
+            return resolve_name(home)
+        except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
+            raise InputError(
+                f"'{home}' cannot be imported, {type(error).__name__}: {error}; expected "
+                f"package.module:Class, in '{here}' or installed, here and where workers run"
+            ) from error
+        finally:
+            for x in added:
+                sys.path.remove(x)
 
 
 @lru_cache(maxsize=1024)

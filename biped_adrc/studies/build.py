@@ -23,7 +23,9 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.engine.batch import Case
-from biped_adrc.engine.program import COMPILED
+from biped_adrc.engine.program import COMPILED, numbers_of
+from biped_adrc.engine.structure import structure
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.registry import find, is_own
@@ -124,6 +126,20 @@ class Trial(NamedTuple):
     case: Case
     loop: SteppingLoop | None
     """The walker's controller around another plant than the rigid one; else None."""
+
+
+def differ(*trials: Trial) -> bool:
+    """Whether walks of the same values and of different seeds may differ: what a seed can change is compared to
+    the last bit, and so they may where a part of the user's cannot be compared.
+    """
+    with suppress(NotCompiled, ModelError):
+        known = set()
+        for c in (t.case for t in trials):
+            w = c.walker
+            rest = w.disturbance, w.ground_steps, w.stones, c.q, c.v
+            known.add(structure((numbers_of(w), *rest), exact=True))
+        return len(known) > 1
+    return True
 
 
 def trial_of(s: Scenario) -> Trial:

@@ -25,7 +25,7 @@ from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Progress, Runner
 from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
-from biped_adrc.studies.study import Point, Study, chosen_file, located, read_study
+from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, located, read_study
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""
@@ -66,9 +66,9 @@ def study(
     study_ = study if isinstance(study, Study) else read_study(study)
     if study_.search is not None:
         optuna_library()
+    undrawn = Undrawn()
     if function is None:
-        study_.rehearse()
-        function = run_trials
+        undrawn, function = study_.rehearse(), run_trials
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
         raise InputError(
@@ -77,11 +77,17 @@ def study(
         )
     folder = Path(out)
     with opened(folder, study_) as store, crew:
-        runner = Runner(function, store, crew, study_.count, progress)
+        fits, total = store.mend(), study_.count_of(undrawn)
+        there = {place for place, fit in fits.items() if fit}
+        runner = Runner(function, store, crew, total, there, progress)
+        if wrong := len(fits) - len(there):
+            runner.tell(f"Rows that do not fit their checksums, and are walked again: {wrong}.")
+        if undrawn:
+            runner.tell(study_.walked_once(undrawn))
         if study_.search is None:
-            runner.run(study_.points())
+            runner.run(study_.points(undrawn))
             return Results(study_, folder)
-        walker = _Searched(study_, study_.search, runner)
+        walker = _Searched(study_, study_.search, runner, undrawn)
         result = {name: walker.choice(name) for name in study_.cases or ("",)}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
@@ -97,8 +103,9 @@ def study(
 class _Searched:
     """The walks of candidates, in places one behind the other: the same each time, whatever is in the store."""
 
-    def __init__(self, study: Study, search: Search, runner: Runner) -> None:
+    def __init__(self, study: Study, search: Search, runner: Runner, undrawn: Undrawn) -> None:
         self.study, self.search, self.runner, self.place = study, search, runner, 0
+        self.undrawn = undrawn
 
     def choice(self, case: str) -> Choice | str:
         """Search a case, and choose among the best few; or why none keeps all limits."""
@@ -142,7 +149,7 @@ class _Searched:
         self.runner.tell()
 
     def walk(self, kind: str, study_: Candidates) -> list[Walks]:
-        """The walks of each candidate on a set."""
+        """The walks of each candidate on a set; one without a seed counts for each of them."""
         walks = getattr(self.search.walks, kind)
         conditions = self.study.conditions_of(walks)
         first, places = self.place, itertools.count(self.place)
@@ -150,16 +157,17 @@ class _Searched:
         def points() -> Iterator[Point]:
             for (number, values, named), c in itertools.product(study_, conditions):
                 there = {**values, **self.study.conditions.get(c, {})}
-                for seed in walks.seeds:
-                    at = located(set=kind, **named, candidate=number, condition=c)
-                    yield Point(next(places), {**at, SEED: seed}, {**there, SEED: seed})
+                at = located(set=kind, **named, candidate=number, condition=c)
+                for seed in self.study.seeded(walks.seeds, at, self.undrawn):
+                    yield Point(next(places), at | seed, there | seed)
 
-        count = len(conditions) * len(walks.seeds)
-        self.place += count * len(study_)
-        self.runner.run(points(), self.place - first)
+        made, count = list(points()), len(conditions) * len(walks.seeds)
+        self.place += len(made)
+        self.runner.run(made, len(made))
         result = [
             (str(at.get("condition", "")), row)
-            for at, row in self.runner.store.results(first, self.place - first)
+            for at, row in self.runner.store.results(first, len(made))
+            for _ in range(1 if SEED in at else len(walks.seeds))
         ]
         return [result[i : i + count] for i in range(0, len(result), count)]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from biped_adrc.analysis.statistics import Interval
 from biped_adrc.core.files import write_text
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.measure import OF_ALL, is_counted
+from biped_adrc.studies.measure import OF_ALL, Row, is_counted
 from biped_adrc.studies.results import Group, Line, Results
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.view.pages import data_uri, plain, rendered
@@ -39,7 +39,7 @@ def write_page(found: Results) -> Path:
         lines=[texts(line) for line in found.table()],
         figures=figures,
         chosen=chosen(found),
-        notes=(*found.failures, found.too_few),
+        notes=(*found.failures, *found.notes),
     )
     write_text(path, text)
     return path
@@ -106,12 +106,14 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
             yield question, dots_figure(numbers, title, at)
     if found.study.axes:
-        shown = [[float(is_counted(x.row)) for x in g.rows] for g in found.groups]
-        yield "Where are walks feasible?", _map(found, shown, "share of feasible walks", False)
-        mean, means = f"mean {column}", [list(g.numbers) for g in found.groups]
-        if any(0.0 < x < math.inf for one in means for x in one):
+        share = "share of feasible walks"
+        yield (
+            "Where are walks feasible?",
+            _map(found, lambda row: float(is_counted(row)), share, False),
+        )
+        if any(0.0 < measure.number(x.row) < math.inf for g in found.groups for x in g.rows):
             question = f"How large is {measure.column}, and where?"
-            yield question, _map(found, means, mean, not counts)
+            yield question, _map(found, measure.number, f"mean {column}", not counts)
     if found.choices:
         paths = {
             name: [(c.number, c.objective, c.feasible) for c in x.candidates if c.walked]
@@ -121,19 +123,19 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         yield "Where did the search lead?", path_figure(paths, title, measure.sign > 0.0)
 
 
-def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bool) -> Figure:
+def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) -> Figure:
     """A map over the two fields with the most levels; a third one, or case and condition, make the panels."""
     study, groups = found.study, found.groups
     levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
     axes = sorted(levels, key=lambda name: -levels[name])
     panels: dict[str, tuple[list[Any], list[Any], list[float]]] = {}
-    for g, shown_numbers in zip(groups, numbers, strict=True):
-        for x, number in zip(g.rows, shown_numbers, strict=True):
+    for g in groups:
+        for x in found.different(g) if study.grid else g.rows:
             where = _panel(g, x.at, axes)
             xs, ys, values = panels.setdefault(where, ([], [], []))
             xs.append(x.at[axes[0]])
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
-            values.append(number)
+            values.append(number(x.row))
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
     names = [name + Scenario.field_of(name).in_brackets for name in axes[:2]]
     return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)

@@ -1,26 +1,30 @@
 """What a study found: its rows in one SQLite file, and the table of its cases under its conditions.
 
     study    name, hash, the study and the versions of all that decides its numbers, as JSON; its only row
-    walks    by place in the study: what locates the walk, the values of its scenario, its row, as JSON
+    walks    by place in the study: what locates the walk, the values of its scenario, its row, as JSON, its
+             status, and a checksum of all of these
 
 The file can be opened after a kill at any moment: rows that are handed in together are one transaction. Nothing
-is written into a file before it is known to be of the same study and the same versions.
+is written into a file before it is known to be of the same study and the same versions. A row that does not fit
+its checksum is walked again; a file that SQLite finds damaged is refused.
 
 Walks of two cases under the same condition with the same values and the same seed are a pair. A walk that is
-not feasible counts as an infinite error. Intervals are those of `analysis.statistics`, where walks were
-drawn; over walks that were declared there is a count and no interval.
+not feasible counts as an infinite error. Rows that are equal to the last bit are one walk. Intervals are those
+of `analysis.statistics`, where walks were drawn; over walks that were declared, and of one walk, there is a
+count and no interval.
 """
 
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import math
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,20 +34,20 @@ from biped_adrc.core.files import check_folder, check_place, output_path, replac
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.versions import differences
 from biped_adrc.scenario.dotted import flat
-from biped_adrc.studies.build import NO_WALK
+from biped_adrc.studies.build import NO_WALK, SEED
 from biped_adrc.studies.measure import is_counted, is_made
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import Point, Study
 
-APPLICATION = 0x62614453
-"""SQLite's application_id, by which a results file is told from other databases."""
+MARKS = {"application_id": 0x62614453, "user_version": 1}
+"""Of SQLite: a number by which a results file is told from other databases, and the form of its tables."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
-SCHEMA = """
-CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT);
-CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT);
-"""
+TABLES = [
+    "CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT)",
+    "CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT, sum TEXT)",
+]
 
 
 class Result(NamedTuple):
@@ -67,20 +71,37 @@ class Store:
         """
         rows = [(p.place, json.dumps(p.at), json.dumps(p.record), *said) for p, *said in walks]
         with _errors(self.path), self.db:
-            self.db.executemany("INSERT OR REPLACE INTO walks VALUES (?, ?, ?, ?, ?)", rows)
+            text = "INSERT OR REPLACE INTO walks VALUES (?, ?, ?, ?, ?, ?)"
+            self.db.executemany(text, [(*row, checksum(row)) for row in rows])
 
-    def there(self, first: int, last: int) -> set[int]:
-        """The places from `first` to `last` that have a row."""
-        text = "SELECT place FROM walks WHERE place BETWEEN ? AND ?"
-        with _errors(self.path):
-            return {place for (place,) in self.db.execute(text, (first, last))}
+    def mend(self) -> dict[int, bool]:
+        """Take out the rows that do not fit their checksums; whether it fits, for each place that had a row.
+
+        Raises InputError for a file that SQLite finds damaged.
+        """
+        with _errors(self.path), self.db:
+            (found,) = self.db.execute("PRAGMA quick_check(1)").fetchone()
+            if found != "ok":
+                raise ValueError(found)
+            rows = self.db.execute("SELECT * FROM walks")
+            fits = {place: checksum((place, *row)) == x for place, *row, x in rows}
+            wrong = [(place,) for place, fit in fits.items() if not fit]
+            self.db.executemany("DELETE FROM walks WHERE place = ?", wrong)
+        return fits
 
     def results(self, first: int = 0, count: int = 2**62) -> Iterator[Result]:
         """Finished walks in the order of the study, read one after the other."""
-        text = "SELECT at, row FROM walks WHERE place >= ? AND place < ? ORDER BY place"
+        text = "SELECT * FROM walks WHERE place >= ? AND place < ? ORDER BY place"
         with _errors(self.path):
-            for at, row in self.db.execute(text, (first, first + count)):
-                yield Result(json.loads(at), json.loads(row))
+            for *row, x in self.db.execute(text, (first, first + count)):
+                if checksum(row) != x:
+                    raise ValueError(f"row {row[0]} does not fit its checksum")
+                yield Result(json.loads(row[1]), json.loads(row[3]))
+
+
+def checksum(row: Sequence[object]) -> str:
+    """Of a row of `walks`: the first 64 bits of SHA-256, in hexadecimal digits."""
+    return hashlib.sha256(repr(tuple(row)).encode()).hexdigest()[:16]
 
 
 @contextmanager
@@ -97,6 +118,8 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
     with _errors(path):
         folder.mkdir(parents=True, exist_ok=True)
         db = sqlite3.connect(path)
+        # a damaged text is no error, and fits no checksum
+        db.text_factory = partial(str, encoding="utf-8", errors="replace")
     with closing(db):
         with _errors(path):
             wrong = _wrong(db, study, versions)
@@ -107,15 +130,21 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
     """Write the tables into an empty file; what is wrong with a file of something else, or empty."""
-    (mark,) = db.execute("PRAGMA application_id").fetchone()
-    if not mark and not db.execute("SELECT 1 FROM sqlite_master").fetchone():
+    (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
+    tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
+    if not mark and not tables:
         record = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
+        marks = (f"PRAGMA {name} = {x}" for name, x in MARKS.items())
         with db:
-            db.executescript(f"BEGIN IMMEDIATE; {SCHEMA} PRAGMA application_id = {APPLICATION};")
+            db.executescript("; ".join(("BEGIN IMMEDIATE", *TABLES, *marks)))
             db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", record)
         return ""
-    if mark != APPLICATION:
+    if mark != MARKS["application_id"]:
         return "is a database of another program"
+    if form != MARKS["user_version"]:
+        return f"has results of form {form}, expected form {MARKS['user_version']}"
+    if tables != TABLES:
+        return f"has other tables than results have, or damaged ones: {tables}"
     key, old, before = db.execute("SELECT hash, study, versions FROM study").fetchone()
     if key != study.hash:
         there, here = (flat(json.loads(text)) for text in (old, study.model_dump_json()))
@@ -132,7 +161,7 @@ def _errors(path: Path) -> Iterator[None]:
     """
     try:
         yield
-    except (sqlite3.Error, OSError, ValueError) as error:
+    except (sqlite3.Error, OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         if isinstance(error, OSError | sqlite3.OperationalError):
             raise OutputError(
                 f"cannot write the results file '{path}': {error}; what was finished is kept, and the same "
@@ -144,7 +173,7 @@ def _errors(path: Path) -> Iterator[None]:
         ) from error
 
 
-TABLES = (".csv", ".parquet")
+SUFFIXES = (".csv", ".parquet")
 """Suffixes of tables that can be written."""
 
 
@@ -168,8 +197,6 @@ class Group(NamedTuple):
     name: str
     condition: str
     rows: tuple[Result, ...]
-    numbers: tuple[float, ...]
-    """Of each walk in the column that is shown; infinite where it does not count."""
 
 
 class Line(NamedTuple):
@@ -178,6 +205,7 @@ class Line(NamedTuple):
     name: str
     condition: str
     walks: int
+    """Different ones: rows that are equal to the last bit are one walk."""
     feasible: Interval
     made: int
     median: Interval
@@ -212,42 +240,75 @@ class Results(Shown):
     @cached_property
     def groups(self) -> list[Group]:
         """The walks by case and condition, those of a search on its test set; the first case comes first."""
-        measure, results = self.study.measure, dict[tuple[str, str], list[Result]]()
+        results = dict[tuple[str, str], list[Result]]()
         for result in self.results():
             if result.at.get("set", "test") == "test" and result.row["status"] not in NO_WALK:
                 where = _name(result.at), str(result.at.get("condition", ""))
                 results.setdefault(where, []).append(result)
-        return [
-            Group(*where, tuple(rows), tuple(measure.number(x.row) for x in rows))
-            for where, rows in results.items()
-        ]
+        return [Group(*where, tuple(rows)) for where, rows in results.items()]
+
+    def _same(self, *walks: Result) -> str:
+        """A text that walks have in common whose rows are equal to the last bit, in one cell of a grid."""
+        cell = [name for name in self.study.grid if name != SEED]
+        return repr([([x.at.get(name) for name in cell], x.row) for x in walks])
+
+    def different(self, g: Group) -> list[Result]:
+        """One walk of all that are equal to the last bit, in each cell of a grid."""
+        return list({self._same(x): x for x in g.rows}.values())
 
     def table(self) -> list[Line]:
         """A line for each case and condition."""
         first, lines = dict[str, Group](), []
         for g in self.groups:
-            reference = first.setdefault(g.condition, g)
-            ratio = None if g is reference else paired(*_pairs(g, reference))
-            feasible, made = (sum(f(x.row) for x in g.rows) for f in (is_counted, is_made))
-            counted, middle = share(feasible, len(g.rows)), median(g.numbers)
+            reference, rows = first.setdefault(g.condition, g), self.different(g)
+            ratio = None if g is reference else paired(*self._pairs(g, reference))
+            feasible, made = (sum(f(x.row) for x in rows) for f in (is_counted, is_made))
+            numbers = [self.study.measure.number(x.row) for x in rows]
+            counted, middle = share(feasible, len(rows)), median(numbers)
             if not self.study.drawn:
                 counted, middle = _alone(counted), _alone(middle)
                 ratio = ratio and Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
-            lines.append(Line(g.name, g.condition, len(g.rows), counted, made, middle, ratio))
+            lines.append(Line(g.name, g.condition, len(rows), counted, made, middle, ratio))
         return lines
 
+    def _pairs(self, a: Group, b: Group) -> tuple[list[float], list[float]]:
+        """Values of the study's measure of the walks of two groups, in its unit: entry i of both lists is one
+        pair.
+
+        A pair is a walk of a and a walk of b with the same condition, levels and seed; case, setting and
+        candidate may differ. A walk in which nothing is drawn has no seed, and is a partner for each. A walk
+        without a partner is left out, and so are pairs that are equal to the last bit to another one. A value
+        is infinite, on the worse side of the measure, for a walk that ended early or, unless the measure takes
+        all walks that were made, is infeasible.
+        """
+        number, one, other = self.study.measure.number, _by_place(a), _by_place(b)
+        pairs: dict[str, tuple[float, float]] = {}
+        for levels, seed in one | other:
+            x, y = (z.get((levels, seed)) or z.get((levels, None)) for z in (one, other))
+            if x and y:
+                pairs[self._same(x, y)] = number(x.row), number(y.row)
+        return [x for x, _ in pairs.values()], [y for _, y in pairs.values()]
+
     @property
-    def too_few(self) -> str:
-        """Where walks were drawn, and are too few for the interval of a median, a sentence; else empty."""
-        few = self.study.drawn and any(math.isnan(x.median.low) for x in self.table())
-        return "An interval of a median takes at least 6 walks." if few else ""
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on what the table counts: walks without a seed, equal ones, too few for an interval."""
+        once = [(g.name, g.condition) for g in self.groups if all(SEED not in x.at for x in g.rows)]
+        lines, many = self.table(), len(self.study.every_seed) > 1
+        equal = sum(len(g.rows) for g in self.groups) - sum(x.walks for x in lines)
+        few = self.study.drawn and any(x.walks > 1 and math.isnan(x.median.low) for x in lines)
+        notes = {
+            self.study.walked_once(once): once and many,
+            f"{equal} walks are equal to the last bit to another one, and do not count again.": equal,
+            "An interval of a median takes at least 6 walks.": few,
+        }
+        return tuple(note for note, holds in notes.items() if holds)
 
     def statuses(self) -> dict[str, tuple[int, str]]:
         """By status how many walks ended so, and what the first of them says."""
-        text = "SELECT status, count(*), row, min(place) FROM walks GROUP BY status ORDER BY 2 DESC"
-        with opened(self.folder, self.study) as store, _errors(store.path):
-            result = store.db.execute(text).fetchall()
-        return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in result}
+        details: dict[str, list[str]] = {}
+        for _, row in self.results():
+            details.setdefault(str(row["status"]), []).append(str(row.get("detail") or ""))
+        return {s: (len(x), x[0]) for s, x in sorted(details.items(), key=lambda one: -len(one[1]))}
 
     def export(self, path: Path) -> None:
         """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""
@@ -273,7 +334,7 @@ class Results(Shown):
 
 def check_table(path: Path) -> None:
     """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
-    if output_path(path, TABLES).suffix.lower() == ".parquet":
+    if output_path(path, SUFFIXES).suffix.lower() == ".parquet":
         with optional("study", "Parquet needs pyarrow, which is not installed"):
             import pyarrow  # noqa: F401
 
@@ -284,22 +345,11 @@ def _name(at: Mapping[str, Any]) -> str:
     return ", ".join(x for x in (case, "" if case and setting == "chosen" else setting) if x)
 
 
-def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
-    """Values of the study's measure of the walks of two groups, in its unit: entry i of both lists is one pair.
-
-    A pair is a walk of a and a walk of b with the same condition, levels and seed; case, setting and candidate
-    may differ. A walk without a partner is left out. A value is infinite, on the worse side of the measure, for
-    a walk that ended early or, unless the measure takes all walks that were made, is infeasible.
-    """
-
-    def by_place(g: Group) -> dict[str, float]:
-        apart = ("case", "setting", "candidate")
-        keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
-        return dict(zip(keys, g.numbers, strict=True))
-
-    one, other = by_place(a), by_place(b)
-    both = [key for key in one if key in other]
-    return [one[key] for key in both], [other[key] for key in both]
+def _by_place(g: Group) -> dict[tuple[str, int | None], Result]:
+    """Walks of a group by their condition and levels, and by their seed, None where nothing is drawn."""
+    apart = ("case", "setting", "candidate", SEED)
+    keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
+    return {(key, x.at.get(SEED)): x for key, x in zip(keys, g.rows, strict=True)}
 
 
 def _alone(x: Interval) -> Interval:

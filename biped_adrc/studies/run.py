@@ -37,6 +37,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.registry import FOLDERS
 from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
@@ -63,12 +64,16 @@ _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
 
 
-def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, str | None]]:
+def rows_of(
+    function: Function, records: Sequence[Record], folders: Mapping[str, str] | None = None
+) -> list[tuple[str, str | None]]:
     """For each record its row as JSON, and the row's status. Called in a worker.
 
+    folders: in which modules of the user's lie, by name (`registry.FOLDERS` of who calls).
     Where the function raises on a chunk it is called again with one record at a time; a record on which it
     raises has a row with the status RAISED, so that one bad record spoils no other.
     """
+    FOLDERS.update(folders or {})
     try:
         return [
             (json.dumps(dict(row), allow_nan=False), row.get("status"))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 import json
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent.futures import (
     ALL_COMPLETED,
     FIRST_COMPLETED,
@@ -27,6 +27,7 @@ from biped_adrc.core.errors import InputError, SimulationError, optional
 from biped_adrc.core.processes import cores, processes, stop
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
+from biped_adrc.scenario.registry import FOLDERS
 from biped_adrc.studies.build import CRASHED
 from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of
@@ -34,8 +35,6 @@ from biped_adrc.studies.study import Point
 
 PRELOADED = ("biped_adrc.studies.run",)
 """Modules that worker processes share: all that they need."""
-LOOK_UP = 256
-"""Points that are made and looked up in the store at once."""
 LARGEST_CHUNK = 32
 """Most walks handed to a worker at once: what a kill may lose, and what progress is counted in."""
 AHEAD = 3
@@ -156,6 +155,8 @@ class Runner:
     store: Store
     crew: Crew
     total: int
+    there: Container[int] = ()
+    """Places that have a row already."""
     progress: Callable[[Progress], None] | None = None
     done: int = 0
     crashed: int = 0
@@ -175,6 +176,7 @@ class Runner:
                 self._again(self._collect(FIRST_COMPLETED))
         while self.pending:
             self._again(self._collect(FIRST_COMPLETED))
+        self.tell()
 
     def tell(self, note: str = "") -> None:
         """Report progress."""
@@ -183,16 +185,17 @@ class Runner:
 
     def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
         """The points without a row."""
-        while batch := list(itertools.islice(points, LOOK_UP)):
-            there = self.store.there(batch[0].place, batch[-1].place)
-            self.done += sum(p.place in there for p in batch)
-            self.tell()
-            yield from (p for p in batch if p.place not in there)
+        for p in points:
+            if p.place not in self.there:
+                yield p
+            else:
+                self.done += 1
 
     def _send(self, chunk: Sequence[Point]) -> Sequence[Point]:
         """Hand a chunk to the executor; one of which a process has died takes none, and all are lost."""
         try:
-            future = self.crew.executor.submit(rows_of, self.function, [p.record for p in chunk])
+            records, folders = [p.record for p in chunk], dict(FOLDERS)
+            future = self.crew.executor.submit(rows_of, self.function, records, folders)
         except BrokenExecutor:
             return chunk
         self.pending[future] = chunk
@@ -204,6 +207,7 @@ class Runner:
         for future in wait(self.pending, return_when=when).done:
             chunk, error = self.pending.pop(future), future.exception()
             if error is None:
+                self.crashed = 0
                 self._keep(chunk, future.result())
             elif isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker":
                 lost += chunk
@@ -225,7 +229,6 @@ class Runner:
         self.crew.renew()
         for point in lost:
             if not (self._send([point]) or self._collect(ALL_COMPLETED)):
-                self.crashed = 0
                 continue
             self.crashed += 1
             self.crew.renew()

@@ -21,10 +21,8 @@ import itertools
 import json
 import math
 import re
-import sys
 import tomllib
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -34,12 +32,15 @@ from biped_adrc.core.errors import BipedError, InputError, ReachError
 from biped_adrc.core.files import reading
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.studies.build import SEED, Record, scenario_of, trial_of, versions_of
+from biped_adrc.scenario.registry import FOLDERS, is_own, top_of
+from biped_adrc.scenario.scenario import Scenario, read_scenario
+from biped_adrc.studies.build import SEED, Record, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
 from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
 
+Undrawn = frozenset[tuple[str, str]]
+"""Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
 MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
 LONGEST = 100
@@ -53,6 +54,11 @@ def located(**names: object) -> dict[str, Any]:
     "before" (the case as it was).
     """
     return {name: x for name, x in names.items() if x != ""}
+
+
+def place_of(names: Mapping[str, Any]) -> tuple[str, str]:
+    """Case and condition of a walk, by what locates it."""
+    return str(names.get("case", "")), str(names.get("condition", ""))
 
 
 class Point(NamedTuple):
@@ -132,13 +138,32 @@ class Study(Part):
 
     @property
     def count(self) -> int:
+        """The number of its walks, one for each seed."""
+        return self.count_of(frozenset())
+
+    def count_of(self, undrawn: Undrawn) -> int:
         """The number of its walks; of a search what it walks at most, but for candidates that no walk needs."""
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
-        axes = (self.cases, self.conditions, self.seeds, *self.grid.values())
         samples = 1 if self.draw is None else self.draw.count
-        return samples * math.prod(max(len(x), 1) for x in axes)
+        walks = sum(len(self.seeded(self.seeds, named, undrawn)) for _, named in self.sets())
+        return walks * samples * math.prod(map(len, self.grid.values()))
+
+    @property
+    def every_seed(self) -> tuple[int, ...]:
+        """Its seeds, and those of the sets of a search."""
+        sets = () if self.search is None else self.search.walks
+        return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
+
+    def seeded(self, seeds: Sequence[int], at: Record, undrawn: Undrawn) -> list[dict[str, int]]:
+        """The values of each seed; of one walk without one, where there is none or nothing is drawn from it."""
+        return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
+
+    def walked_once(self, undrawn: Iterable[tuple[str, str]]) -> str:
+        """A sentence on cases under conditions in which nothing is drawn; empty for none."""
+        words = "; ".join(", ".join(filter(None, one)) or self.name for one in sorted(undrawn))
+        return words and f"Walked once, as nothing that acts is drawn from the seed: {words}."
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -167,10 +192,10 @@ class Study(Part):
 
         Raises InputError for a class that cannot be imported.
         """
-        result = dict(numerical_versions()) | versions_of(self._values())
+        result = dict(numerical_versions()) | versions_of(self.values())
         return {**result, **(packages(["optuna", "cmaes"]) if self.search else {})}
 
-    def _values(self) -> Iterator[tuple[str, object]]:
+    def values(self) -> Iterator[tuple[str, object]]:
         """Yields (name, value) for each value that at least one walk uses; not those drawn from a range."""
         for values in (self.base, *self.cases.values(), *self.conditions.values()):
             yield from values.items()
@@ -189,34 +214,42 @@ class Study(Part):
         """The values of a case, "" for none."""
         return {**self.base, **self.cases.get(name, {})}
 
-    def points(self) -> Iterator[Point]:
+    def points(self, undrawn: Undrawn = frozenset()) -> Iterator[Point]:
         """All walks of a study without a search; values that do not fit together make a row that says so."""
         places = itertools.count()
         samples = [{}] if self.draw is None else self.draw.samples()
-        seeds = [{SEED: seed} for seed in self.seeds] or [{}]
         for values, named in self.sets():
+            seeds = self.seeded(self.seeds, named, undrawn)
             for levels in itertools.product(*self.grid.values()):
                 level = dict(zip(self.grid, levels, strict=True))
                 for sample, seed in itertools.product(samples, seeds):
                     at = level | sample | seed
                     yield Point(next(places), named | at, values | at)
 
-    def rehearse(self) -> None:
-        """Build the walkers of points that stand for all, without walking them.
+    def rehearse(self) -> Undrawn:
+        """Build the walkers of points that stand for all, without walking them, and again with another seed.
 
         Case by case under each condition: each level of each axis, and combinations of texts; of a search the
-        values of the case, the middle of all variables, and each choice. Raises InputError, with the point.
+        values of the case, the middle of all variables, and each choice. Returns where the other seed changed
+        nothing. Raises InputError, with the point.
         """
+        other = [{SEED: seed} for seed in self.every_seed[1:2]]
+        result = {place_of(names) for _, names in self.sets() if other}
         for values, names in self.sets():
             for at in self._some(values):
                 try:
-                    with suppress(ReachError):  # of this walk alone, whose row says so
-                        trial_of(scenario_of(values | at))
+                    trial = trial_of(scenario_of(values | at))
+                    if place_of(names) in result:
+                        again = trial_of(scenario_of(values | at | other[0]))
+                        result -= {place_of(names)} if differ(trial, again) else set()
+                except ReachError:  # of this walk alone, whose row says so
+                    result.discard(place_of(names))
                 except BipedError as error:
                     where = ", ".join(f"{k} = {x}" for k, x in (names | at).items())
                     raise InputError(
                         f"study '{self.name}', at {where or 'base'}: {error}"
                     ) from error
+        return frozenset(result)
 
     def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         """Points of one case and condition, as values by axis."""
@@ -248,7 +281,6 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         with reading("study file", source, InputError):
             tables = tomllib.loads(Path(source).read_text(encoding="utf-8-sig"))
         here = Path(source).absolute().parent
-        sys.path += [str(here)] if str(here) not in sys.path else []
     tables = dict(tables)  # type: ignore[arg-type]
     below = {}
     if "scenario" in tables:
@@ -257,13 +289,17 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         study = Study.model_validate(tables)
         over = {*study.axes, *([SEED] if study.seeds or study.search else [])}
         kept = {name: x for name, x in below.items() if name not in over}
-        return study.model_copy(update={"base": kept | study.base})
+        study = study.model_copy(update={"base": kept | study.base})
     except ValidationError as error:
         lines = [_problem(one) for one in error.errors()]
         many = [f"{where} has {len(lines)} problems:", *lines]
         raise InputError(
             f"{where}, {lines[0]}" if len(lines) == 1 else "\n  ".join(many)
         ) from error
+    for name, x in study.values():
+        if Scenario.field_of(name).kind and is_own(str(x)):
+            FOLDERS[top_of(str(x))] = str(here)
+    return study
 
 
 def _problem(error: Any) -> str:

@@ -3,10 +3,12 @@
 import json
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing, suppress
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +16,12 @@ import plants
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.errors import BipedError, InputError, SimulationError
 from biped_adrc.core.files import data_folder
+from biped_adrc.scenario.scenario import DRAWN
 from biped_adrc.studies import runner
 from biped_adrc.studies.results import RESULTS
+from biped_adrc.studies.study import read_study
 from tests.commands import command
 
 FOLDER = Path(plants.__file__).parent
@@ -103,11 +107,11 @@ def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
 
 def test_workers_that_die_now_and_then_do_not_end_it(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
-    cases = {x: {"controller.x": x, "controller.of": 0} for x in "abc"}
+    cases = {x: {"controller.x": x, "controller.of": 0} for x in "ab"}
     base = {"controller.pause": 0.0, "controller.kill": 5}
-    study = {"name": "some", "base": base, "cases": cases, "grid": {"run.impacts": [5, 6]}}
+    study = {"name": "some", "base": base, "cases": cases, "grid": {"run.impacts": [*range(5, 11)]}}
     found = ba.study(study, tmp_path, 1, function=plants.rows)
-    assert [row["status"] for row in found.rows()] == ["CRASHED", "COMPLETED"] * 3
+    assert [row["status"] for row in found.rows()] == ["CRASHED", *["COMPLETED"] * 5] * 2
 
 
 def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
@@ -178,6 +182,62 @@ def test_walks_are_the_same_in_processes_and_threads(tmp_path):
     assert apart.statuses() == {"COMPLETED": (8, "")}
 
 
+PUSH = {"pushes.0.torque": 30.0}
+DRAWS = {
+    "start": {"start.rate_spread": 0.01},
+    "onset": PUSH,
+    "joints": PUSH | {"pushes.0.onset": 0.1, "pushes.0.joints": "random"},
+    "noise": PUSH | {"pushes.0.onset": 0.1, "pushes.0.shape": "noise"},
+    "sensors": {"hardware.encoders.noise": 1e-5},
+    "model": {"errors.mass_width": 0.05},
+    "impact": {"errors.impact_width": 0.01},
+    "ground": {"ground.rms": 1e-3},
+    "sensor": {"hardware.sensor.name": "encoders", "hardware.sensor.noise": 1e-5},
+    "touchdown": {"hardware.touchdown.name": "faulty", "hardware.touchdown.missed": 0.1},
+    "stones": {"ground.stone_range": [0.4, 0.45], "controller.name": "footstep"},
+}
+FIXED = {
+    "nothing": {},
+    "push": PUSH | {"pushes.0.onset": 0.1},
+    "counts": {"hardware.encoders.counts": 8192.0},
+    "masses": {"errors.mass": {"torso": 1.1}, "errors.trunk_load": 0.1},
+    "ground": {"ground.drop": 0.01},
+    "sensor": {"hardware.sensor.name": "encoders", "hardware.sensor.counts": 8192.0},
+    "touchdown": {"hardware.touchdown.name": "faulty", "hardware.touchdown.late": 1e-3},
+    "stones": {"ground.stones": [0.4, 0.4], "controller.name": "footstep"},
+}
+
+
+def test_a_study_knows_before_its_first_walk_where_something_is_drawn():
+    assert set(DRAWS) == set(DRAWN)
+    base = {"controller.name": "NPD", "run.impacts": 3}
+    cases = {f"drawn {x}": base | y for x, y in DRAWS.items()}
+    cases |= {f"fixed {x}": base | y for x, y in FIXED.items()}
+    study = read_study({"name": "a", "seeds": 2, "cases": cases})
+    assert {case for case, _ in study.rehearse()} == {f"fixed {x}" for x in FIXED}
+    assert read_study({"name": "a", "seeds": [3], "cases": cases}).rehearse() == frozenset()
+    grid = read_study({"name": "a", "seeds": 2, "grid": {"hardware.encoders.noise": [0.0, 1e-5]}})
+    assert grid.rehearse() == frozenset()
+
+
+def test_a_walk_without_anything_drawn_is_made_once(tmp_path):
+    """Six seeds; the controller behind noise is compared with the one walk of the other."""
+    cases = {"NPD": {}, "noise": {"hardware.encoders.noise": 1e-5}}
+    base = {"controller.name": "NPD", "run.impacts": 1}
+    tables, notes = {"name": "a", "seeds": 6, "base": base, "cases": cases}, []
+    with ThreadPoolExecutor(1) as pool:
+        found = ba.study(tables, tmp_path, pool, progress=notes.append)
+    assert notes[0].note == "Walked once, as nothing that acts is drawn from the seed: NPD."
+    assert {p.total for p in notes} == {7}
+    first, *others = found.rows()
+    assert "run.seed" not in first
+    assert [row["run.seed"] for row in others] == [*range(6)]
+    exact, noisy = found.table()
+    assert (exact.walks, noisy.walks, noisy.ratio.pairs) == (1, 6, 6)
+    assert noisy.ratio.p < 1.0
+    assert found.notes == (notes[0].note,)
+
+
 HOLD = {"controller.contact.name": "hold", "hardware.period": None}
 
 
@@ -210,6 +270,91 @@ def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
         with pytest.raises(InputError, match=message):
             made(tmp_path / name, 1)
     assert (tmp_path / RESULTS).read_bytes() == before
+
+
+def test_a_bit_that_flips_in_the_results_changes_no_number(tmp_path, expected):
+    """A walk of a damaged row is made again; where more is damaged, the file is refused."""
+    made(tmp_path, None)
+    path, random = tmp_path / RESULTS, np.random.default_rng(20)
+    whole, again = path.read_bytes(), 0
+    rows = whole.index(b'{"status"')
+    for k in range(60):
+        data = bytearray(whole)
+        data[random.integers(rows if k % 2 else 0, len(data))] ^= 1 << random.integers(8)
+        path.write_bytes(data)
+        notes = []
+        with suppress(BipedError):  # which refuses the file
+            assert made(tmp_path, None, progress=notes.append) == expected
+        again += any("walked again: 1." in p.note for p in notes)
+    assert again >= 10
+
+
+def changed(path, *commands):
+    with closing(sqlite3.connect(path)) as db, db:
+        for text in commands:
+            db.execute(text)
+
+
+@pytest.mark.parametrize(
+    ("commands", "message"),
+    [
+        (["PRAGMA user_version = 0"], "has results of form 0, expected form 1"),
+        (["DROP TABLE walks"], "other tables"),
+        (["PRAGMA application_id = 7"], "of another program"),
+        (["DELETE FROM study"], "empty or damaged"),
+        (["UPDATE study SET hash = 7, study = NULL"], "damaged"),
+        (["UPDATE study SET hash = 7, study = '[]'"], "damaged"),
+        (["UPDATE study SET versions = x'ff'"], "damaged"),
+    ],
+)
+def test_a_database_of_somebody_else_is_refused_in_a_sentence(tmp_path, commands, message):
+    made(tmp_path, None)
+    changed(tmp_path / RESULTS, *commands)
+    before = (tmp_path / RESULTS).read_bytes()
+    with pytest.raises(InputError, match=message):
+        made(tmp_path, None)
+    assert (tmp_path / RESULTS).read_bytes() == before
+
+
+def test_rows_of_other_types_are_walked_again(tmp_path, expected):
+    made(tmp_path, None)
+    values = ("x'00ff'", "NULL", "3.5", """replace(row, '"feasible": 1', '"feasible": NaN')""")
+    for place, value in enumerate(values):
+        changed(tmp_path / RESULTS, f"UPDATE walks SET row = {value} WHERE place = {place}")
+    changed(tmp_path / RESULTS, "UPDATE walks SET place = 777 WHERE place = 30")
+    assert made(tmp_path, None) == expected
+
+
+def test_a_study_that_is_told_to_end_says_one_sentence_and_keeps_its_rows(tmp_path, started):
+    path, out = tmp_path / "long.toml", tmp_path / "out"
+    path.write_text('name = "long"\nseeds = 400\nbase = { start.spread = 1e-3 }\n')
+    line = (
+        sys.executable,
+        "-m",
+        "biped_adrc",
+        "study",
+        str(path),
+        "-o",
+        str(out),
+        "--workers",
+        "1",
+    )
+    process = started(*line, stderr=subprocess.PIPE)
+    while not ((out / RESULTS).exists() and count(out / RESULTS)):
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.terminate()
+    said, errors = process.communicate()
+    assert process.returncode == 130
+    assert "the same command goes on from there" in " ".join(said.split())
+    assert errors.strip() == "interrupted; what was already written is complete"
+    assert count(out / RESULTS)
+
+
+def count(path):
+    with closing(sqlite3.connect(path)) as db:
+        names = db.execute("SELECT name FROM sqlite_master WHERE name = 'walks'").fetchall()
+        return db.execute("SELECT count(*) FROM walks").fetchone()[0] if names else 0
 
 
 def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):

@@ -195,7 +195,9 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     path.write_text(WALKS)
 
     line = ["study", path, "--out", out, "--workers", "1"]
-    assert command(*line, "--dry-run").strip() == "walks: at most 7 walks"
+    dry = command(*line, "--dry-run").splitlines()
+    assert dry[0] == "walks: at most 7 walks"
+    assert dry[1] == "Walked once, as nothing that acts is drawn from the seed: walks."
     command(*line)
     assert (out / "study.html").read_text().count("<figure>") == 4
     best = command("simulate", "--scenario", out / "chosen.toml", "--impacts", "2")

@@ -1,6 +1,7 @@
 """Studies from files: what they mean and what is refused; samples, units and tables by closed forms."""
 
 import csv
+import importlib
 import math
 import sys
 
@@ -145,14 +146,24 @@ def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
     assert base == {"controller.name": "LESO", "run.impacts": 5}
 
 
-def test_a_module_beside_the_study_is_found(tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "path", list(sys.path))
-    module = "import biped_adrc as ba\n\nclass Mine(ba.NPDController):\n    pass\n"
-    (tmp_path / "beside_it.py").write_text(module)
-    text = 'name = "a"\nbase = { controller.name = "beside_it:Mine" }\n'
+def test_a_module_beside_the_study_is_found_and_others_there_are_not_run(tmp_path):
+    """The folder is on the path, at its end, while the class that the study names is imported."""
+    module = "import sys\nimport biped_adrc as ba\nPATH = list(sys.path)\n\n"
+    (tmp_path / "beside_it.py").write_text(module + "class Mine(ba.NPDController):\n    pass\n")
+    (tmp_path / "pyarrow.py").write_text("raise SystemExit('planted')")
+    (tmp_path / "not_installed.py").write_text("raise SystemExit('planted')")
+    before = list(sys.path)
+    read_study(written(tmp_path, 'name = "a"\n')).rehearse()
+    text = 'name = "a"\nbase = { controller.name = "beside_it:Mine", run.impacts = 1 }\n'
     study = read_study(written(tmp_path, text))
     study.rehearse()
     assert "source beside_it:Mine" in study.versions
+    assert [*before, str(tmp_path)] == sys.modules["beside_it"].PATH
+    assert sys.path == before
+    with pytest.raises(ImportError):
+        importlib.import_module("not_installed")
+    found = ba.study(study, tmp_path / "out", 1)
+    assert found.statuses() == {"COMPLETED": (1, "")}
 
 
 def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():
@@ -256,6 +267,35 @@ def test_the_table_pairs_walks_by_seed_and_counts_what_is_feasible(tmp_path):
     assert b_y.ratio.ratio[:2] == (0.5, 0.5)
     assert b_y.feasible == share(15, 20)
     assert (b_y.made, b_y.ratio.pairs) == (20, 20)
+
+
+def equal(records):
+    """As `rows`, but for a under x, where no row depends on the seed, and b under x, where two seeds do."""
+    return [
+        _row(
+            r
+            if r["controller.x"] == 2.0
+            else r | {"run.seed": r["run.seed"] // (20 - 10 * r["controller.of"])}
+        )
+        for r in records
+    ]
+
+
+def test_rows_that_are_equal_to_the_last_bit_are_one_walk(tmp_path):
+    tables = TABLE | {"seeds": 20, "base": {"controller.pause": 0.0, "run.impacts": 3}}
+    found = plants.carried(tables, tmp_path, equal)
+    a_x, a_y, b_x, _ = found.table()
+    assert [x.walks for x in (a_x, a_y, b_x)] == [1, 20, 2]
+    assert a_x.feasible[:1] == (1.0,)
+    assert math.isnan(a_x.feasible.low)
+    assert b_x.ratio.pairs == 2
+    assert (b_x.ratio.ratio.value, b_x.ratio.p) == (0.75, 1.0)
+    assert "37 walks are equal" in found.notes[0]
+    assert len(list(found.rows())) == 80
+    grid = {"grid": {"run.seed": [*range(20)]}}
+    grid |= {"base": tables["base"]}
+    cells = plants.carried(TABLE | grid, tmp_path / "cells", equal).table()
+    assert [x.walks for x in cells[:3]] == [1, 20, 2]
 
 
 def test_there_is_no_interval_over_declared_walks(tmp_path):
