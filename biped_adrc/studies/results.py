@@ -249,7 +249,8 @@ class Results(Shown):
 
     def _same(self, *walks: Result) -> str:
         """A text that walks have in common whose rows are equal to the last bit, in one cell of a grid."""
-        return repr([([x.at.get(name) for name in self.study.grid], x.row) for x in walks])
+        cell = [name for name in self.study.grid if name != SEED]
+        return repr([([x.at.get(name) for name in cell], x.row) for x in walks])
 
     def different(self, g: Group) -> list[Result]:
         """One walk of all that are equal to the last bit, in each cell of a grid."""

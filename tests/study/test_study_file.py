@@ -310,6 +310,10 @@ def test_rows_that_are_equal_to_the_last_bit_are_one_walk(tmp_path):
     assert (b_x.ratio.ratio.value, b_x.ratio.p) == (0.75, 1.0)
     assert "37 walks are equal" in found.notes[0]
     assert len(list(found.rows())) == 80
+    grid = {"grid": {"run.seed": [*range(20)]}}
+    grid |= {"base": tables["base"]}
+    cells = plants.carried(TABLE | grid, tmp_path / "cells", equal).table()
+    assert [x.walks for x in cells[:3]] == [1, 20, 2]
 
 
 def test_there_is_no_interval_over_declared_walks(tmp_path):
