@@ -151,7 +151,8 @@ def run_arcs(
         if ended is not None:
             status = ended
             break
-    return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
+    by = f" ({label})" if flown.detail and status in (Status.NOT_FINITE, Status.RAN_AWAY) else ""
+    return Trajectory(tuple(arcs), status, flown.detail + by, {"method": label})
 
 
 def finite(flown: FlownArc) -> FlownArc:
