@@ -31,8 +31,8 @@ def _check_pinocchio() -> None:
         found = str(error)
     if found:
         raise InputError(
-            f"'import pinocchio' finds {spec and spec.origin}: {found}; expected Pinocchio 4, which is 'pip install "
-            "pin'. Try 'pip uninstall pinocchio' (a plugin of nose) and a shell without PYTHONPATH and "
+            f"'import pinocchio' finds {spec and spec.origin}: {found}; expected Pinocchio 4, the package "
+            "'pin'. Try 'pip uninstall pinocchio' (a plugin of nose) and a shell without PYTHONPATH and "
             "LD_LIBRARY_PATH, which a sourced ROS sets, or 'pip install --force-reinstall pin'"
         )
 

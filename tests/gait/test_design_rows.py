@@ -8,8 +8,6 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from biped_adrc.analysis.gait_design import design_gait
-from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.optimise import _bounds, audit
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits, StepLimits
@@ -135,11 +133,17 @@ def test_the_audit_names_the_limit_that_a_gait_misses(robot, gait, orbit, limits
     assert any(text.startswith(word) for text in missed) if word else missed == []
 
 
-def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give():
-    free = StepLimits(clearance=None)
-    with pytest.raises(GaitError, match="above the ground after 50%") as caught:
-        design_gait("three_link", 2.8, limits=free)
-    assert "clearance" not in str(caught.value)
+def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give(robot, limits, unknowns):
+    numbers, direction = unknowns
+    for clearance in (0.02, None):
+        programme, _ = transcribe(robot, ASKED, replace(limits, clearance=clearance), direction)
+        names = [
+            text.split(" by ")[0] for text in programme.in_words(programme.missed(flat(numbers)))
+        ]
+        assert ("foot clearance" in names) == (clearance is not None)
+        assert ("the swing foot above the ground after 50% of the step" in names) == (
+            clearance is None
+        )
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.0, 0), (0.4e-4, 0), (1.1e-4, 1), (-1.1e-4, 1)])
