@@ -100,7 +100,8 @@ class Biped(Shown):
         if not (math.isclose(*energies, rel_tol=1e-9) and math.isclose(*lengths, rel_tol=1e-9)):
             raise ModelError(
                 f"'{self.tree.source}': the legs differ in mass or length, as in the links "
-                f"{unlike(self.tree, self.description.feet)}; they change over at impact, so make them equal"
+                f"{unlike(self.tree, self.description.feet)}, or in a link fixed to one leg; they change over "
+                "at impact, so make them equal"
             )
         _ = self.swap
 

@@ -114,6 +114,28 @@ def test_a_sole_whose_joint_is_named_stands_on_its_tip(own):
     np.testing.assert_allclose(biped.hip(np.zeros(7)), (hip - right)[[0, 2]], atol=1e-12)
 
 
+def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
+    """A shin that ends with a ball, as walkers of courses have it, on a free joint."""
+    leg = (
+        '<body name="{s}" pos="0 {y} 0"><joint name="{s}_hip"/><geom type="capsule" size=".02" '
+        'fromto="0 0 0 0 0 -.6"/><geom name="{s}_foot" type="sphere" size=".02" pos=".1 0 -.6"/></body>'
+    )
+    path = tmp_path / "balls.xml"
+    path.write_text(
+        '<mujoco><default><joint axis="0 1 0"/></default><worldbody><body name="trunk"><freejoint/>'
+        f'<geom type="sphere" size=".1" pos="0 0 .2"/>{leg.format(s="r", y=-0.1)}{leg.format(s="l", y=0.1)}'
+        '</body></worldbody><actuator><motor joint="r_hip" ctrllimited="true" ctrlrange="-7 7"/>'
+        '<motor joint="l_hip" ctrllimited="true" ctrlrange="-7 7"/></actuator></mujoco>'
+    )
+    biped = derive(path).biped
+    assert biped.description.feet == ("r_foot", "l_foot")
+    q = np.array([0.2, -0.3, 0.1])
+    foot = [0.1 + 0.6j, 0.1 + 0.6j] * np.exp(
+        1j * (q[:2] + q[2])
+    )  # x - i z of either foot from the hip
+    np.testing.assert_allclose(biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "word"),
     [

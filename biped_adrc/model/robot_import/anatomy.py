@@ -29,7 +29,7 @@ from biped_adrc.model.robot_import.base import PlanarBase, added
 from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.urdf import Joint, Note, Tree
 
-_FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
+FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""
 _AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
 
@@ -130,7 +130,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
     apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
     most = max(apart.values(), default=0)
     farthest = [pair for pair, count in apart.items() if count == most]
-    named = tuple(end for end in ends if _FOOT_NAMES.search(end))
+    named = tuple(end for end in ends if FOOT_NAMES.search(end))
     for guesses, why in (
         (farthest, f"the two ends with the most joints between them, {most}"),
         ([named] if len(named) == 2 else [], "the two ends that are called feet"),
@@ -154,7 +154,7 @@ def _on_point(
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
         return body
-    if last.name not in actuated and _FOOT_NAMES.search(foot) and len(leg) > 1:
+    if last.name not in actuated and FOOT_NAMES.search(foot) and len(leg) > 1:
         welded = (replace(j, type="fixed") if j == last else j for j in tree.joints)
         text = f"joint '{last.name}': welded at its zero, as '{foot}' is a point here, at the axis; its sole"
         return replace(body, tree=replace(tree, joints=tuple(welded))).noting(

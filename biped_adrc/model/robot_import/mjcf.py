@@ -2,7 +2,8 @@
 
 The compiled model is placed at its reference posture qpos0. There every body gets a frame parallel to the
 world's, at the anchor of its last joint, so that it is a link of `urdf.Tree`; joints of one body are a chain of
-links without mass. Angles count from the reference posture.
+links without mass. A shape or site that is called a foot, on a body that is not, is the point of a foot. Angles
+count from the reference posture.
 
 Read are masses and inertias, joints and their ranges, armature, damping, friction loss, and the torque
 that the motors reach. Shapes with their contacts, springs and the gains of servos are left out; constraints
@@ -20,6 +21,7 @@ import numpy as np
 from biped_adrc.core.errors import ModelError, optional
 from biped_adrc.core.files import one_line
 from biped_adrc.core.types import Array
+from biped_adrc.model.robot_import.anatomy import FOOT_NAMES
 from biped_adrc.model.robots.robot_toml import GRAVITY
 from biped_adrc.model.robots.urdf import (
     Inertial,
@@ -111,6 +113,21 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             body = Inertial(float(m.body_mass[b]), _vector(d.xipos[b] - above), upper)
             check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
+    for owners, at, item in (
+        (m.geom_bodyid, d.geom_xpos, m.geom),
+        (m.site_bodyid, d.site_xpos, m.site),
+    ):
+        for i, b in enumerate(owners.tolist()):
+            foot = one_line(item(i).name)
+            if (
+                b
+                and FOOT_NAMES.search(foot)
+                and not FOOT_NAMES.search(names[b])
+                and foot not in links
+            ):
+                links[foot] = Link(foot, None, ())
+                place, axis = _vector(at[i] - places[b]), (1.0, 0.0, 0.0)
+                joints.append(Joint(f"{foot}_mount", "fixed", names[b], foot, place, axis))
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
     return Tree(model or path.stem, links, tuple(joints), str(path))
 
