@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, console, errors, inputs, target
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, FIGURES, app, console, errors, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
@@ -73,13 +73,20 @@ def robot_check(
     actuated: str | None = None,
     torque: float | None = None,
     sets: list[str] | None = None,
+    plot: Path | None = None,
 ) -> None:
-    """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
+    """Read a URDF as a biped: say what was read, assumed and left out, draw it, check the laws of mechanics.
 
     Exit code 0 when every law holds, 1 when one does not, 3 when the URDF is refused.
     """
+    plot = target(plot or Path(f"{file.stem}.png"), FIGURES, (file,))
     derived = _derived(file, feet, actuated, torque, sets)
     _explain(derived)
+    from biped_adrc.view.from_the_side.check_figure import check_figure
+    from biped_adrc.view.style import write_figure
+
+    write_figure(plot, check_figure(derived.biped))
+    console.written(plot)
     if derived.broken:
         for check in derived.broken:
             errors.say(f"error: {check}")

@@ -98,8 +98,9 @@ class Biped(Shown):
             energies.append(float(w @ self.floating.inertia_on_fixed_base(x) @ w))
         if not (math.isclose(*energies, rel_tol=1e-9) and math.isclose(*lengths, rel_tol=1e-9)):
             raise ModelError(
-                f"URDF '{self.tree.source}': the legs differ in mass or length, as in the links "
-                f"{unlike(self.tree, self.description.feet)}; they change over at impact, so make them equal"
+                f"'{self.tree.source}': the legs differ in mass or length, as in the links "
+                f"{unlike(self.tree, self.description.feet)}, or in a link fixed to one leg; they change over "
+                "at impact, so make them equal"
             )
         _ = self.swap
 
@@ -181,7 +182,7 @@ class Biped(Shown):
         d, pitch = self.description, self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != d.unactuated:
             raise ModelError(
-                f"URDF '{self.tree.source}': link '{d.trunk}' hangs on "
+                f"'{self.tree.source}': link '{d.trunk}' hangs on "
                 f"'{pitch.name if pitch else 'nothing'}', expected '{d.unactuated}'"
             )
         chain = absolute_angles(self.tree, d.joints, [d.stance_foot])[0]

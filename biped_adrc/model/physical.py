@@ -75,7 +75,7 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
                 else f"missing in {list(joints)}"
             )
             raise ModelError(
-                f"URDF '{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
+                f"'{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
                 f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
             )
 
@@ -87,7 +87,7 @@ def check_numbers(biped: Biped) -> None:
     Raises ModelError with what to look for in the URDF.
     """
     random, n = np.random.default_rng(SEED), biped.n
-    where = f"URDF '{biped.tree.source}', robot '{biped.description.name}'"
+    where = f"'{biped.tree.source}', robot '{biped.description.name}'"
     for _ in range(STATES):
         q, v = random.uniform(-np.pi, np.pi, n), random.normal(0.0, 3.0, n)
         with np.errstate(all="ignore"):

@@ -91,7 +91,7 @@ class PinnedDynamics:
         n = len(joints)
         if self.model.nv != n:
             raise ModelError(
-                f"URDF '{tree.source}': pinned model has {self.model.nv} coordinates, "
+                f"'{tree.source}': pinned model has {self.model.nv} coordinates, "
                 f"the robot record names {n} ({list(joints)})"
             )
         self.T = np.zeros((n, n))  # q_tree = T q_s
@@ -206,7 +206,7 @@ def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
     """Joints from `foot` up to `torso`, the nearest first. Raises ModelError where there is no such path."""
     chain = tree.path_below(foot, torso)
     if chain is None:
-        raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
+        raise ModelError(f"'{tree.source}': foot '{foot}' does not hang below '{torso}'")
     return chain
 
 

@@ -144,11 +144,17 @@ def test_the_audit_names_the_limit_that_a_gait_misses(robot, gait, orbit, limits
     assert any(text.startswith(word) for text in missed) if word else missed == []
 
 
-def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give():
-    free = StepLimits(clearance=None)
-    with pytest.raises(GaitError, match="above the ground after 50%") as caught:
-        design_gait("three_link", 2.8, limits=free)
-    assert "clearance" not in str(caught.value)
+def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give(robot, limits, unknowns):
+    numbers, direction = unknowns
+    for clearance in (0.02, None):
+        programme, _ = transcribe(robot, ASKED, replace(limits, clearance=clearance), direction)
+        names = [
+            text.split(" by ")[0] for text in programme.in_words(programme.missed(flat(numbers)))
+        ]
+        assert ("foot clearance" in names) == (clearance is not None)
+        assert ("the swing foot above the ground after 50% of the step" in names) == (
+            clearance is None
+        )
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.0, 0), (0.4e-4, 0), (1.1e-4, 1), (-1.1e-4, 1)])

@@ -500,10 +500,12 @@ def robot(*arguments):
     return CliRunner().invoke(app, ["robot", *map(str, arguments)])
 
 
-def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path):
+def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     path, folder = urdf(rabbit()), tmp_path / "folder"
     good = robot("check", path, "--feet", "left_toe,right_toe", "--set", "armature=0.1")
     assert (good.exit_code, "32 kg" in good.stdout) == (0, True)
+    assert "written to own.png" in good.stdout
     assert robot("check", path, "--feet", "left_shin,right_shin", "--set", "tip=0,0").exit_code == 1
     assert robot("new", path, "--out", folder, "--torque", 80).exit_code == 0
     assert ba.Biped.load(folder / "robot.toml").description.peak_torque == 80.0

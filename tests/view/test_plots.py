@@ -26,6 +26,7 @@ from biped_adrc.paper.figures import NAMES, draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
+from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
 from biped_adrc.view.plots import figures, over_time
@@ -193,3 +194,29 @@ def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Pa
     assert not torso.leg
     np.testing.assert_allclose(torso.ends[:, ::2], [(0.0, 0.0), end], atol=1e-12)
     assert [v.shape for v in robot.tree.links["left_leg"].visuals] == ["sphere", "cylinder"]
+
+
+@pytest.mark.parametrize("name", ["rabbit", "compass", "three_link"])
+def test_a_checked_robot_is_drawn_with_its_joints_masses_and_feet(name):
+    """Arrows turn counter-clockwise for an axis along -y; texts name all joints and masses."""
+    biped = Biped.load(name)
+    for axis in (-1.0, 1.0):
+        tree = replace(
+            biped.tree,
+            joints=tuple(
+                replace(j, axis=(0.0, axis, 0.0)) if j.type == "revolute" else j
+                for j in biped.tree.joints
+            ),
+        )
+        (axes,) = check_figure(replace(biped, tree=tree)).axes
+        arrows = [patch.get_xy() for patch in axes.patches]
+        assert len(arrows) == biped.n
+        for xy in arrows:
+            x, z = (xy - xy.mean(axis=0)).T[:, :30]  # the outer rim
+            assert np.sign(np.sum(x[:-1] * z[1:] - x[1:] * z[:-1])) == -axis
+    texts = {text.get_text() for text in axes.texts}
+    assert {"stance foot", "swing foot", "hip"} < texts
+    for i, joint in enumerate(biped.description.joints):
+        assert f"q{i + 1} {joint}" in texts
+    heavy = [link for link in biped.tree.links.values() if link.inertial]
+    assert {f"{link.name} {link.inertial.mass:.4g} kg" for link in heavy} < texts

@@ -29,7 +29,7 @@ from biped_adrc.model.robot_import.base import PlanarBase, added
 from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.urdf import Joint, Note, Tree
 
-_FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
+FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""
 _AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
 
@@ -83,7 +83,7 @@ def _chain(body: PlanarBase, link: str) -> list[Joint]:
     path = body.tree.path_below(link, body.trunk)
     if path is None:
         raise ModelError(
-            f"URDF '{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and "
+            f"'{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and "
             "hip must"
         )
     return [joint for joint in reversed(path) if joint.type == "revolute"]
@@ -104,7 +104,7 @@ def on_feet(
     known = len(feet) == 2 and set(feet) <= set(body.tree.links)
     if not known or len(urdf.bodies_between(body.tree, (feet[0], feet[1]))) == 1:
         raise ModelError(
-            f"URDF '{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
+            f"'{body.tree.source}': feet {list(feet)}, expected two links that a joint moves against each "
             f"other, the stance foot first, by feet=(...) or --feet; the ends of the tree are {_ends(body)}"
         )
     pair = feet[0], feet[1]
@@ -130,7 +130,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
     apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
     most = max(apart.values(), default=0)
     farthest = [pair for pair, count in apart.items() if count == most]
-    named = tuple(end for end in ends if _FOOT_NAMES.search(end))
+    named = tuple(end for end in ends if FOOT_NAMES.search(end))
     for guesses, why in (
         (farthest, f"the two ends with the most joints between them, {most}"),
         ([named] if len(named) == 2 else [], "the two ends that are called feet"),
@@ -139,7 +139,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
             one, other = guesses[0]
             return guesses[0], f"feet: '{one}' (drawn as the stance foot) and '{other}', {why}"
     raise ModelError(
-        f"URDF '{body.tree.source}': which two of the links {ends} are the feet is not certain; say it by "
+        f"'{body.tree.source}': which two of the links {ends} are the feet is not certain; say it by "
         "feet=('stance', 'swing') or --feet stance,swing"
     )
 
@@ -154,14 +154,14 @@ def _on_point(
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
         return body
-    if last.name not in actuated and _FOOT_NAMES.search(foot) and len(leg) > 1:
+    if last.name not in actuated and FOOT_NAMES.search(foot) and len(leg) > 1:
         welded = (replace(j, type="fixed") if j == last else j for j in tree.joints)
         text = f"joint '{last.name}': welded at its zero, as '{foot}' is a point here, at the axis; its sole"
         return replace(body, tree=replace(tree, joints=tuple(welded))).noting(
             Note("left out", f"{text} is no contact. --actuated {last.name},... keeps the joint")
         )
     raise ModelError(
-        f"URDF '{tree.source}': foot '{foot}' lies on the axis of its own joint '{last.name}', so the "
+        f"'{tree.source}': foot '{foot}' lies on the axis of its own joint '{last.name}', so the "
         "leg has no end; put a link without mass at its tip and name it by feet=(...) or --feet, or give "
         "the place of the tip in the link's frame by tip=(x, y, z) or --set tip=x,y,z"
     )
@@ -213,7 +213,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
     swing = [j for j in tree.path_to_root(feet[1]) if j.child not in one and j.type == "revolute"]
     if not swing:
         raise ModelError(
-            f"URDF '{tree.source}': the swing foot '{feet[1]}' is fixed to the stance leg; give the feet the "
+            f"'{tree.source}': the swing foot '{feet[1]}' is fixed to the stance leg; give the feet the "
             f"other way round, feet=('{feet[1]}', '{feet[0]}')"
         )
     here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
@@ -228,7 +228,7 @@ def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
     fits = [link for link in below if _keeps_its_origin(tree, link, foot)]
     if hip not in fits:
         raise ModelError(
-            f"URDF '{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "
+            f"'{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "
             f"round at the stance foot '{foot}': one of {fits}"
         )
 

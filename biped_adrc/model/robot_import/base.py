@@ -70,7 +70,7 @@ def _in_plane(tree: Tree, joint: Joint) -> Joint:
     if math.dist(axis, joint.axis) < PLANAR:
         return replace(joint, axis=(axis[0], axis[1], axis[2]))
     raise ModelError(
-        f"URDF '{tree.source}', joint '{joint.name}': its axis is {text_of(joint.axis)} in the frame of the "
+        f"'{tree.source}', joint '{joint.name}': its axis is {text_of(joint.axis)} in the frame of the "
         f"world at zero angles, expected along {'y' if along == _Y else 'x or z'}; the robot must walk in the "
         "plane x-z, so make the joint 'fixed'"
     )
@@ -85,7 +85,7 @@ def _top(tree: Tree, root: str) -> Joint | None:
     floats = [joint for joint in tree.joints if joint.type in ("planar", "floating")]
     if floats and floats != [joint for joint in below if joint in floats][:1]:
         raise ModelError(
-            f"URDF '{tree.source}', joint '{floats[-1].name}': type '{floats[-1].type}', expected one joint of "
+            f"'{tree.source}', joint '{floats[-1].name}': type '{floats[-1].type}', expected one joint of "
             f"this kind at most, at the root '{root}', where it leaves the robot free"
         )
     holds = ("revolute", "fixed") if root == "world" else ("revolute",)
@@ -121,7 +121,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     complete = len(slides) == len(along) == 2 and all(joint in carriers for joint in slides)
     if not complete or len(tops) != 1 or heavy:
         raise ModelError(
-            f"URDF '{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
+            f"'{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
             f"{[j.name for j in tops]} and has mass in {heavy}; expected one prismatic joint along x, one "
             "along z, then one revolute pitch about y, and no mass above the trunk. Complete the base, or "
             "remove it and one is put there"
@@ -165,7 +165,7 @@ def _check_below(on_base: PlanarBase) -> None:
 
     Raises ModelError that names the joint.
     """
-    tree, where = on_base.tree, f"URDF '{on_base.tree.source}'"
+    tree, where = on_base.tree, f"'{on_base.tree.source}'"
     below = [j for j in tree.joints if tree.path_below(j.child, on_base.trunk)]
     if not any(joint.type == "revolute" for joint in below):
         raise ModelError(

@@ -42,12 +42,13 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.core.errors import ModelError, OutputError
-from biped_adrc.core.files import toml_key, toml_value, write_text
+from biped_adrc.core.files import reading, toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.physical import checks
 from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
+from biped_adrc.model.robot_import.mjcf import read_mjcf
 from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
 from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, pairs, to_xml, with_tip
 from biped_adrc.model.robots.urdf_reader import Contents, read
@@ -72,7 +73,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
-    text = "shapes: the file has none that can be drawn, so rods and balls are drawn instead"
+    text = "shapes: none were read that can be drawn, so rods and balls are drawn instead"
     return replace(tree, links=links), (Note("assumed", text),)
 
 
@@ -132,7 +133,7 @@ class Hints:
 
 
 def record_of(
-    reading: Contents,
+    contents: Contents,
     body: PlanarBase,
     parts: Anatomy,
     actuated: tuple[str, ...],
@@ -150,10 +151,10 @@ def record_of(
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
         return {name: values[name] for name in moving if name in values}
 
-    source = f"The <inertial> elements of {Path(reading.tree.source).name}."
+    source = f"The masses of {Path(contents.tree.source).name}."
     return {
-        "name": reading.tree.name,
-        "urdf": Path(reading.tree.source).name,
+        "name": contents.tree.name,
+        "urdf": Path(contents.tree.source).name,
         "default_preset": PRESET,
         "actuated": list(actuated),
         "passive": [name for name in moving if name not in actuated],
@@ -167,8 +168,8 @@ def record_of(
         "peak_torque": torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
-        "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
-        "friction": {"viscous": of_moving(reading.viscous), "static": of_moving(reading.static)},
+        "ranges": {name: list(ends) for name, ends in of_moving(contents.ranges).items()},
+        "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": armature}},
     }
@@ -247,7 +248,7 @@ def biped_from_urdf(
     derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
     if derived.broken:
         broken = "; ".join(str(check) for check in derived.broken)
-        raise ModelError(f"URDF '{path}': {broken}")
+        raise ModelError(f"'{path}': {broken}")
     return derived.biped
 
 
@@ -257,19 +258,19 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     Raises ModelError that names the link, joint or file, and what to give or to change.
     """
     hints = Hints() if hints is None else hints
-    reading, feet = _with_tips(path, hints)
-    body, pair = on_feet(on_planar_base(reading.tree), feet, hints.actuated or ())
+    contents, feet = _with_tips(path, hints)
+    body, pair = on_feet(on_planar_base(contents.tree), feet, hints.actuated or ())
     parts = anatomy(body, pair, hints.hip)
     tree, of_shapes = drawable(body.tree, parts.feet)
-    actuated, of_motors = _motors(reading, parts.moving, hints)
-    torque, of_torque = _torque(reading, actuated, hints)
-    armature, of_rotors = _armature(reading, actuated, hints)
-    record = record_of(reading, body, parts, actuated, torque, armature, hints)
+    actuated, of_motors = _motors(contents, parts.moving, hints)
+    torque, of_torque = _torque(contents, actuated, hints)
+    armature, of_rotors = _armature(contents, actuated, hints)
+    record = record_of(contents, body, parts, actuated, torque, armature, hints)
     description = description_of(record, Path(path))
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
-    notes += (*reading.notes, *_remarks(reading, parts.moving, hints))
+    notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
     return Derived(
         biped, tuple(sorted(notes, key=lambda n: order.index(n.kind))), checks(biped), record
@@ -280,25 +281,32 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
     """Read the file; also returns the feet: those of the hints, or links added at
     their tips. Raises ModelError.
     """
-    reading, feet = read(path), hints.feet
+    contents, feet = _contents(Path(path)), hints.feet
     if hints.tip is None:
-        return reading, feet
-    if feet is None or not set(feet) <= set(reading.tree.links):
+        return contents, feet
+    if feet is None or not set(feet) <= set(contents.tree.links):
         raise ModelError(
-            f"URDF '{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
-            f"are {list(reading.tree.links)}"
+            f"'{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
+            f"are {list(contents.tree.links)}"
         )
-    tree, tips = reading.tree, []
+    tree, tips = contents.tree, []
     for foot in feet:
-        x, y, z = (reading.turns[foot] @ np.array(hints.tip)).tolist()
+        x, y, z = (contents.turns[foot] @ np.array(hints.tip)).tolist()
         tree, tip = with_tip(tree, foot, (x, y, z))
         tips.append(tip)
-    return replace(reading, tree=tree), tuple(tips)
+    return replace(contents, tree=tree), tuple(tips)
+
+
+def _contents(path: Path) -> Contents:
+    """The robot of a URDF, or of an MJCF, which its first element tells. Raises ModelError."""
+    with reading("file of a robot", path, ModelError):
+        first = re.search(rb"<(robot|mujoco)\b", path.read_bytes())
+    return read_mjcf(path) if first and first[1] == b"mujoco" else read(path)
 
 
 # -- motors ----------------------------------------------------------------------------------------
 def _motors(
-    reading: Contents, moving: tuple[Joint, ...], hints: Hints
+    contents: Contents, moving: tuple[Joint, ...], hints: Hints
 ) -> tuple[tuple[str, ...], tuple[Note, ...]]:
     """Names of the joints with a motor in order, and a sentence where they were guessed.
 
@@ -306,21 +314,21 @@ def _motors(
     """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
-        result = tuple(name for name in names if reading.effort.get(name) != 0.0)
+        result = tuple(name for name in names if contents.effort.get(name) != 0.0)
         free = ", ".join(f"'{name}'" for name in names if name not in result)
         motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(result)) or "none"
         text = f"motors: {motors}" + (f"; {free} free (effort 0)" if free else "")
         return result, (Note("assumed", text),)
     if len(set(hints.actuated) & set(names)) < len(hints.actuated):
         raise ModelError(
-            f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
+            f"'{contents.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
             f"from {list(names)}"
         )
     return hints.actuated, ()
 
 
 def _torque(
-    reading: Contents, actuated: tuple[str, ...], hints: Hints
+    contents: Contents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[Note, ...]]:
     """The torque limit of all motors [N m], that of the hints or else the least one in the
     URDF, and a sentence on it.
@@ -329,20 +337,20 @@ def _torque(
     """
     if hints.torque is not None or not actuated:
         return (1.0 if hints.torque is None else hints.torque), ()
-    without = [name for name in actuated if not reading.effort.get(name, 0.0) > 0.0]
+    without = [name for name in actuated if not contents.effort.get(name, 0.0) > 0.0]
     if without:
         raise ModelError(
-            f"URDF '{reading.tree.source}': motors {without} have no torque limit; write "
+            f"'{contents.tree.source}': motors {without} have no torque limit; write "
             '<limit effort="..."/> into the joints, or give torque=... [N m] or --torque'
         )
-    efforts = {name: reading.effort[name] for name in actuated}
+    efforts = {name: contents.effort[name] for name in actuated}
     least = min(efforts.values())
     which = "every motor" if least == max(efforts.values()) else f"the weakest of {efforts}"
     return least, (Note("read", f"torque limit: {least:g} N m, of {which}"),)
 
 
 def _armature(
-    reading: Contents, actuated: tuple[str, ...], hints: Hints
+    contents: Contents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[Rotors, tuple[Note, ...]]:
     """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
 
@@ -350,26 +358,26 @@ def _armature(
     """
     if hints.armature is not None:
         return hints.armature, ()
-    each = tuple(reading.rotor.get(name, 0.0) for name in actuated)
+    each = tuple(contents.rotor.get(name, 0.0) for name in actuated)
     text = ", ".join(
         f"{x:g} kg m^2 on '{name}'" for name, x in zip(actuated, each, strict=True) if x
     )
     none = Note("assumed", "rotor inertia: none; the file does not say. --set armature= gives it")
-    notes = [Note("read", f"rotor inertia, reflected by the gear: {text}") if text else none]
-    if other := sorted(name for name, x in reading.rotor.items() if x and name not in actuated):
-        notes.append(Note("left out", f"rotor inertia of {other}, which have no motor"))
+    notes = [Note("read", f"rotor inertia, reflected to the joint: {text}") if text else none]
+    if other := sorted(name for name, x in contents.rotor.items() if x and name not in actuated):
+        notes.append(Note("left out", f"rotor inertia of {other}, without a motor or welded"))
     return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)
 
 
-def _remarks(reading: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
+def _remarks(contents: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
     """Sentences on friction: of the feet, and of the joints."""
     notes = []
     if hints.friction_coefficient is None:
-        text = f"dry friction of the feet: {FRICTION}, as of RABBIT; the file does not say"
+        text = f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
         notes.append(Note("assumed", text))
     for what, values, unit in (
-        ("viscous", reading.viscous, "N m s/rad"),
-        ("static", reading.static, "N m"),
+        ("viscous", contents.viscous, "N m s/rad"),
+        ("static", contents.static, "N m"),
     ):
         text = ", ".join(f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name))
         if text:

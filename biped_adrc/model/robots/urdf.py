@@ -162,7 +162,7 @@ class Tree(Shown):
         """
         links = dict(self.links)
         for name, inertial in inertials.items():
-            check_inertial(inertial, f"URDF '{self.source}', link '{name}'")
+            check_inertial(inertial, f"'{self.source}', link '{name}'")
             links[name] = replace(links[name], inertial=inertial)
         return replace(self, links=links)
 
@@ -321,7 +321,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     R = np.where(np.abs(R - np.round(R)) < _EXACT, np.round(R), R) + 0.0
     if np.max(np.abs(A @ R - PA)) > _EXACT or np.max(np.abs(R @ R - np.eye(len(R)))) > _EXACT:
         raise ModelError(
-            f"URDF '{tree.source}': the legs below '{feet[0]}' and '{feet[1]}' are not built alike, so they "
+            f"'{tree.source}': the legs below '{feet[0]}' and '{feet[1]}' are not built alike, so they "
             f"cannot change over at impact; links were paired as {pairs}"
         )
     return R

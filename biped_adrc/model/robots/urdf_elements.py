@@ -32,7 +32,7 @@ def parse(path: Path | str) -> ET.Element:
                 "it holds xacro macros, expected the URDF they expand to; try "
                 f"'xacro {path.name} > robot.urdf' and give robot.urdf"
             )
-        root = ET.fromstring(data)
+        root = ET.fromstring(data.lstrip())
         space = root.tag.rpartition("robot")[0]
         for element in root.iter():  # a default namespace is the file's, not a part of names
             element.tag = element.tag.removeprefix(space)

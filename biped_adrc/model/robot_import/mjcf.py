@@ -1,0 +1,173 @@
+"""Reading an MJCF through MuJoCo's own compiler, which knows its defaults, classes and meshes.
+
+The compiled model is placed at its reference posture qpos0. There every body gets a frame parallel to the
+world's, at the anchor of its last joint, so that it is a link of `urdf.Tree`; joints of one body are a chain of
+links without mass. A shape or site that is called a foot, on a body that is not, is the point of a foot. Angles
+count from the reference posture.
+
+Read are masses and inertias, joints and their ranges, armature, damping, friction loss, and the torque
+that the motors reach. Shapes with their contacts, springs and the gains of servos are left out; constraints
+between bodies are refused. Needs the extra `mujoco`.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.core.errors import ModelError, optional
+from biped_adrc.core.files import one_line
+from biped_adrc.core.types import Array
+from biped_adrc.model.robot_import.anatomy import FOOT_NAMES
+from biped_adrc.model.robots.robot_toml import GRAVITY
+from biped_adrc.model.robots.urdf import (
+    Inertial,
+    Joint,
+    Link,
+    Note,
+    Tree,
+    Vector,
+    check_inertial,
+)
+from biped_adrc.model.robots.urdf_reader import Contents
+
+_KINDS = ("floating", "ball", "prismatic", "revolute")
+"""Types of joints, in MuJoCo's order."""
+
+
+def read_mjcf(path: Path) -> Contents:
+    """Compile an MJCF and read the robot in it. Raises ModelError, and InputError without MuJoCo."""
+    with optional(
+        "mujoco", f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
+    ):
+        import mujoco
+    mujoco.set_mju_user_warning(lambda _: None)  # it would write a file
+    try:
+        m = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        raise ModelError(
+            f"MJCF '{path}' does not compile: {' '.join(str(error).split())}"
+        ) from None
+    if m.neq:
+        raise ModelError(
+            f"'{path}': it has {m.neq} constraints in <equality>, expected none; closed chains and coupled "
+            "joints are not supported"
+        )
+    d = mujoco.MjData(m)
+    mujoco.mj_kinematics(m, d)
+    names = [one_line(m.body(b).name) or f"body{b}" for b in range(m.nbody)]
+    hinges = {_name(m, j): j for j in range(m.njnt) if _KINDS[m.jnt_type[j]] == "revolute"}
+
+    def by_joint(values: Array) -> dict[str, float]:
+        """One of the model's arrays over its velocities, by joint."""
+        return {name: float(values[m.jnt_dofadr[j]]) for name, j in hinges.items()}
+
+    return Contents(
+        _tree(m, d, names, path),
+        {n: e for n, j in hinges.items() if (e := _torque(m, j)) < math.inf},
+        {
+            n: (float(low), float(high))
+            for n, j in hinges.items()
+            for low, high in [m.jnt_range[j] - m.qpos0[m.jnt_qposadr[j]]]
+            if m.jnt_limited[j] and high - low < 2.0 * math.pi
+        },
+        by_joint(m.dof_damping),
+        by_joint(m.dof_frictionloss),
+        by_joint(m.dof_armature),
+        dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True)),
+        _notes(m, hinges),
+    )
+
+
+def _name(m: Any, j: int) -> str:
+    """Name of joint j."""
+    return one_line(m.joint(j).name) or f"joint{j}"
+
+
+def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
+    """Links and joints of a compiled model, placed by its data at qpos0."""
+    places, links, joints = [np.zeros(3)], {names[0]: Link(names[0], None, ())}, list[Joint]()
+    for b in range(1, m.nbody):
+        above, parent = places[m.body_parentid[b]], names[m.body_parentid[b]]
+        own = range(m.body_jntadr[b], m.body_jntadr[b] + m.body_jntnum[b])
+        for j in own or (-1,):  # -1: none, the body is fixed to its parent
+            last = j == own[-1] if own else True
+            name = _name(m, j) if own else f"{names[b]}_mount"
+            child = names[b] if last else f"{names[b]}_{name}"
+            kind = _KINDS[m.jnt_type[j]] if own else "fixed"
+            place = d.xanchor[j] if kind == "revolute" else d.xpos[b] if last else above
+            axis = _vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
+            if kind == "ball":
+                raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
+            joints.append(Joint(name, kind, parent, child, _vector(place - above), axis))
+            links[child] = Link(child, None, ())
+            above, parent = place, child
+        places.append(above)
+        if m.body_mass[b] > 0.0:
+            R = d.ximat[b].reshape(3, 3)
+            moments = (R * m.body_inertia[b]) @ R.T
+            upper = tuple(moments[np.triu_indices(3)].tolist())
+            body = Inertial(float(m.body_mass[b]), _vector(d.xipos[b] - above), upper)
+            check_inertial(body, f"'{path}', body '{names[b]}'")
+            links[names[b]] = Link(names[b], body, ())
+    for owners, at, item in (
+        (m.geom_bodyid, d.geom_xpos, m.geom),
+        (m.site_bodyid, d.site_xpos, m.site),
+    ):
+        for i, b in enumerate(owners.tolist()):
+            foot = one_line(item(i).name)
+            if (
+                b
+                and FOOT_NAMES.search(foot)
+                and not FOOT_NAMES.search(names[b])
+                and foot not in links
+            ):
+                links[foot] = Link(foot, None, ())
+                place, axis = _vector(at[i] - places[b]), (1.0, 0.0, 0.0)
+                joints.append(Joint(f"{foot}_mount", "fixed", names[b], foot, place, axis))
+    model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
+    return Tree(model or path.stem, links, tuple(joints), str(path))
+
+
+def _vector(x: Array) -> Vector:
+    """The three entries as a tuple of floats, adding 0.0, which takes the sign off zero."""
+    return float(x[0]) + 0.0, float(x[1]) + 0.0, float(x[2]) + 0.0
+
+
+def _torque(m: Any, j: int) -> float:
+    """Torque [N m] that the actuators of joint j reach: by their force range, or their control range as motors.
+
+    0 without an actuator, infinite without a limit.
+    """
+    total = 0.0
+    for a in np.flatnonzero((m.actuator_trnid[:, 0] == j) & (m.actuator_trntype < 2)):
+        gear, gain = abs(m.actuator_gear[a, 0]), abs(m.actuator_gainprm[a, 0])
+        if m.actuator_forcelimited[a]:
+            total += gear * np.min(np.abs(m.actuator_forcerange[a]))
+        elif m.actuator_ctrllimited[a] and not m.actuator_biastype[a]:
+            total += gear * gain * np.min(np.abs(m.actuator_ctrlrange[a]))
+        else:
+            total = math.inf
+    return min(total, *np.abs(m.jnt_actfrcrange[j])) if m.jnt_actfrclimited[j] else total
+
+
+def _notes(m: Any, hinges: dict[str, int]) -> tuple[Note, ...]:
+    """What of a compiled model is left out."""
+    springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
+    zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
+    g = m.opt.gravity.tolist()
+    notes = (
+        (m.ngeom, f"{m.ngeom} shapes with their contacts, such as soles: the feet are points"),
+        (springs, f"springs at joints [N m/rad]: {springs}"),
+        (zeros, f"zeros of joints: angles count from the reference posture, at {zeros} rad"),
+        (np.any(m.actuator_biastype), "gains of servos: the motors are torques"),
+        (m.ntendon, f"{m.ntendon} tendons"),
+        (
+            g != [0.0, 0.0, -GRAVITY],
+            f"gravity {g} m/s^2; --set gravity= gives another than {GRAVITY}",
+        ),
+    )
+    return tuple(Note("left out", text) for found, text in notes if found)
