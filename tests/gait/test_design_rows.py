@@ -8,8 +8,6 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from biped_adrc.analysis.gait_design import design_gait
-from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.design.nlp import LATE, transcribe
 from biped_adrc.gait.design.optimise import _bounds, audit
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits, StepLimits
