@@ -19,6 +19,11 @@ from biped_adrc.gait.exchange.samples import read_csv
 from biped_adrc.scenario.cycle import cycle_of
 
 PYTHON = {
+    "a number as text": (
+        lambda r: ba.walk(ba.Walker(r.biped, ba.NPDController(r.h)), r.gait, impacts="4"),
+        "asks for 4 impacts ('4' is a str), expected a whole number",
+    ),
+    "a step as text": (lambda r: ba.RK4("1e-3"), "is 1e-3 ('1e-3' is a str), expected a positive"),
     "a torque too few": (lambda r: r.walk(push=ba.TorquePulse([30.0] * 4)), "expected 5"),
     "gains of five joints": (
         lambda r: r.walk(ba.NPDController(r.h, ba.Gains([1.0] * 5, [1.0] * 5))),
@@ -140,6 +145,14 @@ def test_a_mistake_in_python_is_one_sentence(mistake, right):
         do(right)
     assert word in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_run_that_runs_away_names_its_step(engine, right):
+    walker = ba.Walker(right.biped, ba.NPDController(right.h))
+    run = ba.walk(walker, right.gait, 1, method=ba.RK4(1.0), engine=engine).trajectory
+    assert run.status is ba.Status.RAN_AWAY
+    assert run.detail.endswith("(RK4, h = 1 s)")
 
 
 @pytest.fixture

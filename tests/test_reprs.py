@@ -50,6 +50,11 @@ def test_a_class_of_ones_own_fits_too(gait):
     assert len(repr(Own(gait.constraint, 3.0, (1.0,) * 1000))) <= LONGEST
 
 
+def test_a_status_is_shown_by_its_name(biped, gait):
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
+    assert repr(walk.feasibility).startswith("Feasibility(status=COMPLETED, ")
+
+
 def test_values_are_shown_as_they_are(biped, gait):
     assert repr(ba.Gains()) == "Gains()"
     assert repr(ba.Gains(1.0, np.array([1.0, 2.0]))) == "Gains(K_p=1.0, K_d=[1 2])"

@@ -95,7 +95,7 @@ def check_whole(value: object, what: str, least: int = 0) -> None:
     what: how the message begins, with the value found.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
-        raise InputError(f"{what}, expected a whole number, at least {least}")
+        raise InputError(f"{what}{_if_text(value)}, expected a whole number, at least {least}")
 
 
 def check_count(count: object, what: str) -> None:
@@ -116,4 +116,9 @@ def check_positive(
     except TypeError:  # no number
         fits = False
     if not fits:
-        raise error(f"{what}, expected a positive number{hint}")
+        raise error(f"{what}{_if_text(value)}, expected a positive number{hint}")
+
+
+def _if_text(value: object) -> str:
+    """Says of a text that it is one, since '4' is printed as 4 is."""
+    return f" ({value!r} is a str)" if isinstance(value, str) else ""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
+from enum import Enum
 from itertools import zip_longest
 from numbers import Real
 from typing import Any
@@ -56,6 +57,8 @@ def short(x: Any) -> str:
         return f"[{' '.join(f'{number:.6g}' for number in x)}]" if few else f"array{x.shape}"
     if isinstance(x, Real) and not isinstance(x, bool):
         return f"{x}"
+    if isinstance(x, Enum):
+        return x.name
     if callable(x) and hasattr(x, "__name__"):
         return str(x.__name__)
     text = f"{{{len(x)} keys}}" if isinstance(x, Mapping) and len(x) > 2 else repr(x)
