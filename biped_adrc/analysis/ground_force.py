@@ -32,7 +32,7 @@ class Nodes:
     def of(cls, s: Signals) -> Nodes:
         """Take the nodes from the signals of a walk."""
         q_b = s.q[:, : s.u.shape[1]]
-        parts = (s.t, s.step, s.outside, s.error, s.u, q_b, s.momentum, s.swing_foot)
+        parts = (s.t, s.step, s.outside, q_b - s.q_d, s.u, q_b, s.momentum, s.swing_foot)
         return cls(np.ascontiguousarray(np.column_stack(parts)))
 
     @property

@@ -20,7 +20,7 @@ piece by piece between jumps.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 
 import numpy as np
@@ -34,7 +34,9 @@ from biped_adrc.core.linear import lapack
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, freeze
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
 
@@ -42,6 +44,8 @@ FORCE, PLACE, SPEED, _ = NAMES
 """Names of the feet's readings in an arc's `read`, (K, 4) each: forces [N], places [m], velocities [m/s]."""
 LONG = 2000
 """Number of nodes from which on compiling the signals is faster than NumPy."""
+FALLS = Status.FELL, Status.STALLED, Status.RAN_AWAY
+"""Ends of a walk in whose last single support the robot leaves the gait and does not come back."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,8 @@ class Signals(Shown):
     dq_d: Array
     """Their rates (K, p) [rad/s]."""
     error: Array
-    """(K, p) q_b - q_d [rad]."""
+    """(K, p) q_b - q_d [rad]; NaN in a fall, from where Theta has left the gait for good: a curve that is
+    continued past its end is no reference."""
     u: Array
     """(K, p) torque applied [N m]."""
     zeta: Array
@@ -121,8 +126,17 @@ class Signals(Shown):
 
     @property
     def peak_error(self) -> float:
-        """max |q_b - q_d| [rad], also between the nodes."""
-        return largest(self.t, self.error, self.v[:, : self.error.shape[1]] - self.dq_d)
+        """max |q_b - q_d| [rad] up to a fall, also between the nodes."""
+        s = self.before_fall
+        return largest(s.t, s.error, s.v[:, : s.error.shape[1]] - s.dq_d)
+
+    @property
+    def before_fall(self) -> Signals:
+        """The rows that have a tracking error: all of a walk that did not fall."""
+        rows = ~np.any(np.isnan(self.error), axis=1)
+        if np.all(rows):
+            return self
+        return Signals(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
@@ -138,12 +152,26 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     """
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
-    tracked = tracked_by(walker.law, reference)
+    tracked, found = tracked_by(walker.law, reference), None
     if compiled or many:
-        result = compiled_readings(walker, trajectory, tracked)
-        if result is not None:
-            return signals_of(walker, trajectory, result)
-    return signals_of(walker, trajectory, readings(walker, trajectory, tracked))
+        found = compiled_readings(walker, trajectory, tracked)
+    if found is None:
+        found = readings(walker, trajectory, tracked)
+    result = signals_of(walker, trajectory, found)
+    if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
+        return replace(result, error=error_before_fall(result, reference))
+    return result
+
+
+def error_before_fall(s: Signals, h: VirtualConstraint) -> Array:
+    """The tracking error of a fall (K, p) [rad], NaN behind the last node of the last single support at which
+    Theta is between both ends of the curve; the first node of it keeps its error.
+    """
+    first = int(np.searchsorted(s.step, s.step[-1]))
+    ends, theta, error = sorted((h.theta_plus, h.theta_minus)), s.theta[first:], s.error.copy()
+    on_curve = np.flatnonzero((ends[0] <= theta) & (theta <= ends[1]))
+    error[first + np.max(on_curve, initial=0) + 1 :] = np.nan
+    return error
 
 
 def readings(

@@ -109,6 +109,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
 
     half: the same walk at half the step, where there are joints with an error.
     """
+    from biped_adrc.analysis.signals import FALLS
     from biped_adrc.paper.two_steps import error_text
 
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
@@ -117,8 +118,9 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     if half is not None and run.t_end > run.t_start:
         each = (walk, half)
         ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
+        fall = " up to the fall" if run.status in FALLS else ""
         about = (
-            f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
+            f"largest tracking error {error_text(*ends)}{fall}, peak torque {walk.peak_torque:.1f} N m, "
             f"{run.settings['method']}"
         )
     console.print(

@@ -82,9 +82,9 @@ class Outcome(Shown):
     durations: Array
     """Durations of the single supports (impacts,) [s]."""
     peak_error: float
-    """max |q_b - q_d| [rad], also between the nodes of the method; 0 where no joint is driven."""
+    """max |q_b - q_d| [rad] up to a fall, also between the nodes of the method; 0 where no joint is driven."""
     rms_error: float
-    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]; 0 where no joint is driven."""
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad] up to a fall; 0 where no joint is driven."""
     peak_torque: float
     """max |u_i| [N m]; 0 without motors."""
     certificates: tuple[Certificate, ...]
@@ -235,7 +235,7 @@ class Walk(Shown):
                 "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals "
                 "and feasibility, or walk with biped_adrc.walk_scenario"
             )
-        run, s = self.trajectory, self.signals
+        run, s = self.trajectory, self.signals.before_fall
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
         squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
         duration = s.t[-1] - s.t[0]

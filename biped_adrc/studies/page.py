@@ -96,9 +96,10 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
     shares = {key: (round(x.feasible.value * x.walks), x.walks) for key, x in by.items()}
-    yield "Whose walks are feasible?", cells_figure(shares)
+    if len({condition for _, condition in shares}) > 1:  # the table says one column as well
+        yield "Whose walks are feasible?", cells_figure(shares)
     column, counts = _named(measure.column), measure.column in OF_ALL
-    better = f"ratio to {lines[0].name} in {column}"
+    better = f"ratio to {lines[0].name} in {measure.column}"  # a ratio has no unit
     for question, title, numbers, at in (
         ("How large is the error?", f"median {column}", medians, None),
         ("Who is better on the same walk?", better, ratios, 1.0),

@@ -191,7 +191,7 @@ def _on_the_ground(walk: Walk) -> WalkRow:
 
     The latter is missing on a plant that does not say it.
     """
-    row, steps = contact_errors(walk.signals)._asdict(), walk.soft_steps
+    row, steps = contact_errors(walk.signals.before_fall)._asdict(), walk.soft_steps
     if not steps:
         return row
     return row | {

@@ -1,10 +1,14 @@
 """A row of a study from the table of the compiled walk, and from all nodes of the same walk by its signals."""
 
+import math
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.scenario.build import limits
+from biped_adrc.studies.page import _figures
 from biped_adrc.studies.run import counted_in, run_trials
 
 PULL = {"shape": "sine", "link": "torso", "force": 40.0, "step": 2, "duration": 0.3}
@@ -17,6 +21,10 @@ CASES = {
     "encoders, delay, lag": {"hardware": {"profile": "rabbit", "delay": 0.7e-3, "lag": 1e-3}},
     "other impacts": {"hardware.period": 1e-3, "errors": WRONG, "ground.slope": 0.01},
     "falls": {"hardware.period": 1e-3, "pushes": [{**PULSE, "force": 900.0}]},
+    "falls off the curve": {
+        "hardware.period": 1e-3,
+        "pushes": [{**PULSE, "force": 900.0, "direction": math.pi}],
+    },
 }
 
 
@@ -30,3 +38,19 @@ def test_both_give_the_same_numbers(name):
             assert row[column] == pytest.approx(x, rel=1e-9, abs=1e-12), column
         else:
             assert row[column] == x, column
+
+
+@pytest.mark.parametrize("conditions", [[], ["5 N", "9 N"]])
+def test_the_page_asks_what_its_table_does_not_say(tmp_path, conditions):
+    """A ratio has no unit. Feasible walks under one condition are a column of the table, and no picture."""
+    laws = {f"K_p {x}": {"controller.K_p": x} for x in (4000.0, 5000.0)}
+    tables = {
+        "name": "page",
+        "base": {"controller.name": "NPD", "run.impacts": 1},
+        "cases": laws,
+        "conditions": {x: {"pushes": [{**PULSE, "step": 1, "force": x}]} for x in conditions},
+    }
+    pictures = dict(_figures(ba.study(tables, tmp_path, ThreadPoolExecutor(1))))
+    assert ("Whose walks are feasible?" in pictures) == bool(conditions)
+    (axes,) = pictures["Who is better on the same walk?"].axes
+    assert axes.get_xlabel() == "ratio to K_p 4000.0 in rms_error"

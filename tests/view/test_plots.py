@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,11 +19,15 @@ from biped_adrc.disturbances.waves import TorquePulse
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robot_import.import_robot import biped_from_urdf
 from biped_adrc.paper.figures import NAMES, draw
 from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.from_the_side.side_view import bones
 from biped_adrc.view.plots import figures, over_time
 from biped_adrc.view.style import render
 
@@ -37,6 +42,39 @@ def pushed(biped: Biped) -> dict[str, Walk]:
         "ADRC": (ADRCController(gait.constraint), Exponential(1e-3)),
     }
     return {c: walk_of(Walker(biped, law, push), gait, 3, m) for c, (law, m) in laws.items()}
+
+
+@pytest.fixture(scope="module")
+def fallen(biped: Biped) -> Walk:
+    """NPD under a push on the hips that throws it: it falls backwards, off the start of the curve."""
+    gait = load_gait("v0.8", biped)
+    push = TorquePulse([-150.0, -150.0, 0.0, 0.0, 0.0], step=4, start=0.3, stop=0.5)
+    walker = Walker(biped, NPDController(gait.constraint), push, torque_limit=150.0)
+    return walk_of(walker, gait, 9)
+
+
+def test_a_fall_has_no_error_where_the_curve_has_ended(fallen: Walk, tmp_path: Path) -> None:
+    s, h = fallen.signals, fallen.gait.constraint
+    assert fallen.trajectory.status is Status.FELL
+    off = s.theta > h.theta_plus  # the phase falls from theta_plus to theta_minus
+    last = s.step == s.step[-1]
+    behind = last & (s.t > s.t[last & ~off][-1])
+    distance = np.abs(s.q[:, :4] - s.q_d)
+    assert np.max(distance[behind]) > 100.0
+    assert np.array_equal(np.isnan(s.error).any(axis=1), behind)
+    assert s.peak_error == pytest.approx(np.max(distance[~behind]), rel=1e-3)
+    assert s.peak_error < 0.5
+    stored = load_walk(fallen.save(tmp_path / "fell.npz"))
+    assert stored.signals.peak_error == s.peak_error
+
+
+def test_the_panels_of_a_fall_show_what_a_robot_can_do(fallen: Walk) -> None:
+    angles, knees, _, errors = fallen.plot().axes
+    for axes in (angles, knees):
+        assert max(np.max(np.abs(finite(x))) for x in axes.get_lines()) < 2.0 * np.pi
+    assert errors.get_ylabel() == "tracking error [mrad]"
+    sizes = figures.error_sizes(axes_of_my_own(), {"NPD": fallen.signals})
+    assert np.max(drawn_lines(sizes)["NPD"]) < 0.5
 
 
 def axes_of_my_own() -> Axes:
@@ -137,3 +175,21 @@ def test_robot_figure_marks_everything_and_labels_stay_apart(biped: Biped) -> No
     render(figure, "png", dpi=50)
     boxes = [text.get_window_extent() for text in texts]
     assert not [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.overlaps(b)]
+
+
+LIMB = """<link name="{0}"><inertial><origin xyz="{1}"/><mass value="4"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
+HIP = """<joint name="{0}_hip" type="continuous"><parent link="trunk"/><child link="{0}"/>
+<axis xyz="0 1 0"/><limit effort="40" velocity="9"/></joint>"""
+
+
+@pytest.mark.parametrize(("com", "end"), [("0 0 0.3", (0.0, 0.3)), ("0.1 0 0.3", (0.1, 0.3))])
+def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Path) -> None:
+    legs = "".join(LIMB.format(x, "0 0 -0.4") + HIP.format(x) for x in ("left_leg", "right_leg"))
+    path = tmp_path / "points.urdf"
+    path.write_text(f'<robot name="points">{LIMB.format("trunk", com)}{legs}</robot>')
+    robot = biped_from_urdf(path, feet=("left_leg", "right_leg"), tip=(0.0, 0.0, -0.8))
+    (torso,) = (x for x in bones(robot) if x.link == "trunk")
+    assert not torso.leg
+    np.testing.assert_allclose(torso.ends[:, ::2], [(0.0, 0.0), end], atol=1e-12)
+    assert [v.shape for v in robot.tree.links["left_leg"].visuals] == ["sphere", "cylinder"]

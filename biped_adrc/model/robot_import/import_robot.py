@@ -70,12 +70,15 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
-    said = "shapes: the URDF has none that can be drawn, so balls are drawn instead"
+    said = "shapes: the URDF has none that can be drawn, so rods and balls are drawn instead"
     return replace(tree, links=links), (said,)
 
 
 def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
-    """Rows of balls from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
+    """Rods from the link's origin to the joints below it, or to its COM, and a ball at the COM.
+
+    A rod is a cylinder along z, and a row of balls in another direction.
+    """
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     balls: list[Visual] = []
     if link.inertial is not None:
@@ -86,6 +89,9 @@ def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
     for end in ends:
         radius, shares = _RADIUS * math.hypot(*end), np.linspace(0.0, 1.0, _BALLS).tolist()
         x, y, z = end
+        if z and not x and not y:
+            balls.append(Visual("cylinder", (radius, abs(z)), (0.0, 0.0, 0.5 * z), rgba))
+            continue
         balls += [
             Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares if radius
         ]

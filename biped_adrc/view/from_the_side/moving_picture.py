@@ -221,7 +221,7 @@ class _Panel:
             self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
             return
         s = self.signals
-        so_far = np.abs(s.error[(s.t >= self.start) & (s.t <= t)])
+        so_far = np.nan_to_num(np.abs(s.error[(s.t >= self.start) & (s.t <= t)]))
         largest = float(np.max(so_far, initial=0.0))  # at the nodes of the walk
         unit, factor = angle_unit(so_far)
         size = f"{factor * largest:.3g} {unit}" if largest >= 1e-9 else "below 1 nrad"
@@ -242,6 +242,7 @@ class _Errors:
         largest = [np.max(np.abs(s.error), axis=1) for s in signals]
         inside = [(s.t >= low) & (s.t <= high) for s in signals]
         tops = np.concatenate([e[rows] for e, rows in zip(largest, inside, strict=True)])
+        tops = tops[np.isfinite(tops)]
         unit, factor = angle_unit(tops)
         band, pushed = axes.get_xaxis_transform(), np.any(signals[0].zeta != 0.0, axis=1)
         look: dict[str, Any] = {"transform": band, "color": PUSH, "alpha": 0.45, "lw": 0}

@@ -15,7 +15,7 @@ import numpy as np
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.urdf import Visual
+from biped_adrc.model.robots.urdf import Link, Tree, Visual
 from biped_adrc.view.colours import WEIGHT_LENGTH
 from biped_adrc.view.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
 
@@ -43,25 +43,26 @@ class Bone:
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """Find the lines of a robot: axes of cylinders and longest sides of boxes, in the order of the URDF.
-
-    Where the URDF has no such primitives: lines from joint to joint. A wheel has each of
-    them once for every spoke.
-    """
+    """Find the lines of a robot, link by link as in its URDF; a wheel has each of them once for every spoke."""
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     result = [
         Bone(name, ends, leg.get(name, ""))
         for name, link in biped.tree.links.items()
-        for visual in link.visuals
-        if (ends := _axis(visual)) is not None
+        for ends in _lines(biped.tree, link)
     ]
-    if not result:
-        result = [
-            Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), leg.get(j.child, ""))
-            for j in biped.tree.joints
-            if any(j.origin)
-        ]
     return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in result]
+
+
+def _lines(tree: Tree, link: Link) -> list[Array]:
+    """Ends (2, 3) [m] of the lines of a link: axes of cylinders and longest sides of boxes.
+
+    Without such a primitive they go from its origin to the joints below it, or to its COM, as a torso's.
+    """
+    axes = [ends for visual in link.visuals if (ends := _axis(visual)) is not None]
+    seen = [j.origin for j in tree.joints_below(link.name) if any(j.origin[::2])]  # not along y
+    if not seen and link.inertial is not None and any(link.inertial.com[::2]):
+        seen = [link.inertial.com]
+    return axes or [np.array([(0.0, 0.0, 0.0), end]) for end in seen]
 
 
 def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:

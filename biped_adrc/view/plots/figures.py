@@ -305,7 +305,7 @@ def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
     walks: name of the controller -> signals. The scale is logarithmic.
     """
     for i, (name, s) in enumerate(walks.items()):
-        sizes = [max(float(np.max(np.abs(s.error))), FLOOR), max(_rms(s), FLOOR)]
+        sizes = [max(float(np.nanmax(np.abs(s.error))), FLOOR), max(_rms(s.before_fall), FLOOR)]
         axes.plot([0, 1], sizes, color=PALETTE[i], marker=MARKERS[i % 4], ls="", ms=8, label=name)
         for k, size in enumerate(sizes):
             axes.annotate(
