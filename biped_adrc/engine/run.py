@@ -29,7 +29,8 @@ from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.engine.ticks import PythonTicks
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
@@ -73,11 +74,18 @@ def simulate_by(
     run_options, why = RunOptions(**options), {}
     if engine == COMPILED:
         try:
-            return run_compiled(walker, x0, mode, method, run_options)
+            return _with_step(run_compiled(walker, x0, mode, method, run_options), method)
         except ModelError as error:
             why = {"why": f"{error}; Pinocchio was used instead"}
-    run = simulator.run(walker, x0, mode, method, run_options)
+    run = _with_step(simulator.run(walker, x0, mode, method, run_options), method)
     return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})
+
+
+def _with_step(run: Trajectory, method: OneStepMethod) -> Trajectory:
+    """The run, with its step in the detail where it ran away: a fixed step too long is the first suspect."""
+    if run.status is not Status.RAN_AWAY or not isinstance(method, RK4 | Exponential):
+        return run
+    return replace(run, detail=f"{run.detail} ({method.label})")
 
 
 def run_compiled(
