@@ -158,7 +158,7 @@ def record_of(
         "peak_torque": torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
-        "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
+        "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(reading.viscous), "static": of_moving(reading.static)},
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},

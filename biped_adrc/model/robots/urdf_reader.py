@@ -10,8 +10,8 @@ so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that poi
 keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv.
 Shapes that are meshes or stand oblique after the turn are not kept: the tree has upright primitives only.
 
-The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside
-the tree. Every ModelError names the file, the element, what was found and what was expected.
+The limit <limit effort> and the friction <dynamics damping friction> are kept beside the
+tree. Every ModelError names the file, the element, what was found and what was expected.
 """
 
 from __future__ import annotations
@@ -61,14 +61,12 @@ _CIRCULAR = ("revolute", "continuous")
 
 @dataclass(frozen=True)
 class UrdfContents:
-    """Content of a URDF: the tree with parallel frames, and limits and friction by joint."""
+    """Content of a URDF: the tree with parallel frames, and torque limits and friction by joint."""
 
     tree: Tree
     """Links and joints with parallel frames."""
     effort: Mapping[str, float]
     """Torque limits [N m], where <limit effort> is given."""
-    ranges: Mapping[str, tuple[float, float]]
-    """Lower and upper end [rad] of revolute joints that cannot turn all the way round."""
     viscous: Mapping[str, float]
     """Viscous friction [N m s/rad], where <dynamics damping> is given."""
     static: Mapping[str, float]
@@ -115,15 +113,9 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    low, high = (_by_joint(turning, "limit", key, file, -LARGEST) for key in ("lower", "upper"))
     return UrdfContents(
         Tree(_name(robot, file), links, joints, str(path)),
         _by_joint(turning, "limit", "effort", file),
-        {
-            name: (low[name], high[name])
-            for name in low
-            if name in high and 0.0 < high[name] - low[name] < 2.0 * math.pi
-        },
         _by_joint(turning, "dynamics", "damping", file),
         _by_joint(turning, "dynamics", "friction", file),
         tuple(
@@ -317,9 +309,10 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
 def _joint(
     element: ET.Element, file: str, turns: Mapping[str, Array], parent: str, child: str
 ) -> Joint:
-    """The joint of an element, with its place and axis in the turned axes.
+    """The joint of an element, with its place and axis in the turned axes, its speed limit and its range.
 
-    Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
+    A range of a whole turn or more is none. Raises ModelError for unknown types, mimic joints and axes that are
+    not of unit length.
     """
     where, kind = _place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
@@ -333,8 +326,15 @@ def _joint(
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
         axis = turns[child] @ axis
-    speed = _numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    limit = element.find("limit")
+    speed, low, high = (
+        _numbers(limit, key, "0", 1, f"{where} <limit>")[0]
+        for key in ("velocity", "lower", "upper")
+    )
     place = _origin(element, where, turns[parent])[0]
     speed = speed if 0.0 < speed < FREE else math.inf
+    stated = limit is not None and {"lower", "upper"} <= limit.attrib.keys() and kind == "revolute"
+    stated = stated and 0.0 < high - low < 2.0 * math.pi
+    ends = (low, high) if stated else (-math.inf, math.inf)
     kind = "revolute" if kind == "continuous" else kind
-    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed)
+    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed, ends)
