@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import signal
 import subprocess
 
@@ -11,6 +12,7 @@ import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 import biped_adrc as ba
+from biped_adrc.core.files import data_folder
 
 PRESETS = ("identified", "identified-bare", "tac2003")
 
@@ -71,6 +73,22 @@ def bare():
 @pytest.fixture(scope="session")
 def published(bare):
     return ba.load_gait("published", bare)
+
+
+@pytest.fixture(scope="session")
+def slow_knee(tmp_path_factory):
+    """RABBIT whose right knee bears 2 rad/s and stays below -0.1 rad; the others state nothing.
+
+    On v0.6 a knee turns at up to 3.33 rad/s as the swing leg's, 1.63 as the stance leg's, which reaches -0.04.
+    """
+    folder = tmp_path_factory.mktemp("slow") / "rabbit"
+    shutil.copytree(data_folder("urdf") / "rabbit", folder)
+    text = (folder / "floating.urdf").read_text()
+    knee = text.index("<limit", text.index('name="right_knee"'))
+    limit = '<limit lower="-2.5" upper="-0.1" effort="150" velocity="2"/>'
+    text = text[:knee] + limit + text[text.index("/>", knee) + 2 :]
+    (folder / "floating.urdf").write_text(text)
+    return ba.Biped.load(folder / "robot.toml")
 
 
 WAIT = ("view", "study")

@@ -3,16 +3,21 @@
 from dataclasses import replace
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from scipy.integrate import cumulative_trapezoid
+from scipy.optimize import brentq
 
 import biped_adrc as ba
-from biped_adrc.analysis.certificate import supports
+from biped_adrc.analysis.certificate import certificates, supports
 from biped_adrc.analysis.feasibility import first_violation, outcome_of
 from biped_adrc.analysis.ground_force import Nodes, demands
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepUp, ground_axes
 from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.studies.run import run_trials
+from biped_adrc.view.placement import joint_values
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0
@@ -28,7 +33,7 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
     none = np.zeros((count, 4))
     momentum = cumulative_trapezoid(newton, t, axis=0, initial=0.0)
     height = zero + 0.05 if height is None else height
-    parts = (t, zero + 1.0, zero, zero, none, none if u is None else u, none, momentum)
+    parts = (t, zero + 1.0, zero, zero, none, none if u is None else u, none, none, momentum)
     return Nodes(np.column_stack((*parts, zero, height)))
 
 
@@ -316,7 +321,7 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     middle = np.abs(s.t - s.t[0] - 0.2) < 0.01
     deep[middle] = -0.002
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
-    assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[3]) == pytest.approx(0.002)
+    assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[2]) == pytest.approx(0.002)
 
 
 # -- the first violation ---------------------------------------------------------------------------
@@ -363,3 +368,193 @@ def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
     late = beginning(walker, scuffs=0.395)
     assert first_in(walker, late) is None
     assert first_in(walker, late, finished=False).t == pytest.approx(0.395)
+
+
+# -- what the URDF states of the joints ------------------------------------------------------------
+BODY = (
+    '<link name="{}"><inertial><origin xyz="0 0 {}"/><mass value="5"/>'
+    '<inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+)
+JOINT = (
+    '<joint name="{}" type="revolute"><parent link="{}"/><child link="{}"/><origin xyz="0 0 {}"/>'
+    '<axis xyz="0 {} 0"/><limit effort="80" velocity="{}" lower="{}" upper="{}"/></joint>'
+)
+FOOT = (
+    '<link name="{0}_foot"/><joint name="{0}_end" type="fixed"><parent link="{0}"/>'
+    '<child link="{0}_foot"/><origin xyz="0 0 -0.5"/></joint>'
+)
+
+
+def two_legs():
+    """A trunk and two legs; angles of the right one count the other way, and each joint bears another rate."""
+    limits = {"left": (1, 3.0, -0.4, 1.5), "right": (-1, 5.0, -1.2, 0.3)}
+    legs = [
+        BODY.format(leg, -0.2) + FOOT.format(leg) + JOINT.format(f"{leg}_hip", "trunk", leg, 0, *x)
+        for leg, x in limits.items()
+    ]
+    return f'<robot name="own">{BODY.format("trunk", 0.3)}{"".join(legs)}</robot>'
+
+
+def compass_with_a_motor():
+    """One motor between two legs: its coordinate changes its sign at an impact."""
+    legs = [BODY.format(leg, -0.2) + FOOT.format(leg) for leg in ("one", "other")]
+    hip = JOINT.format("hip", "one", "other", 0, 1, 4.0, -0.3, 1.0)
+    return f'<robot name="own">{"".join(legs)}{hip}</robot>'
+
+
+@pytest.mark.parametrize("text", [two_legs(), compass_with_a_motor()], ids=["two", "between"])
+def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, text):
+    """Against Pinocchio's reading of the URDF, at the angles with which either leg is drawn."""
+    path = tmp_path / "own.urdf"
+    path.write_text(text)
+    biped = ba.biped_from_urdf(path)
+    stated, p = pin.buildModelFromUrdf(str(path)), biped.p
+    places = [stated.joints[stated.getJointId(j)].idx_q for j in biped.description.actuated]
+    low, high = stated.lowerPositionLimit[places], stated.upperPositionLimit[places]
+    walker = ba.Walker(biped, ba.Passive())
+    random, broken = np.random.default_rng(3), set()
+    for step in (1, 2) * 20:
+        q, v = random.normal(0.0, 0.6, biped.n), random.normal(0.0, 3.0, biped.n)
+        drawn, dt = joint_values(biped, q, step), 1e-4
+        later = joint_values(biped, q + dt * v, step)
+        angle = np.array([drawn[name] for name in biped.description.actuated])
+        rate = (np.array([later[name] for name in biped.description.actuated]) - angle) / dt
+        shares, beyond = (
+            np.abs(rate) / stated.velocityLimit[places],
+            np.maximum(low - angle, angle - high),
+        )
+        none, mass = np.zeros(p), np.array([0.0, 0.0, 0.0, 0.1])
+        row = np.concatenate(([0.0, step, 0.0, 0.0], none, none, q[:p], v[:p], mass))
+        (found,) = supports(walker, Nodes(row[np.newaxis]), KNOWN, 0)
+        assert found.rate_share == pytest.approx(np.max(shares), rel=1e-6)
+        assert found.beyond_range == pytest.approx(max(np.max(beyond), 0.0), abs=1e-12)
+        texts = found.infeasible()
+        assert ("rate" in texts, "range" in texts) == (np.max(shares) > 1.0, np.max(beyond) > 0.0)
+        if "range" in texts:
+            k = np.argmax(beyond)
+            name = biped.description.actuated[k]
+            assert f"{name} is " in texts["range"]
+            assert f"from {low[k]:g} to {high[k]:g} rad" in texts["range"]
+            broken.add((step, name))
+        if "rate" in texts:
+            k = np.argmax(shares)
+            assert (
+                f"{biped.description.actuated[k]} turns at {abs(rate[k]):.4g} rad/s"
+                in texts["rate"]
+            )
+    assert len(broken) == 2 * p
+
+
+def test_a_walk_beyond_a_rate_or_a_range_is_not_feasible_and_names_the_joint(slow_knee):
+    gait = ba.load_gait("v0.6", slow_knee)
+    walker = ba.Walker(slow_knee, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    walk = ba.walk(walker, gait, impacts=2)
+    s, found = walk.signals, walk.feasibility
+    rate, angle = np.abs(s.v[s.step == 1.0, 3]), s.q[s.step == 2.0, 2]
+    assert found.outcome == "infeasible"
+    assert found.reasons == {
+        "rate": f"step 1: right_knee turns at {np.max(rate):.4g} rad/s > 2",
+        "range": f"step 2: right_knee is {np.max(angle) + 0.1:.3g} rad beyond its range from -2.5 to -0.1 rad",
+    }
+    assert [x.rate_share for x in found.supports] == pytest.approx(
+        [np.max(rate) / 2.0, np.max(np.abs(s.v[s.step == 2.0, 2])) / 2.0]
+    )
+    assert [x.beyond_range for x in found.supports] == pytest.approx([0.0, np.max(angle) + 0.1])
+    assert [c.infeasible() for c in walk.certificates] == [x.infeasible() for x in found.supports]
+    cut = walk.until_infeasible().trajectory
+    assert cut.status is ba.Status.INFEASIBLE
+    assert "right_knee turns at" in cut.detail
+    assert cut.t_end == s.t[np.argmax(rate > 2.0)]
+    row = run_trials([_scenario(slow_knee).record()])[0]
+    assert (row["outcome"], row["bad_rate"], row["bad_range"]) == ("infeasible", 1, 1)
+    assert row["bad_torque"] == 0
+
+
+def _scenario(biped):
+    record = biped.description.urdf.with_name("robot.toml")
+    return ba.Scenario("NPD", robot=str(record), gait="v0.6", run={"impacts": 2}, hardware="ideal")
+
+
+def test_single_supports_of_a_stepper_are_judged_by_the_same_limits(slow_knee):
+    within = ba.Limits()
+    stepper = ba.Stepper(_scenario(slow_knee), within=within)
+    stepper.reset()
+    over = []
+    while len(over) < 2:
+        stepper.step()
+        over += [support.infeasible() for _, support in stepper.over]
+    assert over == ba.walk_scenario(_scenario(slow_knee)).feasibility.broken
+    assert [list(texts) for texts in over] == [["rate"], ["range"]]
+
+
+def test_rabbit_states_neither_rate_nor_range_and_is_judged_by_torque_alone(walker, gait):
+    for joint in walker.plant.motor_joints[1]:
+        assert (joint.speed, joint.range) == (np.inf, (-np.inf, np.inf))
+    found = ba.walk(walker, gait, impacts=1).feasible_within(ba.Limits(torque=20.0))
+    (support,) = found.supports
+    u = np.abs(ba.walk(walker, gait, impacts=1).signals.u)
+    name = walker.plant.description.actuated[np.argmax(np.max(u, axis=0))]
+    assert found.reasons["torque"] == f"step 1: {name} has the torque {np.max(u):.4g} N m > 20"
+    assert (support.rate_share, support.beyond_range) == (0.0, 0.0)
+
+
+# -- times and windows -----------------------------------------------------------------------------
+def test_the_first_window_after_a_touchdown_counts_at_every_touchdown(biped, gait):
+    """At the tick 5 ms after it, which the clock reaches up to round-off, by the change of momentum."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    s = ba.walk(walker, gait, impacts=6).signals
+    found = demands(walker, Nodes.of(s), 5e-3, 6)[0]
+    for step in range(1, 7):
+        (rows,) = np.nonzero(s.step == step)
+        after = s.t[rows] - s.t[rows[0]]
+        end = rows[np.flatnonzero(np.abs(after - 5e-3) < 1e-9)[0]]
+        change = biped.momentum(s.q[end], s.v[end]) - biped.momentum(s.q[rows[0]], s.v[rows[0]])
+        assert found[end] == pytest.approx(change[1] / 5e-3 + biped.weight, rel=1e-6)
+        assert np.all(np.isinf(found[rows[after < 5e-3 - 1e-9]]))
+
+
+def test_clearance_is_that_of_the_middle_of_the_step(biped, gait):
+    """Of a foot that is lower in the first and the last 3 % than anywhere between them."""
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=1)
+    s = walk.signals
+    share = (s.t - s.t[0]) / (s.t[-1] - s.t[0])
+    for lowest, begins, ends in ((0.02, 0.0, 0.03), (0.02, 0.97, 1.0), (0.01, 0.03, 0.97)):
+        inside = np.flatnonzero((share > begins) & (share < ends))
+        for at in (inside[1], inside[-2]):
+            height = np.full(len(s.t), 0.05)
+            height[at] = lowest
+            heights = np.column_stack((s.swing_foot[:, 0], height))
+            (found,) = certificates(walk.walker, walk.trajectory, replace(s, swing_foot=heights))
+            assert found.clearance == (lowest if ends - begins > 0.5 else 0.05)
+
+
+# -- starts ------------------------------------------------------------------------------------------
+@pytest.mark.parametrize("first_step", [1, 2])
+def test_a_start_behind_its_touchdown_is_refused_and_one_at_it_walks(
+    walker, biped, gait, first_step
+):
+    s = ba.walk(walker, gait, impacts=1).signals
+    k = int(0.97 * len(s.t))
+    q, v, foot = s.q[k], s.v[k], ("right_foot", "left_foot")[first_step - 1]
+
+    def turned(depth):
+        """The pose turned about the stance foot until the swing foot is so deep in the ground."""
+        pose = lambda a: q + a * np.eye(5)[4]  # noqa: E731
+        return pose(brentq(lambda a: biped.swing_foot(pose(a))[1] + depth, -0.2, 0.2)), v
+
+    mode = ba.Mode(first_step)
+    for depth in (1e-6, 1e-3, 1e-2):
+        said = f"swing foot '{foot}' {1e3 * depth:.3g} mm below the ground"
+        with pytest.raises(InputError, match=said):
+            ba.walk(walker, gait, 1, start=turned(depth), first_step=first_step)
+        with pytest.raises(InputError, match=said):
+            list(ba.simulate_many([ba.Case(walker, *turned(depth), ba.RK4(1e-3), 1, mode)]))
+    above = ba.walk(walker, gait, 1, start=turned(-1e-3), first_step=first_step)
+    assert above.trajectory.status is ba.Status.COMPLETED
+    for x in (gait.start(biped), (gait.q_minus, gait.v_minus)):
+        walker.check_foot(*x, mode)
+    behind, rates = gait.start(biped)
+    low = behind + 1e-3 * np.eye(5)[3]
+    assert biped.swing_foot(low)[1] < -1e-5  # behind, it comes out of the ground
+    again = ba.walk(walker, gait, 1, start=(low, rates), first_step=first_step)
+    assert again.trajectory.status is ba.Status.COMPLETED

@@ -70,6 +70,13 @@ def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
         replace(walker, runaway_speed=math.nan)
 
 
+def test_what_a_joint_states_does_not_move_the_bound_at_which_a_walk_has_run_away(biped, slow_knee):
+    for robot in (biped, slow_knee):
+        assert np.array_equal(
+            ba.Walker(robot, ba.Passive()).bounds.fastest, np.full(5, 20.0 * 50.0)
+        )
+
+
 @pytest.mark.parametrize("method", [ba.Exponential(1e-3), Adaptive(), Stiff(1e-6, 1e-6)])
 def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, method):
     law = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))

@@ -2,10 +2,10 @@
 
 A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N and
 friction |F_T| / F_N in the mean over a window (`ground_force`), the same ratio of the impulse at impact,
-scuffing of the swing foot, torque. A step is feasible where these are within the `Limits`. A `Certificate`
-adds numbers of a step that ended in an impact: whether the old foot lifts off, the forces at every instant,
-and the joint work and the energy lost at impact, which on a periodic gait on level ground are equal. Forces
-are those on the plant, along and perpendicular to its ground.
+scuffing of the swing foot, and torque, rate and range of the joints. A step is feasible where these are
+within the `Limits`. A `Certificate` adds numbers of a step that ended in an impact: whether the old foot lifts
+off, the forces at every instant, and the joint work and the energy lost at impact, which on a periodic gait on
+level ground are equal. Forces are those on the plant, along and perpendicular to its ground.
 
 `certificates` and `supports` compute them from the nodes of a walk; `feasibility`
 summarises them for the walk.
@@ -14,8 +14,9 @@ summarises them for the walk.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -24,10 +25,12 @@ from biped_adrc.analysis.ground_force import Nodes, demands, impulse_ratios, rat
 from biped_adrc.analysis.signals import Signals, integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.urdf import Joint
 
 IMPULSE = "impulse"
 """Name of the reason that is counted apart: the impulse at impact alone leaves the friction cone."""
@@ -36,13 +39,17 @@ REASONS = {
     "friction": "mean_friction",
     "torque": "peak_torque",
     "scuffing": "scuffing",
+    "rate": "rate_share",
+    "range": "beyond_range",
     "slip": "slip",
     "stones": "missed_stone",
     IMPULSE: "impulse_ratio",
 }
 """Reason why a single support is not feasible, a key of `Support.infeasible` -> its field of `Support`."""
-AT_NODES = ("normal_force", "friction", "torque", "scuffing")
+AT_NODES = ("normal_force", "friction", "scuffing", "torque", "rate", "range")
 """Reasons whose numbers are those of `ground_force.demands`."""
+OF_JOINTS = ("torque", "rate", "range")
+"""Reasons that are a joint's."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +75,12 @@ class Support(Shown):
     """By how much the foot lands off its stone [m], 0 on it and where there is none."""
     peak_torque: float
     """Largest |u_i| [N m]."""
+    rate_share: float
+    """Largest |q_i'| as a share of the limit that its joint states [1]; 0 where none states one."""
+    beyond_range: float
+    """By how much an angle is beyond the range that its joint states [rad], 0 within."""
+    joints: Mapping[str, Joint]
+    """The joints of the last three numbers: name in OF_JOINTS -> joint."""
     impulse_ratio: float
     """|F_T| / F_N of the impulse of its impact: infinite where the ground would have had to pull, 0 without
     one."""
@@ -79,7 +92,8 @@ class Support(Shown):
         feasible step.
         """
         k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
-        return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
+        broken, of = {i: x for i, x in numbers.items() if not keeps(i, x, k)}, self.joints.get
+        return {name: violation(name, x, k, of(name)) for name, x in broken.items()}
 
 
 @dataclass(frozen=True)
@@ -132,18 +146,20 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
         return x > 0.0
     if name == "friction":
         return (x <= cone) | (x == math.inf)
-    return (
-        x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, "stones": 0.0, IMPULSE: cone}[name]
-    )
+    most = {"torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
+    return x <= most.get(name, 0.0)
 
 
-def violation(name: str, x: float, k: KnownLimits) -> str:
-    """Text about a number x of the kind `name` in `REASONS` that is not within its limit."""
+def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
+    """Text about a number x of the kind `name` in `REASONS` that is not within its limit, of joint j if any."""
+    i, speed, (low, high) = (j.name, j.speed, j.range) if j else ("a joint", 1.0, (0.0, 0.0))
     over = f"over {1e3 * k.window:g} ms"
     return {
         "normal_force": f"F_N = {x:.3g} N {over}",
         "friction": f"friction {x:.3g} > {k.friction:g} {over}",
-        "torque": f"torque {x:.4g} N m > {k.torque:g}",
+        "torque": f"{i} has the torque {x:.4g} N m > {k.torque:g}",
+        "rate": f"{i} turns at {x * speed:.4g} rad/s > {speed:g}",
+        "range": f"{i} is {x:.3g} rad beyond its range from {low:g} to {high:g} rad",
         "scuffing": f"the swing foot scuffs by {x:.2g} m",
         "slip": f"a foot slips by {1e3 * x:.3g} mm > {1e3 * SLIP:g}",
         "stones": f"the foot lands {1e3 * x:.3g} mm beyond the edge of its stone",
@@ -153,9 +169,9 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
 
 def series(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
-) -> dict[str, Array]:
+) -> tuple[dict[str, Array], Callable[[str, int], Joint | None]]:
     """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
-    at the end of each single support.
+    at the end of each single support. And joint(name, i), the joint of a number in OF_JOINTS at node i.
 
     Slips are not among them. Normal forces are inf and friction ratios -inf where no mean force ends or, the
     latter, it does not push. impacts, after: as for `impulse_ratios`; where friction is not limited, on soft
@@ -164,7 +180,19 @@ def series(
     at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
-    return dict(zip(AT_NODES, demands(walker, n, k.window, impacts), strict=True)) | at_ends
+    needed = demands(walker, n, k.window, impacts)
+    which, own = (
+        dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True)),
+        walker.plant.motor_joints[1],
+    )
+
+    def joint(name: str, i: int) -> Joint | None:
+        if name not in which or not n.p:
+            return None
+        k = int(which[name][i])
+        return own[k if n.rows[i, 1] % 2.0 else walker.plant.swap[k] % n.p]
+
+    return dict(zip(AT_NODES, needed, strict=False)) | at_ends, joint
 
 
 def supports(
@@ -181,7 +209,12 @@ def supports(
     of the friction cone; None on the rigid plant.
     """
     k = k if slips is None else k._replace(friction=math.inf)
-    first, t, worst = n.edges[:-1], n.t, series(walker, n, k, impacts, after)
+    first, t = n.edges[:-1], n.t
+    worst, joint = series(walker, n, k, impacts, after)
+    joints = [
+        {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in OF_JOINTS}
+        for a, b in pairwise(n.edges)
+    ]
     for name in AT_NODES:
         extreme = np.minimum if name == "normal_force" else np.maximum
         worst[name] = extreme.reduceat(worst[name], first)
@@ -189,8 +222,8 @@ def supports(
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
     worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
     numbers = (t[n.last] - t[first], *(worst[name] for name in REASONS))
-    columns: list[Any] = [n.steps, *(x.tolist() for x in numbers)]
-    names, rows = ("step", "duration", *REASONS.values()), zip(*columns, strict=True)
+    columns: list[Any] = [n.steps, joints, *(x.tolist() for x in numbers)]
+    names, rows = ("step", "joints", "duration", *REASONS.values()), zip(*columns, strict=True)
     return tuple(Support(**dict(zip(names, row, strict=True)), limits=k) for row in rows)
 
 
@@ -244,7 +277,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
     since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
-    inner = (since > ENDS * duration) & (since < (1.0 - ENDS) * duration)
+    # the middle of the step, up to round-off of times
+    inner = np.abs(since - 0.5 * duration) < (0.5 - ENDS) * duration - SAME_INSTANT
     height = s.swing_foot @ (math.tan(walker.slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)

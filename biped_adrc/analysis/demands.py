@@ -1,6 +1,6 @@
-"""What the nodes of a walk demand of the ground and of the motors, and what is summed over them.
+"""What the nodes of a walk demand of ground, motors and joints, and what is summed over them.
 
-Rows (K, 8 + 3 p) are those of `engine.batch.BatchWalk.table`. The mean force of the ground follows by Newton's
+Rows (K, 8 + 4 p) are those of `engine.batch.BatchWalk.table`. The mean force of the ground follows by Newton's
 law from the momentum of the robot at the nodes,
 
     F = (P(t) - P(t - w) - int f dt) / w + m g e_z        P = m v_com, f the force from outside
@@ -33,25 +33,42 @@ def largest(x: Array, size: int) -> float:
     return result
 
 
+@inner
+def loads(row: Array, p: int, joints: Array, out: Array, count: int) -> None:
+    """out (6, count): at its first column the largest torque [N m], share of a limit of rates [1] and angle
+    beyond a range [rad], 0 for none, and the joints that have them, from 0. joints: as for `demands`."""
+    for j in range(6):
+        out[j * count] = 0.0
+    for i in range(p):
+        limit = shift(joints, 3 * (p * (int(row[1]) % 2) + i))
+        u, q, v = row[4 + p + i], row[4 + 2 * p + i], row[4 + 3 * p + i]
+        beyond = max(limit[1] - q, q - limit[2])
+        for j, x in enumerate((abs(u), abs(v) / limit[0], beyond)):
+            if x > out[j * count] or x != x:
+                out[j * count], out[(3 + j) * count] = x, i
+
+
 @unit
 def demands(
     rows: Array, p: int, first: Ints, supports: int, impacts: int, known: Array, out: Array
 ) -> None:
-    """out (6, K): what `analysis.ground_force.demands` gives at each of K nodes, then P - int f dt (2,) [N s].
+    """out (11, K): what `analysis.ground_force.demands` gives at each of K nodes, then P - int f dt (2,) [N s].
 
     first (S + 1,): first node of each single support, and K; the first `impacts` of them ended in an impact.
     known: window w [s], weight [N], tangent of the slope, share of a step that is near its ends, axes (2,)
-    along the ground and out of it; then for each single support by how much its ground falls [m].
+    along the ground and out of it; by how much two times of one instant may differ [s]; then for each single
+    support by how much its ground falls [m]; then joints (2, p, 3), in even and in odd ones: largest rate
+    [rad/s], lower and upper end of the range [rad].
     """
-    width, count, before = 8 + 3 * p, first[supports], rows
-    F_N, ratio, torque, depth = out, shift(out, count), shift(out, 2 * count), shift(out, 3 * count)
-    P_x, P_z, pushed_x, pushed_z = shift(out, 4 * count), shift(out, 5 * count), 0.0, 0.0
-    window, weight, tangent, ends = known[0], known[1], known[2], known[3]
+    width, count, before = 8 + 4 * p, first[supports], rows
+    F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
+    P_x, P_z, pushed_x, pushed_z = shift(out, 9 * count), shift(out, 10 * count), 0.0, 0.0
+    window, weight, tangent, ends, same = known[0], known[1], known[2], known[3], known[8]
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
-        w, near = min(window, duration), ends * duration
-        far = (1.0 - ends) * duration if s < impacts else math.inf
+        w, near = min(window, duration), ends * duration + same
+        far = (1.0 - ends) * duration - same if s < impacts else math.inf
         for k in range(first[s], last + 1):
             row = shift(rows, k * width)
             t, since, half = row[0], row[0] - start, 0.5 * (row[0] - before[0])
@@ -60,8 +77,9 @@ def demands(
             before = row
             P_x[k], P_z[k] = row[width - 4] - pushed_x, row[width - 3] - pushed_z
             F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0
-            torque[k] = largest(shift(row, 4 + p), p)
-            if w > SHORTEST and since >= w:
+            loads(row, p, shift(known, 9 + supports), shift(out, 3 * count + k), count)
+            # t - start falls short of w by round-off where a window begins at the touchdown
+            if w > SHORTEST and since >= w - same:
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
                     i += 1
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
@@ -71,7 +89,7 @@ def demands(
                 F_N[k] = F_x * known[6] + F_z * known[7]
                 if not F_N[k] <= 0.0:
                     ratio[k] = abs(F_x * known[4] + F_z * known[5]) / F_N[k]
-            height = row[width - 1] + tangent * row[width - 2] + known[8 + s]
+            height = row[width - 1] + tangent * row[width - 2] + known[9 + s]
             if height > 0.0:
                 above = True
             elif above and near < since < far:
@@ -82,7 +100,7 @@ def demands(
 def totals(rows: Array, p: int, count: int, out: Array) -> None:
     """out (6,): largest |e_i| [rad]; number of nodes that a later time follows; over these nodes the sums of
     |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i [J], dq_i the change to the next node."""
-    width = 8 + 3 * p
+    width = 8 + 4 * p
     for k in range(count):
         row = shift(rows, k * width)
         e, u, q = shift(row, 4), shift(row, 4 + p), shift(row, 4 + 2 * p)

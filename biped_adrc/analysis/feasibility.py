@@ -157,11 +157,13 @@ def first_violation(
     impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
     """
     result = []
-    for name, x in series(walker, n, k, impacts, after).items():
+    numbers, joint = series(walker, n, k, impacts, after)
+    for name, x in numbers.items():
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
             at = i if name in AT_NODES else n.last[i]
             support = int(np.searchsorted(n.last, at))
-            result.append(Violation(float(n.t[at]), support, violation(name, x[i], k)))
+            text = violation(name, x[i], k, joint(name, at))
+            result.append(Violation(float(n.t[at]), support, text))
     return min(result, default=None, key=lambda one: one.t)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.model.ground import ground_axes
@@ -25,14 +26,14 @@ class Nodes:
     """The signals of a walk that feasibility depends on, at its K nodes; forces and points are (x, z)."""
 
     rows: Array
-    """(K, 8 + 3 p), as `engine.batch.BatchWalk.table`: t, step, resultant external force (2,) [N], and what
+    """(K, 8 + 4 p), as `engine.batch.BatchWalk.table`: t, step, resultant external force (2,) [N], and what
     `StepReading` has, last m v_com (2,) [N s] and place of the swing foot (2,) [m]."""
 
     @classmethod
     def of(cls, s: Signals) -> Nodes:
         """Take the nodes from the signals of a walk."""
-        q_b = s.q[:, : s.u.shape[1]]
-        parts = (s.t, s.step, s.outside, q_b - s.q_d, s.u, q_b, s.momentum, s.swing_foot)
+        joints = [x[:, : s.u.shape[1]] for x in (s.q, s.v)]
+        parts = (s.t, s.step, s.outside, joints[0] - s.q_d, s.u, *joints, s.momentum, s.swing_foot)
         return cls(np.ascontiguousarray(np.column_stack(parts)))
 
     @property
@@ -43,7 +44,7 @@ class Nodes:
     @property
     def p(self) -> int:
         """Number of joints."""
-        return (self.rows.shape[1] - 8) // 3
+        return (self.rows.shape[1] - 8) // 4
 
     @property
     def steps(self) -> range:
@@ -73,20 +74,23 @@ def loops() -> Any:
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
-    """F_N [N] and |F_T| / F_N in the mean over the window [s] that ends at each node, largest |u_i| [N m] and
-    depth of the swing foot below the ground [m] (4, K).
+    """F_N [N] and |F_T| / F_N in the mean over the window [s] that ends at each node, depth of the
+    swing foot below the ground [m], largest |u_i| [N m], largest |q_i'| as a share of its limit [1], largest
+    angle beyond a range [rad]; and which joint has that torque, share and angle, from 0: (9, K).
 
     F_N is inf and the ratio -inf where no window ends, the ratio also where the ground does not push. A
     single support shorter than the window is averaged as a whole. The ground is taken at the height of the
     lower of the two footholds. Depth counts once the foot has been above it, since it may come from lower
     ground, and not near the ends of a single support, but at the end of one behind the first `impacts`.
     """
-    slope, falls = walker.slope, [max(walker.drop(step), 0.0) for step in n.steps]
-    known = [window, walker.plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
-    result, numbers = np.empty((6, len(n.rows))), np.array([*known, *falls])
+    slope, plant = walker.slope, walker.plant
+    falls = [max(walker.drop(step), 0.0) for step in n.steps]
+    known = [window, plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
+    joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
+    result, numbers = np.empty((11, len(n.rows))), np.array([*known, SAME_INSTANT, *falls, *joints])
     rows, first, numbers_at, out = (x.ctypes.data for x in (n.rows, n.edges, numbers, result))
     loops().demands(rows, n.p, first, len(falls), impacts, numbers_at, out)
-    return result[:4]
+    return result[:9]
 
 
 def totals(n: Nodes) -> list[float]:

@@ -7,6 +7,7 @@ the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extr
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -158,7 +159,7 @@ def _explain(derived: Derived) -> None:
 
 
 def _describe(biped: ba.Biped) -> None:
-    """Print coordinates and their joints, Theta, feet, section, limits, and mass and inertia of the links."""
+    """Print coordinates and their joints, Theta, feet, section, limits of joints, motors and ground, masses."""
     d = biped.description
     console.say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
     for i, joint in enumerate(d.joints):
@@ -172,6 +173,10 @@ def _describe(biped: ba.Biped) -> None:
         f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}"
     )
     console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
+    for j in biped.motor_joints[1]:
+        rate = f"{j.speed:g} rad/s" if j.speed < math.inf else "not stated"
+        ends = "{:g} to {:g} rad".format(*j.range) if j.range[1] < math.inf else "not stated"
+        console.say(f"  {j.name}: rate {rate}, range {ends}")
     limit = f"torque limit {d.peak_torque:g} N m, " if biped.p else ""
     console.say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
     for name, link in biped.tree.links.items():

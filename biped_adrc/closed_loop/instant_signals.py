@@ -111,6 +111,8 @@ class StepReading(NamedTuple):
     """Torque applied (p,) [N m]."""
     q_b: Array
     """Angles of the joints (p,) [rad]."""
+    v_b: Array
+    """Their rates (p,) [rad/s]."""
     momentum: Array
     """m v_com (2,) [N s]."""
     swing_foot: Array
@@ -125,6 +127,7 @@ def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
         m.q[:p] - reference(i.s, m).q_d,
         i.u,
         m.q[:p],
+        m.v[:p],
         plant.momentum(m.q, m.v),
         plant.swing_foot(m.q),
     )

@@ -42,6 +42,10 @@ TURN = 2.0 * math.pi
 """Range of a joint to either side [rad]: a whole turn, more than cables and legs of a biped allow."""
 
 
+RUNAWAY_RATE = 50.0
+"""Rate of a joint or of the pitch of which runaway_speed is a multiple [rad/s]."""
+
+
 class Bounds(NamedTuple):
     """Of angles, rates and torques."""
 
@@ -54,14 +58,14 @@ class Bounds(NamedTuple):
 
     @classmethod
     def of(cls, robot: object, n: int, speed: float, torque: float) -> Bounds:
-        """A whole turn, so many times the speed limits of the URDF, and the peak torque of the robot's record.
+        """A whole turn, so many times RUNAWAY_RATE, and so many times the peak torque of the robot's record.
 
         None for the torque of a robot without motors, and for a model of n coordinates that is no Biped.
         """
         if not isinstance(robot, Biped):
             return cls(math.inf, read_only(np.full(n, math.inf)), math.inf)
         peak = robot.description.peak_torque if robot.p else math.inf
-        return cls(TURN, read_only(speed * robot.speed_limits), torque * peak)
+        return cls(TURN, read_only(np.full(n, speed * RUNAWAY_RATE)), torque * peak)
 
     def check(self, t: float, q: Array, v: Array) -> None:
         """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
@@ -97,8 +101,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
       asked for.
     - sensors, motors: between controller and plant; in sampled time only.
     - touchdown: how the controller notices one, in sampled time with restart=False; None: at once.
-    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
-      limits of the URDF, or the peak torque of the robot's record; infinite for no end. A joint
+    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s,
+      or the peak torque of the robot's record; infinite for no end. A joint
       that turns by more than a whole turn ends it, too.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.

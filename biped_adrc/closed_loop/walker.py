@@ -92,6 +92,8 @@ FOOT_STRIKE = "foot_strike"
 LEAST_STEP = 1e-3
 """Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground in
 mid-swing, when the swing foot passes the stance foot."""
+ON_GROUND = 1e-9
+"""Depth of a foot below the ground that is round-off of a touchdown [m]."""
 
 
 @dataclass(frozen=True)
@@ -136,6 +138,23 @@ class Walker(ClosedLoop[Biped]):
             )
 
     # -- parts -------------------------------------------------------------------------------------
+    def check_foot(self, q: Array, v: Array, mode: Mode) -> None:
+        """Raise InputError for a start q (n,) [rad], v (n,) [rad/s] whose touchdown is past.
+
+        The swing foot is then below the ground and comes down, ahead of the hip. A foot that is not yet ahead
+        may begin below the ground, as one of a leg without knees does in mid-step.
+        """
+        x, _ = self.plant.swing_foot(q)
+        depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.slope), 1.0])
+        falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
+        if depth > ON_GROUND and falls and x > max(LEAST_STEP, self.plant.hip(q)[0]):
+            foot = self.plant.description.feet[mode.step % 2]
+            raise InputError(
+                f"the start has the swing foot '{foot}' {1e3 * depth:.3g} mm below the ground and coming down, "
+                f"{x:.3g} m ahead of the stance foot, so its touchdown is past; expected it above the ground: "
+                "lift it, or start after the impact, as gait.start(biped) does"
+            )
+
     def check_state(self, t: float, x: Array) -> None:
         """Raise RanAwayError for x (nx,) at t [s] with an angle or a rate beyond the bounds."""
         self.bounds.check(t, x[: self.plant.n], x[self.plant.n : 2 * self.plant.n])

@@ -180,6 +180,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     walker, options = case.walker, case.options
     x = walker.initial_state(case.q, case.v, case.mode)
     options.check(x)
+    walker.check_foot(case.q, case.v, case.mode)
     size = walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)

@@ -32,7 +32,7 @@ from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors, load_description
-from biped_adrc.model.robots.urdf import Inertial, Tree, absolute_angles, relabelling, unlike
+from biped_adrc.model.robots.urdf import Inertial, Joint, Tree, absolute_angles, relabelling, unlike
 
 STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
@@ -115,11 +115,16 @@ class Biped(Shown):
         """Number of motors; the first p coordinates are the actuated ones."""
         return len(self.description.actuated)
 
-    @property
-    def speed_limits(self) -> Array:
-        """<limit velocity> of the coordinates' joints in the URDF (n,) [rad/s]; infinite for none."""
-        speeds = {joint.name: joint.speed for joint in self.tree.joints}
-        return np.array([speeds.get(name, np.inf) for name in self.description.joints])
+    @cached_property
+    def motor_joints(self) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+        """The joints whose angles are q_1, ..., q_p, at index step % 2 of the single support `step`.
+
+        In even ones the legs have changed over, and q_i belongs to the twin, with the sign of `swap`.
+        """
+        joints = {joint.name: joint for joint in self.tree.joints}
+        own = [joints[name] for name in self.description.actuated]
+        both = [*own, *(joint.mirrored for joint in own)]
+        return tuple(both[k] for k in self.swap), tuple(own)
 
     @cached_property
     def B(self) -> Array:

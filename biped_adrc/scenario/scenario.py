@@ -229,7 +229,7 @@ class RunRecord(Record):
     max_step_time: float = field(2.0, "s", gt=0, le=100)
     """A longer single support ends as stalled."""
     runaway_speed: float = field(20.0, "1", gt=0, le=1e9)
-    """Rates beyond this multiple of the URDF's limits end a walk as run away."""
+    """Rates beyond this multiple of 50 rad/s end a walk as run away."""
     runaway_torque: float = field(1000.0, "1", gt=0, le=1e9)
     """The same of the peak torque in the robot's record."""
 

@@ -171,7 +171,9 @@ class Stepper:
             loop, method = walker, default_method(walker)
         check_start(*start, walker)
         x = loop.initial_state(*start, mode)
-        if loop is not walker:
+        if loop is walker:
+            walker.check_foot(*start, mode)
+        else:
             self.why = "the plant moves by itself"
         walk: CompiledWalk | PythonWalk | None = None
         if not self.why:

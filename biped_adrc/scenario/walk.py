@@ -290,6 +290,7 @@ def in_parts(
             "SampledTime(..., restart=True)"
         )
     check_start(*start, walker)
+    walker.check_foot(*start, mode)
     x = walker.initial_state(*start, mode)
     return _joined(list(runs_in_parts(walker, x, mode, parts, progress, engine)))
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.semantics import parts
@@ -65,6 +66,18 @@ def test_the_error_of_the_foot_moves_as_differences_of_pinocchio_s_foot_say(bipe
         np.testing.assert_allclose(f.e, here, atol=1e-12)
         np.testing.assert_allclose(f.de, (ahead - behind) / (2.0 * d), atol=1e-4)
         np.testing.assert_allclose(f.G @ a + f.g, (ahead - 2.0 * here + behind) / d**2, atol=1e-2)
+
+
+def test_the_corridor_bends_as_its_polynomial_does(biped, gait):
+    law, x = (
+        FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), 0.4),
+        Polynomial([0.0, 1.0]),
+    )
+    z = x / 0.4
+    x_c = x + 0.1 * (10.0 * z**3 - 15.0 * z**4 + 6.0 * z**5)
+    for at in np.linspace(0.0, 0.4, 9):
+        expected = [x_c.deriv(k)(at) for k in range(3)]
+        np.testing.assert_allclose(law.corridor(at, 0.5), expected, atol=1e-12)
 
 
 def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):

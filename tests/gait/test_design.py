@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import signal
 from threading import Timer, get_ident
 
@@ -9,8 +10,10 @@ import casadi as ca
 import numpy as np
 import pytest
 
+import biped_adrc as ba
 from biped_adrc.analysis.gait_design import DesignedGait, design_gait
 from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import data_folder
 from biped_adrc.gait.design.optimise import audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait, onto_section
@@ -102,6 +105,21 @@ def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
     found = design_gait("three_link", 0.9, 0.6, limits=StepLimits(clearance=None))
     assert found.gap < 1e-6
     assert found.speed == pytest.approx(0.9, abs=1e-5)
+
+
+def test_a_gait_turns_no_faster_than_the_urdf_states_of_either_leg(tmp_path) -> None:
+    """The hips turn at up to 3.51 and 3.10 rad/s without a limit; one of them states 2.5, which binds both."""
+    folder = tmp_path / "own"
+    shutil.copytree(data_folder("urdf") / "three_link", folder)
+    text = (folder / "floating.urdf").read_text()
+    at = text.index("velocity=", text.index('name="right_hip"'))
+    (folder / "floating.urdf").write_text(text[:at] + text[at:].replace("1000", "2.5", 1))
+    slow = Biped.load(folder / "robot.toml")
+    found = design_gait(slow, 0.9, 0.6, limits=StepLimits(clearance=None))
+    walk = ba.walk(ba.Walker(slow, ba.NPDController(found.gait.constraint)), found.gait, 2)
+    assert 2.3 < np.max(np.abs(walk.signals.v[:, :2])) < 2.5
+    assert not {"rate", "range"} & set(walk.feasibility.reasons)
+    assert [joint.speed for joint in slow.motor_joints[1]] == [np.inf, 2.5]
 
 
 # -- the stored library ----------------------------------------------------------------------------

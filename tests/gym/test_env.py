@@ -151,6 +151,16 @@ def test_feasibility_is_that_of_the_walk(push):
     assert info["peak_torque"] == pytest.approx(peak, rel=1e-9)
 
 
+def test_a_joint_that_turns_faster_than_it_states_is_in_the_verdict_and_not_in_the_spaces(
+    slow_knee,
+):
+    record = slow_knee.description.urdf.with_name("robot.toml")
+    given = {"controller.name": "NPD", "gait.name": "v0.6", "run.impacts": 1}
+    slow, usual = (made(action="added", **given, **x) for x in ({"robot.name": str(record)}, {}))
+    assert slow.observation_space == usual.observation_space
+    assert [walked(env, 0, 1000)[4][-1]["feasible"] for env in (slow, usual)] == [False, True]
+
+
 def test_seeds():
     env = made(action="added", condition="wrong model", **SLOW)
     first = [env.reset(seed=k)[0] for k in (1, 2, 1)]

@@ -520,3 +520,31 @@ def test_an_inertia_matrix_that_is_not_definite_is_refused():
     )  # fmt: skip
     with pytest.raises(ModelError, match="expected positive ones"):
         check_numbers(wrong)
+
+
+def test_what_a_urdf_states_of_its_joints_is_read_said_and_written(urdf, tmp_path):
+    """A continuous joint, a whole turn, and a missing end state no range; 1000 and 0 state no rate."""
+    limits = {
+        "q2_left": '<limit effort="80" velocity="7" lower="-1.5" upper="2"/>',
+        "q2_right": '<limit effort="80" velocity="0" lower="-3.2" upper="3.2"/>',
+        "q1_left": '<limit effort="80" velocity="9" lower="-1.5" upper="2"/>',
+        "q1_right": '<limit effort="80" velocity="1000" upper="2"/>',
+    }
+    text = rabbit()
+    for name, limit in limits.items():
+        at = text.index("<limit", text.index(f'name="{name}"'))
+        text = text[:at] + limit + text[text.index("/>", at) + 2 :]
+    text = text.replace('name="q1_right" type="continuous"', 'name="q1_right" type="revolute"')
+    derived, free = derive(urdf(text)), (-math.inf, math.inf)
+    assert {j.name: (j.speed, j.range) for j in derived.biped.motor_joints[1]} == {
+        "q2_left": (7.0, (-1.5, 2.0)),
+        "q2_right": (math.inf, free),
+        "q1_left": (9.0, free),
+        "q1_right": (math.inf, free),
+    }
+    assert set(derived.biped.description.ranges) == {"q2_left"}
+    again = ba.Biped.load(derived.write(tmp_path / "again"))
+    assert again.motor_joints == derived.biped.motor_joints
+    said = robot("list", tmp_path / "again" / "robot.toml").stdout
+    assert "q2_left: rate 7 rad/s, range -1.5 to 2 rad" in said
+    assert "q1_right: rate not stated, range not stated" in said

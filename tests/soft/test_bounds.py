@@ -10,6 +10,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.system import RUNAWAY_RATE
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.engine import MuJoCoEngine
@@ -50,7 +51,7 @@ def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
     assert "rad/s, above" in found.detail
     assert found.t_end < 12e-3
     assert all_finite(found)
-    assert np.all(np.abs(found.arcs[-1].x[:, 5:10]) <= 0.5 * plant.biped.speed_limits)
+    assert np.all(np.abs(found.arcs[-1].x[:, 5:10]) <= 0.5 * RUNAWAY_RATE)
 
 
 @pytest.mark.parametrize("made", LOOPS)
@@ -59,7 +60,7 @@ def test_the_bounds_are_the_loops(made, plant, gait):
     parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
     arc = run_of(made(*parts), gait, 0.05).arcs[0]
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
-    fast = np.max(np.abs(arc.x[:, 5:10]) / plant.biped.speed_limits, axis=1)
+    fast = np.max(np.abs(arc.x[:, 5:10]) / RUNAWAY_RATE, axis=1)
     for bound, course in (("runaway_torque", peak), ("runaway_speed", fast)):
         limit = float(0.99 * np.max(course))
         found = run_of(made(*parts, **{bound: limit}), gait, 0.05)

@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 from biped_adrc.closed_loop.instant_signals import Tracked
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import labelled, noticed, parts
+from biped_adrc.closed_loop.system import RUNAWAY_RATE
 from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
@@ -127,8 +128,6 @@ class LearnerTask(Checked, Shown):
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
-FASTEST = 1000.0
-"""Largest rate of an observation [rad/s] for a robot whose record has none."""
 NAMES = np.array(
     ["walks", *(status.name.lower().replace("_", " ") for status in STATUS[1:])], dtype=object
 )
@@ -168,8 +167,7 @@ class Stage:
     def _fastest(self) -> Array:
         """Bounds (2 n + 2 p,) of the measured q, q', e and e', one after the other."""
         n, p = self.plant.n, self.plant.p
-        v = self.task.scenario.run.runaway_speed * self.plant.speed_limits
-        v = np.where(np.isfinite(v), v, FASTEST)
+        v = np.full(n, self.task.scenario.run.runaway_speed * RUNAWAY_RATE)
         return np.concatenate((np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]))
 
     def begin(self, i: int, seed: int) -> None:

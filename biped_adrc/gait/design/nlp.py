@@ -154,9 +154,9 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     """Inequality rows at the nodes and both ends: contact, torque, lift-off,
-    stability, clearance, joint ranges.
+    stability, clearance, ranges and rates of the joints.
 
-    Friction and torque keep `limits.reserve` for the phases between the nodes. The clearance
+    Friction, torque and rates keep `limits.reserve` for the phases between the nodes. The clearance
     required is a hump 16 h (s (1 - s))^2 over the normalised phase, which is h in the middle of the
     step and 0, with slope 0, at its ends.
     """
@@ -208,6 +208,9 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))
         ends = low + kept_back, high - kept_back
         rows.append(Bounded(f"the range of {joint}", node.q[j, :], *ends, "rad"))
+    for joint, rate in limits.rates.items():
+        share = node.v_b[k.biped.description.joint_index(joint), :] / rate
+        rows.append(Bounded(f"the rate of {joint}", share, -kept, kept, "of its limit"))
     return tuple(row._replace(value=ca.vec(row.value)) for row in rows)
 
 

@@ -179,7 +179,7 @@ WINDING = 1.5
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:
     """Sentences on the limits that the periodic step of a gait violates at the nodes of its orbit.
 
-    Friction, torque and joint ranges are compared with the limits themselves, since the programme kept a
+    Friction, torque, ranges and rates are compared with the limits themselves, since the programme kept a
     reserve to them. F_N, clearance and lift-off have no such reserve, so they may fall short by that share.
     """
     limits, c = request.limits.of(biped), gait.constraint

@@ -28,6 +28,7 @@ DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4
 NodesInt = Annotated[
     int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
 ]
+FREE = -math.inf, math.inf
 LOW_FIRST = each("low < high [rad] by joint", lambda ends: ends[0] < ends[1])
 
 
@@ -71,17 +72,18 @@ class StepLimits(Checked, Shown):
     lift_off: NonNegativeFloat = 0.02
     """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
     ranges: Annotated[Mapping[str, tuple[float, float]], LOW_FIRST] = field(default_factory=dict)
-    """Joint ranges (low, high) [rad] by name of the coordinate, besides those of the record."""
+    """Joint ranges (low, high) [rad] by name of the coordinate, besides those of the record and the URDF."""
     multiplier: NonNegativeFloat = 0.95
     """Largest delta^2 of the zero dynamics."""
     slowest: NonNegativeFloat = 0.15
     """Least |Theta'| in the step, share of that before impact: a walk that nearly stops is easily stopped."""
     reserve: NonNegativeFloat = 0.02
-    """Share of friction, torque, and a quarter radian of ranges that is kept as a reserve between the nodes."""
+    """Share of friction, torque, rates and a quarter radian of ranges that is kept back between the nodes."""
 
     def of(self, biped: Biped) -> RobotLimits:
-        """These limits with the robot's own in place of None. Raises GaitError for a joint
-        that the robot does not have.
+        """These limits with the robot's own in place of None, and what its URDF states of either leg's joints.
+
+        Raises GaitError for a joint that the robot does not have.
         """
         d = biped.description
         unknown = set(self.ranges) - set(d.joints)
@@ -92,12 +94,23 @@ class StepLimits(Checked, Shown):
         mu = d.friction_coefficient if self.friction is None else self.friction
         own = {"friction": mu, "impulse_friction": mu, "torque": d.peak_torque}
         given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
-        return RobotLimits(**{**own, **given, "ranges": {**d.ranges, **self.ranges}})
+        ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
+        # a coordinate is the angle of either leg's joint in turn
+        for joint, *sides in zip(d.actuated, *biped.motor_joints, strict=True):
+            lows, highs = zip(*(side.range for side in sides), ranges.get(joint, FREE), strict=True)
+            if (ends := (max(lows), min(highs))) != FREE:
+                ranges[joint] = ends
+            if (rate := min(side.speed for side in sides)) < math.inf:
+                rates[joint] = rate
+        return RobotLimits(**{**own, **given, "ranges": ranges, "rates": rates})
 
 
 @dataclass(frozen=True)
 class RobotLimits(StepLimits):
     """StepLimits of one robot: friction coefficients and torque [N m] are numbers, never None."""
+
+    rates: Mapping[str, float] = field(default_factory=dict)
+    """Largest |q_i'| [rad/s] by name of the coordinate."""
 
     friction: FrictionFloat
     impulse_friction: FrictionFloat

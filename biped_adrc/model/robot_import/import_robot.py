@@ -168,7 +168,7 @@ def record_of(
         "peak_torque": torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
-        "ranges": {name: list(ends) for name, ends in of_moving(contents.ranges).items()},
+        "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": armature}},

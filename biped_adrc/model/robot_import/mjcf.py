@@ -36,6 +36,8 @@ from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
 """Types of joints, in MuJoCo's order."""
+FREELY = (-math.inf, math.inf)
+"""Range of a joint without one [rad]."""
 
 
 def read_mjcf(path: Path) -> Contents:
@@ -68,12 +70,6 @@ def read_mjcf(path: Path) -> Contents:
     return Contents(
         _tree(m, d, names, path),
         {n: e for n, j in hinges.items() if (e := _torque(m, j)) < math.inf},
-        {
-            n: (float(low), float(high))
-            for n, j in hinges.items()
-            for low, high in [m.jnt_range[j] - m.qpos0[m.jnt_qposadr[j]]]
-            if m.jnt_limited[j] and high - low < 2.0 * math.pi
-        },
         by_joint(m.dof_damping),
         by_joint(m.dof_frictionloss),
         by_joint(m.dof_armature),
@@ -102,7 +98,9 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             axis = _vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
                 raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
-            joints.append(Joint(name, kind, parent, child, _vector(place - above), axis))
+            ends = _range(m, j) if kind == "revolute" else FREELY
+            origin = _vector(place - above)
+            joints.append(Joint(name, kind, parent, child, origin, axis, range=ends))
             links[child] = Link(child, None, ())
             above, parent = place, child
         places.append(above)
@@ -135,6 +133,12 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
 def _vector(x: Array) -> Vector:
     """The three entries as a tuple of floats, adding 0.0, which takes the sign off zero."""
     return float(x[0]) + 0.0, float(x[1]) + 0.0, float(x[2]) + 0.0
+
+
+def _range(m: Any, j: int) -> tuple[float, float]:
+    """Range [rad] of hinge j about its zero; infinite where it has none, or a whole turn."""
+    low, high = (float(x) for x in m.jnt_range[j] - m.qpos0[m.jnt_qposadr[j]])
+    return (low, high) if m.jnt_limited[j] and high - low < 2.0 * math.pi else FREELY
 
 
 def _torque(m: Any, j: int) -> float:

@@ -1,12 +1,13 @@
-"""Limits of ground and motors within which a walk is feasible.
+"""Limits of ground, motors and joints within which a walk is feasible.
 
 A single support is feasible when the force of the ground, averaged over any window within it, lies in the
-friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, the swing foot does not
-scuff away from the ends of the step, and the impulse of its impact lies in the cone too. A mean and not an
+friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, every joint with a motor
+within the rate and the range that its URDF states, the swing foot does not scuff away from the ends of the
+step, and the impulse of its impact lies in the cone too. A mean and not an
 instant is used: the edge of a push leaves the cone for a millisecond and a foot does not move in it, while
 torques that chatter leave it in the mean as well. On soft ground a foot that slips by more than SLIP in a
 single support takes the place of the cone. `analysis.certificate` applies the limits; those left open come
-from the robot's record.
+from the robot's record. A rate or a range that the URDF does not state is not judged.
 """
 
 from __future__ import annotations

@@ -119,7 +119,7 @@ class RobotDescription(Shown):
     presets: Mapping[str, Preset]
     """Parameter sets by name."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Lower and upper end [rad] by joint, for gait design; other joints turn freely."""
+    """Lower and upper end [rad] by joint, for gait design alone; a walk is judged by what the URDF states."""
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -116,6 +116,14 @@ class Joint:
     """Unit vector, the same in both frames; without meaning for a fixed joint."""
     speed: float = math.inf
     """<limit velocity> [rad/s] or [m/s]; infinite where there is none, or one that is 0 or at least FREE."""
+    range: tuple[float, float] = (-math.inf, math.inf)
+    """<limit lower upper> [rad]; infinite for a joint that turns all the way round, or slides."""
+
+    @property
+    def mirrored(self) -> Joint:
+        """The joint whose angle is the negative of this one's."""
+        (x, y, z), (low, high) = self.axis, self.range
+        return replace(self, axis=(-x, -y, -z), range=(-high, -low))
 
 
 @dataclass(frozen=True)
@@ -186,8 +194,7 @@ def free_name(tree: Tree, name: str) -> str:
 def to_xml(tree: Tree) -> str:
     """URDF text of `tree`; `urdf_reader.read` of it gives the same tree back.
 
-    Joints are written with wide limits but for their speed, since the tree has none: <limit> is
-    compulsory in URDF.
+    <limit> is compulsory in URDF: FREE stands for a limit that the tree does not state.
     """
     robot = ET.Element("robot", name=tree.name)
     for link in tree.links.values():
@@ -203,9 +210,9 @@ def to_xml(tree: Tree) -> str:
         ET.SubElement(element, "origin", xyz=_text(*joint.origin))
         if joint.type != "fixed":
             ET.SubElement(element, "axis", xyz=_text(*joint.axis))
-            speed = min(joint.speed, FREE)
-            wide = {"lower": -FREE, "upper": FREE, "effort": FREE, "velocity": speed}
-            ET.SubElement(element, "limit", {key: _text(x) for key, x in wide.items()})
+            (low, high), speed = np.clip(joint.range, -FREE, FREE), min(joint.speed, FREE)
+            limit = {"lower": low, "upper": high, "effort": FREE, "velocity": speed}
+            ET.SubElement(element, "limit", {key: _text(x) for key, x in limit.items()})
     ET.indent(robot)
     return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
 

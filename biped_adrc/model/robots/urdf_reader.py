@@ -11,7 +11,7 @@ keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for
 joints turn about another horizontal axis than y, the whole robot is turned about z until they do.
 Shapes that are meshes or stand oblique after the turn are not kept: the tree has upright primitives only.
 
-Kept beside the tree are <limit effort lower upper>, the friction <dynamics damping friction>, and the
+Kept beside the tree are <limit effort>, the friction <dynamics damping friction>, and the
 inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, from <transmission>
 (`mechanicalReduction`, 1 if missing, and `motorInertia`). Every ModelError names the file, the element,
 what was found and what was expected.
@@ -65,14 +65,12 @@ _USED = re.compile(
 
 @dataclass(frozen=True)
 class Contents:
-    """Content of a robot's file: the tree with parallel frames, and limits, friction and rotors by joint."""
+    """Content of a robot's file: the tree with parallel frames, and torques, friction and rotors by joint."""
 
     tree: Tree
     """Links and joints with parallel frames."""
     effort: Mapping[str, float]
     """Torque limits [N m], where <limit effort> is given."""
-    ranges: Mapping[str, tuple[float, float]]
-    """Lower and upper end [rad] of revolute joints that cannot turn all the way round."""
     viscous: Mapping[str, float]
     """Viscous friction [N m s/rad], where <dynamics damping> is given."""
     static: Mapping[str, float]
@@ -109,17 +107,9 @@ def read(path: Path | str) -> Contents:
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    low, high = (
-        xml.by_joint(turning, "limit", key, file, -xml.LARGEST) for key in ("lower", "upper")
-    )
     return Contents(
         Tree(xml.name_of(robot, file), links, joints, str(path)),
         xml.by_joint(turning, "limit", "effort", file),
-        {
-            name: (low[name], high[name])
-            for name in low
-            if name in high and 0.0 < high[name] - low[name] < 2.0 * math.pi
-        },
         xml.by_joint(turning, "dynamics", "damping", file),
         xml.by_joint(turning, "dynamics", "friction", file),
         _rotors(robot, file),
@@ -293,9 +283,10 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
 def _joint(
     element: ET.Element, file: str, turns: Mapping[str, Array], parent: str, child: str
 ) -> Joint:
-    """The joint of an element, with its place and axis in the turned axes.
+    """The joint of an element, with its place and axis in the turned axes, its speed limit and its range.
 
-    Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
+    A range of a whole turn or more is none. Raises ModelError for unknown types, mimic joints and axes that are
+    not of unit length.
     """
     where, kind = xml.place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
@@ -309,8 +300,15 @@ def _joint(
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
         axis = turns[child] @ axis
-    speed = xml.numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    limit = element.find("limit")
+    speed, low, high = (
+        xml.numbers(limit, key, "0", 1, f"{where} <limit>")[0]
+        for key in ("velocity", "lower", "upper")
+    )
     place = _origin(element, where, turns[parent])[0]
     speed = speed if 0.0 < speed < FREE else math.inf
+    stated = limit is not None and {"lower", "upper"} <= limit.attrib.keys() and kind == "revolute"
+    stated = stated and 0.0 < high - low < 2.0 * math.pi
+    ends = (low, high) if stated else (-math.inf, math.inf)
     kind = "revolute" if kind == "continuous" else kind
-    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed)
+    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed, ends)
