@@ -81,7 +81,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     lower of the two footholds. Depth counts once the foot has been above it, since it may come from lower
     ground, and not near the ends of a single support, but at the end of one behind the first `impacts`.
     """
-    slope, falls = walker.slope, [max(walker.drop(step), 0.0) for step in n.steps]
+    slope, falls = walker.ground_slope, [max(walker.drop(step), 0.0) for step in n.steps]
     known = [window, walker.plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
     result, numbers = np.empty((6, len(n.rows))), np.array([*known, *falls])
     rows, first, numbers_at, out = (x.ctypes.data for x in (n.rows, n.edges, numbers, result))
@@ -110,7 +110,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     if after is not None:
         plus = np.vstack((plus, after))
     impulse = plus[:impacts] - P[n.last[:impacts]]
-    result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.slope)).T, np.inf)
+    result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.ground_slope)).T, np.inf)
     return result
 
 

@@ -194,7 +194,8 @@ def poincare(
     law = type(walker.controller).__name__.removesuffix("Controller")
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
     console.say(
-        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}\n"
+        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.ground_slope:g} rad, "
+        f"{cycle.P.method.label}\n"
         f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]"
     )
     step = nominal_step(cycle, o, limits(s))

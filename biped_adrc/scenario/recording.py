@@ -133,7 +133,9 @@ class Walk(Shown):
     def __repr__(self) -> str:
         run = self.trajectory
         duration = f"{run.t_end - run.t_start:.4g} s"
-        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name})"
+        first, *more = self.remarks or ("",)
+        remark = first and f"; {first}" + (f" (and {len(more)} more in remarks)" if more else "")
+        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name}{remark})"
 
     @property
     def note(self) -> str:
@@ -141,7 +143,7 @@ class Walk(Shown):
         plant, gait = self.walker.plant, self.gait
         robot = f"{plant.description.name} {plant.preset}"
         if gait is None:
-            return f"{robot} without motors, slope {self.walker.slope:g} rad"
+            return f"{robot} without motors, slope {self.walker.ground_slope:g} rad"
         return f"{self.controller_name} on gait '{gait.name}', {robot}"
 
     @cached_property
@@ -193,7 +195,7 @@ class Walk(Shown):
         ground = run.settings.get("plant", {}).get("ground")
         if ground is None or recorded(run, PLACE) is None:
             return None
-        return ground["friction"], ground_axes(self.walker.slope)
+        return ground["friction"], ground_axes(self.walker.ground_slope)
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
         """The certificates for other limits.
@@ -270,18 +272,12 @@ class Walk(Shown):
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
         return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
 
-    @property
+    @cached_property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences to know before using its numbers: those of `edges.remarks`, and a gait that was made for
-        another robot or preset.
-        """
+        """Sentences to know before using its numbers, those of `edges.remarks`; `walk` warns with each."""
         if self.recorded is not None:
             return self.stored_remarks
-        result, gait = [*remarks(self.walker, self.trajectory)], self.gait
-        own = self.walker.plant.description.name, self.walker.plant.preset
-        if gait is not None and (gait.robot, gait.preset) != own:
-            result.append(f"gait '{gait.name}' was made for {gait.robot} {gait.preset}")
-        return tuple(dict.fromkeys(result))
+        return tuple(dict.fromkeys(remarks(self.walker, self.gait, self.trajectory)))
 
     @property
     def controller_name(self) -> str:

@@ -19,6 +19,7 @@ from the stored state, and a walk starts just after its impact.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
@@ -32,7 +33,7 @@ from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
 from biped_adrc.core.checks import check_part, handing_out, numbers
-from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.errors import InputError, WalkWarning, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.engine.program import COMPILED
@@ -189,16 +190,17 @@ def walk(
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
-    that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio";
-    the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a
-    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too
-    large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is
-    kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends,
-    with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by
-    them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
-    ground); then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit
-    together.
+    Each of `Walk.remarks` is also a `WalkWarning`. A walker without a slope walks on that of its plant, or of
+    the gait. start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by
+    default that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
+    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
+    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
+    times too large under Table I), which a remark says; "compiled" takes 0.05 ms there. Every step of the
+    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the
+    walk ends, with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone
+    judges by them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as
+    MuJoCoPlant(biped, ground); then the walker acts at ticks, and there is no method. Raises InputError for
+    parts that do not fit together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
     >>> walk.trajectory.status.name, walk.feasibility.status.name
@@ -217,6 +219,8 @@ def walk(
                 "load_gait(name, biped) or design_gait(biped, speed)"
             )
         start = gait.start(walker.nominal)
+    if walker.slope is None:
+        walker = replace(walker, slope=getattr(plant, "slope", gait.slope))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
@@ -229,6 +233,8 @@ def walk(
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
     result = Walk(walker, gait, run)
+    for remark in result.remarks:
+        warnings.warn(remark, WalkWarning, stacklevel=2)
     return result if within is None else result.until_infeasible(within)
 
 
