@@ -13,6 +13,7 @@ reproduction of the paper read it.
     walk.feasibility     could ground and motors have carried it? until_infeasible cuts it where not
     walk.touchdowns      when each was noticed, where the controller has to
     walk.remarks         sentences on what was not as it was asked for
+    walk.rounding()      does rounding decide its numbers?
     walk.plot, animate   figures and pictures
     walk.save, export    .npz to read it again, .mat for MATLAB
 """
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.scenario.walk import Part
 
 OF_JOINTS = {
     "q": "q{} [rad]",
@@ -129,6 +131,8 @@ class Walk(Shown):
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
+    parts: tuple[Part, ...] = ()
+    """How it was integrated, on the rigid plant; empty for a walk from a file, and for one that is cut."""
 
     def __repr__(self) -> str:
         run = self.trajectory
@@ -270,7 +274,7 @@ class Walk(Shown):
             return self
         count = sum(len(arc.t) for arc in cut.arcs)
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
-        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
+        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept), parts=())
 
     @cached_property
     def remarks(self) -> tuple[str, ...]:
@@ -278,6 +282,14 @@ class Walk(Shown):
         if self.recorded is not None:
             return self.stored_remarks
         return tuple(dict.fromkeys(remarks(self.walker, self.gait, self.trajectory)))
+
+    def rounding(self) -> float:
+        """How far [rad, s] a walk from 1e-12 aside ends: above 1e-7 rounding decides. Raises InputError without
+        `parts`.
+        """
+        from biped_adrc.scenario.walk import rounding
+
+        return rounding(self)
 
     @property
     def controller_name(self) -> str:

@@ -68,7 +68,7 @@ def study(
         optuna_library()
     if function is None:
         study_.rehearse()
-        function = run_trials
+        function = partial(run_trials, aside="rounding" in study_.columns)
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
         raise InputError(

@@ -1,5 +1,7 @@
 """A row of a study from the table of the compiled walk, and from all nodes of the same walk by its signals."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -30,3 +32,15 @@ def test_both_give_the_same_numbers(name):
             assert row[column] == pytest.approx(x, rel=1e-9, abs=1e-12), column
         else:
             assert row[column] == x, column
+
+
+def test_a_study_that_asks_for_rounding_has_it(tmp_path):
+    base = {"controller.name": "NPD", "run.impacts": 2}
+    tables = {"name": "rounding", "column": "rounding", "base": base}
+    tables["grid"] = {"hardware.encoders.counts": ["none", 8192.0]}
+    exact, counted = ba.study(tables, tmp_path / "rounding", ThreadPoolExecutor(1)).rows()
+    s = ba.Scenario(**{"hardware": "ideal", **base})
+    assert exact["rounding"] == ba.walk_scenario(s).rounding() < 1e-10
+    s = s.replace({"hardware.encoders.counts": 8192.0})
+    assert counted["rounding"] == ba.walk_scenario(s).rounding()
+    assert run_trials([base])[0]["rounding"] is None
