@@ -22,6 +22,7 @@ from biped_adrc.control.tracking import ObservingController as ObservingControll
 from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
 from biped_adrc.core.errors import BipedError as BipedError
+from biped_adrc.core.errors import WalkWarning as WalkWarning
 from biped_adrc.core.linear import solve as solve
 from biped_adrc.core.part import derived as derived
 from biped_adrc.core.timing import ContinuousTime as ContinuousTime

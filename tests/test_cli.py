@@ -5,8 +5,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 import biped_adrc as ba
+from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.curves import BSpline
 from biped_adrc.scenario.push import Push, parse_push
@@ -100,3 +102,33 @@ def test_ctrl_c_in_a_walk_leaves_no_file(tmp_path):
     assert "interrupted" in done.stderr
     assert "Traceback" not in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == [script.name]
+
+
+def test_the_shortest_step_has_a_half_and_its_walk_is_stored(tmp_path):
+    words = ["simulate", "--controller", "NPD", "--impacts", "1", "--set", "run.h=1e-6"]
+    words += ["--set", "run.max_step_time=5e-3", "-o", tmp_path / "run.npz"]
+    done = CliRunner().invoke(app, [str(word) for word in words], catch_exceptions=False)
+    assert "at half the step" in done.output
+    assert ba.load_walk(tmp_path / "run.npz").trajectory.t_end == pytest.approx(5e-3)
+
+
+def test_a_walk_is_stored_before_it_is_made_again(tmp_path, monkeypatch):
+    def half(s, walker):
+        raise InputError("no half")
+
+    monkeypatch.setattr("biped_adrc.scenario.walk.halved", half)
+    words = ["simulate", "--controller", "NPD", "--impacts", "1", "-o", str(tmp_path / "run.npz")]
+    with pytest.raises(InputError, match="no half"):
+        CliRunner().invoke(app, words, catch_exceptions=False)
+    assert ba.load_walk(tmp_path / "run.npz").impacts == 1
+
+
+def test_simulate_says_where_rounding_decides(tmp_path):
+    values = {"counts": 50000, "velocity": "differences"}
+    sets = [f"hardware.encoders.{k}={x}" for k, x in values.items()]
+    sets += ["run.seed=368", "hardware.period=0.0011633571256965862"]
+    sets += ["hardware.touchdown=force", "errors.mass_width=0.17140917491665197"]
+    words = [word for x in sets for word in ("--set", x)]
+    printed = command("simulate", "--controller", "reference reset", "--impacts", "3", *words)
+    assert "note: rounding decides digits of this walk: from a start 1e-12 aside" in printed
+    assert "rounding" not in command("simulate", "--controller", "NPD", "--impacts", "1")

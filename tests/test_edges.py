@@ -1,8 +1,9 @@
-"""A push that an impact cuts off, or that never acts, is said to be so."""
+"""What was not as it was asked for is said: a push that an impact cuts off, the curve of another gait."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.disturbances.force import OnLink
 
+pytestmark = pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
 STEP = 0.4164
 """[s], of the undisturbed gait."""
@@ -109,3 +111,58 @@ def test_a_fall_cuts_nothing_off_and_what_comes_after_it_did_not_act(walked):
 def test_a_push_without_torque_did_not_act():
     walk = ba.walk_scenario(ba.Scenario("NPD", pushes=[{"step": 1}], run={"impacts": 1}))
     assert any("did not act: it was zero" in remark for remark in walk.remarks)
+
+
+# -- controller and gait --------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Keeping(ba.Controller):
+    """Keeps the integral of the error, and leaves it as it is at an impact."""
+
+    reference: ba.Reference
+
+    def initial_state(self, m):
+        return np.zeros(4)
+
+    def flow(self, s, m, u):
+        return self.reference(m.t, m.q, m.v).q_d - m.q_b
+
+    def output(self, s, m):
+        r = self.reference(m.t, m.q, m.v)
+        return 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b) + 10.0 * s
+
+
+class Exchanging(Keeping):
+    def jump(self, s, after, swap):
+        return s[swap]
+
+
+def test_a_state_without_a_jump_is_named(biped, gait):
+    walks = [ba.walk(ba.Walker(biped, c(gait.constraint)), gait, 1) for c in (Keeping, Exchanging)]
+    assert walks[0].remarks == (
+        "Keeping has a state and no jump(s, after, swap) to exchange the legs in it at an impact",
+    )
+    assert walks[1].remarks == ()
+
+
+def test_the_curve_of_another_gait_is_named(biped, gait):
+    other = ba.load_gait("v0.6", biped)
+    (remark,) = ba.walk(ba.Walker(biped, ba.NPDController(other.constraint)), gait, 1).remarks
+    at = np.linspace(gait.constraint.theta_plus, gait.constraint.theta_minus, 500)
+    off = max(np.max(np.abs(other.constraint.h(x)[0] - gait.constraint.h(x)[0])) for x in at)
+    assert remark.endswith(f"from that of gait '{gait.name}'")
+    assert float(remark.split(" rad")[0].split()[-1]) == pytest.approx(off, rel=0.05)
+
+
+def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
+    late = pulse(5, 0.1, 0.3) + pulse(7, 0.1, 0.3)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), late)
+    with pytest.warns(ba.WalkWarning) as caught:
+        walk = ba.walk(walker, gait, 1)
+    assert tuple(str(x.message) for x in caught) == walk.remarks
+    assert [x.filename for x in caught] == [__file__, __file__]
+    first, _ = walk.remarks
+    assert repr(walk).endswith(f"COMPLETED; {first} (and 1 more in remarks))")
+    quiet = ba.walk(ba.Walker(biped, walker.controller), gait, 1)
+    assert repr(quiet).endswith("COMPLETED)")

@@ -40,7 +40,7 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
 def judged(walker, t, F_N, finished=True, **more):
     """What `supports` says of it, with an impulse along the normal at its end."""
     n = handmade(walker, t, F_N, **more)
-    after = n.rows[-1, -4:-2] + ground_axes(walker.slope)[1]
+    after = n.rows[-1, -4:-2] + ground_axes(walker.ground_slope)[1]
     (found,) = supports(walker, n, KNOWN, int(finished), after)
     return found
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -36,6 +38,28 @@ def test_the_force_acts_in_its_steps_only(bare):
     force, q = HipForce(bare, (-5.0, 0.0), steps=(2, 3)), np.full(5, 0.3)
     acts = [bool(np.any(force.zeta(0.0, step, 0.0, q, q))) for step in (1, 2, 3, 4)]
     assert acts == [False, True, True, False]
+
+
+# -- slope -----------------------------------------------------------------------------------------
+
+
+def test_a_walker_without_a_slope_walks_on_that_of_the_gait(bare, published, tmp_path):
+    gait, law = replace(published, slope=0.02), ba.NPDController(published.constraint)
+    walk = ba.walk(ba.Walker(bare, law), gait, 2, METHOD)
+    feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
+    for x, z in feet:
+        assert z == pytest.approx(-np.tan(0.02) * x, abs=1e-9)
+    assert walk.remarks == ()
+    assert ba.load_walk(walk.save(tmp_path / "walk.npz")).walker.slope == 0.02
+
+
+def test_another_slope_than_that_of_the_gait_is_remarked(bare, published):
+    gait, law = replace(published, slope=0.02), ba.NPDController(published.constraint)
+    with pytest.warns(ba.WalkWarning, match="a slope of 0.02 rad, and the ground has 0 rad"):
+        walk = ba.walk(ba.Walker(bare, law, slope=0.0), gait, 1, METHOD)
+    x, z = bare.swing_foot(walk.trajectory.events("foot_strike")[0].x_minus[:5])
+    assert z == pytest.approx(0.0, abs=1e-9)
+    assert x > 0.1
 
 
 # -- step down -------------------------------------------------------------------------------------

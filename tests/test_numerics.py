@@ -243,3 +243,50 @@ def test_a_gain_that_is_nan_is_nan_in_both_engines(biped, gait):
         run = simulate_by(engine, walker, x, ba.Mode(), RK4(), t_end=0.1)
         assert run.status is ba.Status.NOT_FINITE
         assert all_finite(run)
+
+
+# -- rounding -------------------------------------------------------------------------------------
+COUNTED = {
+    "controller.name": "reference reset",
+    "run.impacts": 3,
+    "run.seed": 368,
+    "hardware.period": 0.0011633571256965862,
+    "hardware.encoders.counts": 50000,
+    "hardware.encoders.velocity": "differences",
+    "hardware.touchdown.name": "force",
+    "errors.mass_width": 0.17140917491665197,
+}
+"""A walk in which a count of an encoder flips with the last digit, and the end of the walk by 44 ms."""
+
+
+def test_a_walk_that_rounding_decides_says_so():
+    """Neighbours 1e-12 apart end 1e9 times farther apart; smooth walks are in the tests below."""
+    assert ba.walk_scenario(ba.Scenario(**COUNTED)).rounding() > 1e-3
+
+
+@pytest.mark.parametrize("controller", ["NPD", "ADRC"])
+def test_neighbours_of_a_smooth_walk_stay_together_at_any_step(controller, biped, gait):
+    """Also where the step is so long that half of it makes another walk."""
+    walk, half = (
+        ba.walk_scenario(ba.Scenario(controller, run={"impacts": 3, "h": h})) for h in (0.02, 0.01)
+    )
+    assert abs(walk.trajectory.t_end - half.trajectory.t_end) > 1e-6
+    assert walk.rounding() < 1e-10
+
+
+def test_the_distance_of_neighbours_is_that_of_the_linear_map(bare, published):
+    """Over three impacts the derivative of the walk, by differences a million times as large."""
+    walker = ba.Walker(bare, ba.NPDController(published.constraint))
+    walk = ba.walk(walker, published, 3)
+    q, v = published.start(bare)
+    d = 1e-6 * np.cos(np.arange(10.0))
+    other = ba.walk(walker, published, 3, start=(q + d[:5], v + d[5:]))
+    rows = [[(a.t[-1], *a.x[-1, :5]) for a in w.trajectory.arcs] for w in (walk, other)]
+    assert walk.rounding() == pytest.approx(1e-6 * np.max(np.abs(np.subtract(*rows))), rel=0.1)
+
+
+def test_what_cannot_be_repeated_is_refused(bare, published, tmp_path):
+    walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, 1)
+    stored = ba.load_walk(walk.save(tmp_path / "walk.npz"))
+    with pytest.raises(ba.BipedError, match="has no steps to repeat; ask one just made"):
+        stored.rounding()

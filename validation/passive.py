@@ -116,7 +116,7 @@ def started_at(cycle: Cycle, theta: float, rate: float) -> Cycle:
     """The same walker, with the search started from (theta, theta') after heel strike, units of sqrt(l / g)."""
     walker = cycle.P.walker
     unit = math.sqrt(walker.plant.description.gravity)
-    q = np.array([-2.0 * theta, math.pi - walker.slope + theta])
+    q = np.array([-2.0 * theta, math.pi - walker.ground_slope + theta])
     v = np.array([-(1.0 - math.cos(2.0 * theta)) * rate, rate]) * unit
     strike = cycle.P.next_impact(walker, walker.initial_state(q, v), Mode())
     return replace(cycle, guess=strike.x_minus)
@@ -128,7 +128,7 @@ def garcia_angles(cycle: Cycle, q: Array, v: Array) -> tuple[float, float]:
     """
     walker = cycle.P.walker
     unit = math.sqrt(walker.plant.description.gravity)
-    return float(q[1]) - math.pi + walker.slope, float(v[1]) / unit
+    return float(q[1]) - math.pi + walker.ground_slope, float(v[1]) / unit
 
 
 def simplest_rows() -> tuple[Row, ...]:

@@ -231,7 +231,7 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
     """By how much each single support (S,) lands off its stone [m]; 0 where it did not end in an impact."""
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
-        lengths = n.rows[n.last, -2] / math.cos(walker.slope)
+        lengths = n.rows[n.last, -2] / math.cos(walker.ground_slope)
         for k, step in enumerate(n.steps[:impacts]):
             missed[k] = walker.stones.missed(step, float(lengths[k]))
     return missed
@@ -279,18 +279,18 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
     # the middle of the step, up to round-off of times
     inner = np.abs(since - 0.5 * duration) < (0.5 - ENDS) * duration - SAME_INSTANT
-    height = s.swing_foot @ (math.tan(walker.slope), 1.0) + walker.drop(support.step)
+    height = s.swing_foot @ (math.tan(walker.ground_slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
-    length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
+    length = float(b.swing_foot(q)[0]) / math.cos(walker.ground_slope)
     after = b.kinetic_energy(impact.q, impact.v)
-    F = s.ground_reaction @ np.array(ground_axes(walker.slope)).T
+    F = s.ground_reaction @ np.array(ground_axes(walker.ground_slope)).T
     friction = float(np.max(ratios(F, -np.inf)))
     return Certificate(
         **vars(support),
         least_normal_force=float(np.min(F[:, 1])),
         friction=math.inf if friction == -math.inf else friction,
         step_length=length,
-        old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
+        old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.ground_slope)[1]),
         clearance=float(np.min(height[inner])),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,

@@ -83,7 +83,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     lower of the two footholds. Depth counts once the foot has been above it, since it may come from lower
     ground, and not near the ends of a single support, but at the end of one behind the first `impacts`.
     """
-    slope, plant = walker.slope, walker.plant
+    slope, plant = walker.ground_slope, walker.plant
     falls = [max(walker.drop(step), 0.0) for step in n.steps]
     known = [window, plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
@@ -114,7 +114,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     if after is not None:
         plus = np.vstack((plus, after))
     impulse = plus[:impacts] - P[n.last[:impacts]]
-    result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.slope)).T, np.inf)
+    result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.ground_slope)).T, np.inf)
     return result
 
 

@@ -114,7 +114,7 @@ class ReturnMap(Shown):
         for _ in range(50):
             height = self.walker.clearance(x[:n])
             d_x, d_z = plant.swing_foot_jacobian(x[:n])[:, -1]
-            x[self._dropped] -= height / (d_z + tan(self.walker.slope) * d_x)
+            x[self._dropped] -= height / (d_z + tan(self.walker.ground_slope) * d_x)
             if abs(height) < 1e-15:
                 break
         if abs(self.walker.clearance(x[:n])) > 1e-12:

@@ -84,7 +84,7 @@ def height_derivative(walker: Walker, x: Array) -> Array:
     """dh/dx (2 n,) [m/rad] of the height of the swing foot over the ground; zero for rates."""
     n = walker.plant.n
     d_x, d_z = walker.plant.swing_foot_jacobian(x[:n])
-    return np.concatenate((d_z + math.tan(walker.slope) * d_x, np.zeros(n)))
+    return np.concatenate((d_z + math.tan(walker.ground_slope) * d_x, np.zeros(n)))
 
 
 def split_matrix(y: Array) -> tuple[Array, Array]:

@@ -130,7 +130,8 @@ def robot_export(
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else ba.load_gait(gait, biped)
-    console.written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=g.engine_step), path, start))
+    slope = g.slope if g.slope is not None else start.slope if start else 0.0
+    console.written(write_mjcf(MuJoCoPlant(biped, ground, slope, h=g.engine_step), path, start))
 
 
 # -- parts -----------------------------------------------------------------------------------------

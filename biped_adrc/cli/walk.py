@@ -69,36 +69,39 @@ def _walk(
 ) -> None:
     """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
 
-    A walk with motors is carried out again at half the step; only the first one is stored.
+    A walk with motors is carried out again at half the step, and from a start aside; only the first one is
+    stored, before the others begin.
     """
-    from biped_adrc.scenario.walk import halved
+    from biped_adrc.scenario.walk import ASIDE, DECIDES, halved
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with console.bar(name) as shown:
         full = ba.walk_scenario(s, lambda t, n: shown(n, total, name))
-        half, run = None, full.trajectory
+        half, near, run, whole = None, 0.0, full.trajectory, full
         if run.status is ba.Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
-        if full.gait is not None:
-            finer = halved(s, full.walker).replace(run={"engine": "compiled"})
-            half = ba.walk_scenario(
-                finer, lambda t, n: shown(n, total, "the same at half the step")
-            )
-    if end_infeasible:
-        full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
-    if out is not None:
-        (full.save if out.suffix.lower() == ".npz" else full.export)(out)
-    if log is not None:
-        from biped_adrc.extras.logs.log_file import write_log
-        from biped_adrc.extras.logs.robot_log import logged
+        full = full.until_infeasible(limits) if end_infeasible else full
+        if out is not None:
+            (full.save if out.suffix.lower() == ".npz" else full.export)(out)
+        if log is not None:
+            from biped_adrc.extras.logs.log_file import write_log
+            from biped_adrc.extras.logs.robot_log import logged
 
-        write_log(logged(full), log, full.walker.nominal)
+            write_log(logged(full), log, full.walker.nominal)
+        if full.gait is not None:
+            finer, text = halved(s, full.walker), "the same at half the step"
+            half = ba.walk_scenario(finer, lambda t, n: shown(n, total, text))
+            near = whole.rounding() if whole.parts else 0.0
+            half = half.until_infeasible(limits) if end_infeasible else half
     _print_on_ground(full.soft_steps)
     _print_end(full, half, limits)
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
         console.say(f"note: {remark}")
+    if near > DECIDES:
+        away = f"from a start {ASIDE:g} aside it ends {near:.1e} rad or s away"
+        console.say(f"note: rounding decides digits of this walk: {away}, and so at any step")
     console.written(out, log)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
@@ -196,7 +199,8 @@ def poincare(
     law = type(walker.controller).__name__.removesuffix("Controller")
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
     console.say(
-        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}\n"
+        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.ground_slope:g} rad, "
+        f"{cycle.P.method.label}\n"
         f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]"
     )
     step = nominal_step(cycle, o, limits(s))

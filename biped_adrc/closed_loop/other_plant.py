@@ -76,6 +76,10 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     Raises InputError for a plant that takes none, or that has others.
     """
     name, steps = type(plant).__name__, walker.ground_steps
+    if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
+        raise InputError(
+            f"{name} has a slope of {slope} rad, and the walker {walker.slope}; give one"
+        )
     lag = 0.0 if walker.motors is None else walker.motors.lag
     own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
     for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):

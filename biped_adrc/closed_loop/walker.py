@@ -105,7 +105,8 @@ class Walker(ClosedLoop[Biped]):
     - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
       0.
     - max_step_time [s]: a longer single support ends as stalled.
-    - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    - slope [rad]: of the ground, positive downhill; None is that of the gait that `walk` gets, else level.
+    - ground_steps: where it falls or rises by steps.
     - stones: where feet may land, for the certificate of a step; the controller is told apart.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
 
@@ -118,7 +119,7 @@ class Walker(ClosedLoop[Biped]):
     model: Biped | None = None
     fall_height: float = 0.35
     max_step_time: float = 2.0
-    slope: float = 0.0
+    slope: float | None = None
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     impact_gain: tuple[float, ...] = ()
     stones: Stones | None = None
@@ -126,7 +127,7 @@ class Walker(ClosedLoop[Biped]):
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
         super().__post_init__()
-        check_slope(self.slope)
+        check_slope(self.ground_slope)
         check_steps(self.ground_steps)
         if self.disturbance is not None:
             self.disturbance.check_size(self.plant.n)
@@ -158,6 +159,11 @@ class Walker(ClosedLoop[Biped]):
     def check_state(self, t: float, x: Array) -> None:
         """Raise RanAwayError for x (nx,) at t [s] with an angle or a rate beyond the bounds."""
         self.bounds.check(t, x[: self.plant.n], x[self.plant.n : 2 * self.plant.n])
+
+    @property
+    def ground_slope(self) -> float:
+        """Slope of the ground [rad], 0 where neither the walker nor a gait says one."""
+        return 0.0 if self.slope is None else self.slope
 
     @cached_property
     def gain(self) -> Array:
@@ -214,7 +220,8 @@ class Walker(ClosedLoop[Biped]):
         the stance foot.
         """
         drop = 0.0 if step is None else self.drop(step)
-        return float(semantics.clearance(math.tan(self.slope), drop, self.plant.swing_foot(q)))
+        fall = math.tan(self.ground_slope)
+        return float(semantics.clearance(fall, drop, self.plant.swing_foot(q)))
 
     @cached_property
     def lowest_hip(self) -> float:

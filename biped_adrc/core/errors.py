@@ -76,6 +76,18 @@ class OutputError(BipedError, OSError):
     exit_code = 5
 
 
+class WalkWarning(UserWarning):
+    """A remark on a walk that `walk` made: what was not as it was asked for, or what its numbers are not.
+
+    >>> import warnings
+    >>> push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=9, start=0.1, stop=0.3)
+    >>> with warnings.catch_warnings(action="ignore", category=ba.WalkWarning):
+    ...     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint), push), gait, impacts=2)
+    >>> print(*walk.remarks)
+    the push from 0.1 to 0.3 s in single support 9 did not act: the walk has no single support 9
+    """
+
+
 @contextmanager
 def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
     """Context of the import of a library of an extra. Raises InputError that says how to install it.

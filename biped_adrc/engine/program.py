@@ -104,7 +104,7 @@ def numbers_of(
     """
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),
-        tan_slope=math.tan(walker.slope),
+        tan_slope=math.tan(walker.ground_slope),
         lowest_hip=float(walker.lowest_hip),
         longest=float(walker.max_step_time),
         impact_gain=walker.gain,

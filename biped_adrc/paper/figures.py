@@ -47,7 +47,7 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
             f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
             "'tracking', 'ground', 'energy', 'phase'"
         )
-    mu, slope = walk.walker.plant.description.friction_coefficient, walk.walker.slope
+    mu, slope = walk.walker.plant.description.friction_coefficient, walk.walker.ground_slope
     return {
         "tracking": partial(walk.plot, title, push),
         "disturbance": partial(figures.disturbance_figure, first, title, push),

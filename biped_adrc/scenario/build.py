@@ -105,14 +105,14 @@ class RobotAndGait:
     def start(self, s: Scenario) -> tuple[Array, Array]:
         """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with a scenario's offsets.
 
-        Without motors after that of the cycle on the scenario's slope, which Newton's method finds. Else first
+        Without motors after that of the cycle on this ground's slope, which Newton's method finds. Else first
         random offsets of every coordinate, then the rates scaled by `speed`, then the values of single
         coordinates. Raises InputError for a coordinate that the robot does not have.
         """
         if self.cycle is not None:
             from biped_adrc.scenario.cycle import cycle_start
 
-            return cycle_start(self.biped, self.cycle.slope + s.ground.slope)
+            return cycle_start(self.biped, self.slope(s))
         q, v = self.on_orbit
         x, random = s.start, np.random.default_rng(drawn(s, "start"))
         q = q + x.spread * random.standard_normal(len(q))
@@ -126,6 +126,11 @@ class RobotAndGait:
                 )
             (q if name[0] == "q" else v)[place] += added
         return q, v
+
+    def slope(self, s: Scenario) -> float:
+        """The slope of a scenario's ground [rad]: its own, or where it says none that of the gait or cycle."""
+        own = s.ground.slope
+        return (self.cycle or self.walked).slope if own is None else own
 
     @property
     def walked(self) -> Gait:
@@ -141,8 +146,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     """The walker of a scenario.
 
     The plant is the nominal robot with the scenario's model errors, the controller's model always the nominal
-    one; the ground's slope is the gait's plus the scenario's. Sensors, motors and ground steps are None
-    or empty where the scenario has none.
+    one. Sensors, motors and ground steps are None or empty where the scenario has none.
 
     scene: robot and gait where they are at hand. Raises InputError for what does not fit together.
     """
@@ -154,7 +158,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
             "robots without motors, and for no others"
         )
     if scene.cycle is not None:
-        return _passive(s, biped, scene.cycle)
+        return _passive(s, scene, scene.cycle)
     gait = scene.walked
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
@@ -173,7 +177,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
-        slope=gait.slope + s.ground.slope,
+        slope=scene.slope(s),
         ground_steps=ground(s),
         sensors=sensors(s),
         motors=Motors(hardware.rate_limit, hardware.lag) if moved else None,
@@ -185,8 +189,8 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     )
 
 
-def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
-    """The walker of a robot without motors, on the slope of its known cycle plus the scenario's [rad].
+def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
+    """The walker of a robot without motors.
 
     Raises InputError for values that have no effect without motors.
     """
@@ -197,9 +201,9 @@ def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
                 "a robot with motors ('biped-adrc robot list')"
             )
     return Walker(
-        biped,
+        scene.biped,
         Passive(),
-        slope=known.slope + s.ground.slope,
+        slope=scene.slope(s),
         max_step_time=known.max_step_time,
         runaway_speed=s.run.runaway_speed,
     )
@@ -246,7 +250,7 @@ def sensors(s: Scenario) -> Sensor | None:
 def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
     """How the controller of a scenario notices touchdowns; None for at once.
 
-    The slope that it takes is the gait's: what the scenario adds it does not know.
+    The slope that it takes is the gait's: that of the ground it does not know.
     """
     t = s.hardware.touchdown
     if t.name is None:
@@ -260,8 +264,8 @@ def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> St
 
     Raises InputError for one that there is not, or that cannot be made.
     """
-    own = {x: getattr(walker, x) for x in ("slope", "max_step_time", "fall_height")}
-    values = {**options, **own, "biped": walker.plant}
+    own = {x: getattr(walker, x) for x in ("max_step_time", "fall_height")}
+    values = {**options, **own, "biped": walker.plant, "slope": walker.ground_slope}
     return named_part("plant", name, values, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
 

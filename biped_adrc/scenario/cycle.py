@@ -123,7 +123,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     if gait:
         return gait_cycle(s, observer_states)
     walker = build(s)
-    return known_cycle(walker.plant, walker.slope)
+    return known_cycle(walker.plant, walker.ground_slope)
 
 
 def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:

@@ -1,5 +1,5 @@
 """Remarks on a finished walk: pushes that an impact cut off, steps of integration too long beside their edges,
-and the last stone.
+the last stone, a gait for another robot, slope or controller, and a controller that does less than was asked.
 
 A window of a push is given in the time of one single support. When the impacts come is known only once the walk
 is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it
@@ -19,7 +19,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.control.base import nested
+from biped_adrc.control.footstep import FASTEST, SLOWEST, Footstep
+from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.disturbances.base import Disturbance, summands
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Trajectory
 
 NEAR = 1e-3
@@ -27,10 +32,12 @@ NEAR = 1e-3
 by the error of the method."""
 LONGER = 1.1
 """Largest step over the observer's shortest time constant; a little above 1 for round-off in its poles."""
+SAME_CURVE = 1e-6
+"""[rad]: curves that nowhere differ by more are one, stored or fitted twice."""
 
 
-def remarks(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on the pushes of a walk, on its steps beside their edges, and on what is behind its last stone.
+def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterator[str]:
+    """Sentences on pushes, steps beside their edges, the last stone, controller and gait (None without motors).
 
     A push is named that did not act, that an impact cuts off, or with an edge at an impact. An edge within
     `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
@@ -42,7 +49,7 @@ def remarks(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
         }
         found = [x for step, times in edges.items() for x in _of_edges(step, times, trajectory)]
         yield from found
-        if not found and not _acted(part, trajectory, walker.plant.n):
+        if not found and not _acted(part, {*edges}, trajectory, walker.plant.n):
             names = [_name(step, times) for step, times in edges.items()]
             name = names[0] if names else f"the push {type(part).__name__}"
             yield f"{name} did not act: it was zero at every instant of the walk"
@@ -52,13 +59,43 @@ def remarks(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
         yield (
             f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole"
         )
+    yield from _of_controller(walker, trajectory)
+    yield from () if gait is None else _of_gait(walker, gait)
 
 
-def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
-    """Whether a disturbance was other than zero at some node of the walk, of n coordinates."""
+def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
+    """A sentence for a state that no impact changes, and for a speed that footsteps do not keep."""
+    for law in nested(walker.controller):
+        name, kept = type(law).__name__, law._writes("initial_state") and not law._writes("jump")
+        if kept and trajectory.events(FOOT_STRIKE):
+            yield f"{name} has a state and no jump(s, after, swap) to exchange the legs in it at an impact"
+        if isinstance(law, Footstep) and not SLOWEST <= round(law.speed, 3) <= FASTEST:
+            yield f"{name} aims at {SLOWEST:g} to {FASTEST:g} m/s, and was asked for {law.speed:g} m/s"
+
+
+def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
+    """A sentence for each thing for which the gait was not made: robot and preset, slope, the curve tracked."""
+    name, slope, plant = f"gait '{gait.name}'", walker.ground_slope, walker.plant
+    if (gait.robot, gait.preset) != (plant.description.name, plant.preset):
+        yield f"{name} was made for {gait.robot} {gait.preset}"
+    if gait.slope != slope:
+        yield f"{name} was made for a slope of {gait.slope:g} rad, and the ground has {slope:g} rad"
+    h, c = own_reference(walker.controller), gait.constraint
+    if isinstance(h, VirtualConstraint) and np.array_equal(h.phase, c.phase):
+        inside = np.linspace(c.theta_plus, c.theta_minus)
+        off = max(float(np.max(np.abs(h.h(x)[0] - c.h(x)[0]))) for x in inside)
+        if off > SAME_CURVE:
+            yield f"the controller's curve is up to {off:.2g} rad from that of {name}"
+
+
+def _acted(part: Disturbance, steps: set[int], trajectory: Trajectory, n: int) -> bool:
+    """Whether a disturbance was other than zero at some node of the walk, of n coordinates.
+
+    steps: single supports in which it switches; they come first, since there the answer is found soonest.
+    """
     return any(
         np.any(part.zeta(t, arc.mode.step, arc.mode.start, x[:n], x[n : 2 * n]))
-        for arc in trajectory.arcs
+        for arc in sorted(trajectory.arcs, key=lambda arc: arc.mode.step not in steps)
         for t, x in zip(arc.t, arc.x, strict=True)
     )
 

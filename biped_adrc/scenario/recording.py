@@ -13,6 +13,7 @@ reproduction of the paper read it.
     walk.feasibility     could ground and motors have carried it? until_infeasible cuts it where not
     walk.touchdowns      when each was noticed, where the controller has to
     walk.remarks         sentences on what was not as it was asked for
+    walk.rounding()      does rounding decide its numbers?
     walk.plot, animate   figures and pictures
     walk.save, export    .npz to read it again, .mat for MATLAB
 """
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.scenario.walk import Part
 
 OF_JOINTS = {
     "q": "q{} [rad]",
@@ -129,11 +131,15 @@ class Walk(Shown):
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
+    parts: tuple[Part, ...] = ()
+    """How it was integrated, on the rigid plant; empty for a walk from a file, and for one that is cut."""
 
     def __repr__(self) -> str:
         run = self.trajectory
         duration = f"{run.t_end - run.t_start:.4g} s"
-        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name})"
+        first, *more = self.remarks or ("",)
+        remark = first and f"; {first}" + (f" (and {len(more)} more in remarks)" if more else "")
+        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name}{remark})"
 
     @property
     def note(self) -> str:
@@ -141,7 +147,7 @@ class Walk(Shown):
         plant, gait = self.walker.plant, self.gait
         robot = f"{plant.description.name} {plant.preset}"
         if gait is None:
-            return f"{robot} without motors, slope {self.walker.slope:g} rad"
+            return f"{robot} without motors, slope {self.walker.ground_slope:g} rad"
         return f"{self.controller_name} on gait '{gait.name}', {robot}"
 
     @cached_property
@@ -193,7 +199,7 @@ class Walk(Shown):
         ground = run.settings.get("plant", {}).get("ground")
         if ground is None or recorded(run, PLACE) is None:
             return None
-        return ground["friction"], ground_axes(self.walker.slope)
+        return ground["friction"], ground_axes(self.walker.ground_slope)
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
         """The certificates for other limits.
@@ -268,20 +274,22 @@ class Walk(Shown):
             return self
         count = sum(len(arc.t) for arc in cut.arcs)
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
-        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
+        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept), parts=())
 
-    @property
+    @cached_property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences to know before using its numbers: those of `edges.remarks`, and a gait that was made for
-        another robot or preset.
-        """
+        """Sentences to know before using its numbers, those of `edges.remarks`; `walk` warns with each."""
         if self.recorded is not None:
             return self.stored_remarks
-        result, gait = [*remarks(self.walker, self.trajectory)], self.gait
-        own = self.walker.plant.description.name, self.walker.plant.preset
-        if gait is not None and (gait.robot, gait.preset) != own:
-            result.append(f"gait '{gait.name}' was made for {gait.robot} {gait.preset}")
-        return tuple(dict.fromkeys(result))
+        return tuple(dict.fromkeys(remarks(self.walker, self.gait, self.trajectory)))
+
+    def rounding(self) -> float:
+        """How far [rad, s] a walk from 1e-12 aside ends: above 1e-7 rounding decides. Raises InputError without
+        `parts`.
+        """
+        from biped_adrc.scenario.walk import rounding
+
+        return rounding(self)
 
     @property
     def controller_name(self) -> str:

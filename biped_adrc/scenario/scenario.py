@@ -118,8 +118,8 @@ class GroundRecord(OpenRecord):
     """Of soft ground."""
     plant_step: float | None = field(None, "s", ge=1e-6, le=0.01)
     """Step of its engine; by default a tenth of the time constant, at most 0.2 ms."""
-    slope: float = field(0.0, "rad", ge=-0.5, le=0.5)
-    """Downhill, beside the gait's own."""
+    slope: float | None = field(None, "rad", ge=-0.5, le=0.5)
+    """Of the ground, downhill; by default that for which the gait was made."""
     drop: float = field(0.0, "m", ge=-0.2, le=0.2)
     """The ground falls by this in one step."""
     drop_step: int = field(3, ge=1, le=100000)

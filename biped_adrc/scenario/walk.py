@@ -19,6 +19,7 @@ from the stored state, and a walk starts just after its impact.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
@@ -32,7 +33,7 @@ from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
 from biped_adrc.core.checks import check_part, handing_out, numbers
-from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.errors import InputError, WalkWarning, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.engine.program import COMPILED
@@ -75,6 +76,13 @@ STABLE = 2.5
 """Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""
 RESOLVED = 0.5
 """Largest |lambda| h [1] at which RK4 follows what decays (static friction around zero rate) within 0.05 %."""
+
+
+ASIDE = 1e-12
+"""Offset of a start [rad, rad/s] by which rounding is judged: between round-off and the error of a step."""
+DECIDES = 1e-7
+"""[rad, s]: walks that begin ASIDE of each other and are farther apart at an impact depend on rounding. Smooth
+flows take them some 400 times apart at most (of 22 laws and robots)."""
 
 
 def default_method(walker: Walker) -> OneStepMethod:
@@ -162,16 +170,19 @@ def refined(
 def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
+    On the compiled engine. A method that chooses its own step becomes the explicit adaptive one with a
+    hundredth of the tolerance. Steps below the range of a scenario are not refused: its shortest has a half.
     """
-    run = s.run
-    if s.ground.plant != RIGID:
-        return s.replace({"ground.plant_step": 0.5 * s.ground.engine_step})
-    if run.method in FREE:
-        return s.replace(run={"method": "adaptive", "tolerance": 1e-2 * run.tolerance})
-    usual, fine = methods_of(run, walker)
-    assert isinstance(usual, RK4 | Exponential)
-    return s.replace(run={"h": 0.5 * usual.h, "fine": fine and 0.5 * fine})
+    run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
+    if ground.plant != RIGID:
+        ground = ground.model_copy(update={"plant_step": 0.5 * ground.engine_step})
+    elif run.method in FREE:
+        values |= {"method": "adaptive", "tolerance": 1e-2 * run.tolerance}
+    else:
+        usual, fine = methods_of(run, walker)
+        assert isinstance(usual, RK4 | Exponential)
+        values |= {"h": 0.5 * usual.h, "fine": fine and 0.5 * fine}
+    return s.model_copy(update={"ground": ground, "run": run.model_copy(update=values)})
 
 
 def walk(
@@ -189,16 +200,17 @@ def walk(
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by default
-    that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio";
-    the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a
-    push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too
-    large under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is
-    kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends,
-    with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by
-    them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
-    ground); then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit
-    together.
+    Each of `Walk.remarks` is also a `WalkWarning`. A walker without a slope walks on that of its plant, or of
+    the gait. start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by
+    default that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
+    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
+    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
+    times too large under Table I), which a remark says; "compiled" takes 0.05 ms there. Every step of the
+    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the
+    walk ends, with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone
+    judges by them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as
+    MuJoCoPlant(biped, ground); then the walker acts at ticks, and there is no method. Raises InputError for
+    parts that do not fit together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
     >>> walk.trajectory.status.name, walk.feasibility.status.name
@@ -217,6 +229,9 @@ def walk(
                 "load_gait(name, biped) or design_gait(biped, speed)"
             )
         start = gait.start(walker.nominal)
+    parts = tuple[Part, ...]()
+    if walker.slope is None:
+        walker = replace(walker, slope=getattr(plant, "slope", gait.slope))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
@@ -228,7 +243,9 @@ def walk(
         methods = methods_of(usual, walker) if method is None else (method, None)
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
-    result = Walk(walker, gait, run)
+    result = Walk(walker, gait, run, parts=parts)
+    for remark in result.remarks:
+        warnings.warn(remark, WalkWarning, stacklevel=2)
     return result if within is None else result.until_infeasible(within)
 
 
@@ -255,19 +272,38 @@ def walk_scenario(
     walker = build(s, scene)
     if controller is not None:
         walker = replace(walker, controller=controller)
-    begin = scene.start(s)
+    begin, parts = scene.start(s), tuple[Part, ...]()
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:
         parts = refined(walker, s.run.impacts, mode.step, *methods_of(s.run, walker))
         run = in_parts(walker, begin, mode, parts, s.run.engine, progress)
-    return Walk(walker, scene.gait, run, s if controller is None else None)
+    return Walk(walker, scene.gait, run, s if controller is None else None, parts=parts)
 
 
 def execute_twice(s: Scenario) -> Outcome:
     """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
     walk = walk_scenario(s)
     return replace(walk.outcome, half=walk_scenario(halved(s, walk.walker)).outcome)
+
+
+def rounding(walk: Walk) -> float:
+    """How far apart a walk and one from a start ASIDE are: max |dq| [rad], |dt| [s] at impacts and the end.
+
+    Infinite where one makes more impacts. Where a comparison decides, as in an encoder, neighbours may read
+    other counts and walk apart from then on; around an unstable motion a quantised loop does so by and by
+    (Delchamps, IEEE TAC 35(8), 1990), at any step. Raises InputError for a walk without parts.
+    """
+    if not walk.parts:
+        what = "a walk from a file, on another plant or cut short has no steps to repeat"
+        raise InputError(f"{what}; ask one just made by walk or walk_scenario")
+    n, first = walk.walker.plant.n, walk.trajectory.arcs[0]
+    k = np.arange(len(first.x[0]))
+    x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)  # in no direction of symmetry
+    beside = runs_in_parts(walk.walker, x, first.mode, walk.parts)
+    runs = walk.trajectory.arcs, [arc for run in beside for arc in run.arcs]
+    a, b = (np.array([(arc.t[-1], *arc.x[-1, :n]) for arc in arcs]) for arcs in runs)
+    return float(np.max(np.abs(a - b))) if len(a) == len(b) else math.inf
 
 
 def in_parts(

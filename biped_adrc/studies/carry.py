@@ -68,7 +68,8 @@ def study(
         optuna_library()
     undrawn = Undrawn()
     if function is None:
-        undrawn, function = study_.rehearse(), run_trials
+        undrawn = study_.rehearse()
+        function = partial(run_trials, aside="rounding" in study_.columns)
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
         raise InputError(

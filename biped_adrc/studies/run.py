@@ -38,6 +38,7 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import FOLDERS
+from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
@@ -86,8 +87,8 @@ def rows_of(
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trials(records: Sequence[Record]) -> list[WalkRow]:
-    """A row for each trial, in their order: the function that workers run.
+def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
+    """A row for each trial, in their order: the function that workers run. aside: with the column `rounding`.
 
     All trials take a step before the first one takes the next, as many as memory holds well: so a processor
     finds the code of a step in its cache, and takes a fifth less time than trial by trial.
@@ -103,7 +104,7 @@ def run_trials(records: Sequence[Record]) -> list[WalkRow]:
         walks = _each(lambda run: run(), runs)
         with _PREPARING:
             rows += [
-                _row(walk if isinstance(walk, dict) else measured(trial, walk))
+                _row(walk if isinstance(walk, dict) else measured(trial, walk, aside))
                 for trial, walk in zip(some, walks, strict=True)
             ]
     return rows
@@ -132,7 +133,7 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
         return {"status": RAISED, "detail": f"{type(error).__name__}: {error}", "impacts": 0}
 
 
-def measured(t: Trial, walked: BatchWalk) -> WalkRow:
+def measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
     The cost of transport, work / (weight x distance), is None without forward motion.
@@ -150,6 +151,7 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
     }
     if status not in NO_WALK:
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
+        row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
         row["infeasible_qp"] = infeasible_instants(walker.law, parts(walker, walked.final_state)[2])
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))

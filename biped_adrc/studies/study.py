@@ -181,6 +181,11 @@ class Study(Part):
         return Measure(column=self.column) if self.search is None else self.search.objective
 
     @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that it asks for."""
+        return (self.column, *(m.column for m in (self.search.measures if self.search else ())))
+
+    @property
     def hash(self) -> str:
         """A hash of everything but the description: results of another hash are never mixed with these."""
         text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)

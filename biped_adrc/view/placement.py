@@ -281,11 +281,11 @@ class WalkScene:
         arcs = self.trajectory.arcs[: len(self.footholds) - 1]
         drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
         middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
-        return Surface(self.walker.slope, middles[drops != 0.0], drops[drops != 0.0])
+        return Surface(self.walker.ground_slope, middles[drops != 0.0], drops[drops != 0.0])
 
     def level(self, x: float) -> float:
         """z [m] of a smooth line through the footholds at x [m], for a camera that does not jump at steps."""
-        fall = math.tan(self.walker.slope)
+        fall = math.tan(self.walker.ground_slope)
         return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
     def arc_at(self, t: float) -> int:
@@ -351,7 +351,7 @@ def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
     F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
-    return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.slope)), axis=1)
+    return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.ground_slope)), axis=1)
 
 
 def contact_changes(scene: WalkScene, arc: Arc) -> Array:

@@ -15,6 +15,9 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.build import build
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:the push from 0.1 to 0.8 s in single support 2 was cut"
+)
 PUSH = ba.TorquePulse([30.0, 20.0, -10.0, 15.0, 0.0], step=2, start=0.1, stop=0.8)
 FAST = ba.GPIObserver.from_bandwidth(500.0)
 WINDOWS = (Hold, ImpactInvariant)

@@ -50,6 +50,7 @@ def test_a_law_that_does_not_fit_is_refused(biped, gait):
         ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=-3.0)
 
 
+@pytest.mark.filterwarnings("ignore:Stateful has a state and no jump")
 def test_a_state_without_a_discrete_form_is_refused_in_sampled_time(biped, gait):
     class Stateful(ba.NPDController):
         def initial_state(self, m):

@@ -101,6 +101,14 @@ def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(biped, slow
 
 
 # -- what it is for --------------------------------------------------------------------------------
+def test_a_speed_below_the_slowest_cycle_is_remarked(biped, slow):
+    with pytest.warns(ba.WalkWarning, match="aims at 0.5 to 1.1 m/s, and was asked for 0.4 m/s"):
+        walk = ba.walk(walker(biped, slow, speed=0.4, step=0.4), slow, impacts=8)
+    before, end = (e.t for e in walk.trajectory.events("foot_strike")[-2:])
+    assert walk.certificates[-1].step_length / (end - before) > 0.45, "[m/s]"
+    assert ba.walk(walker(biped, slow, speed=0.5, step=0.4), slow, impacts=1).remarks == ()
+
+
 def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
     gait = ba.load_gait("v0.5", biped)
     push = ba.HipForce(biped, (-14.4, 0.0), steps=(5, 99))
@@ -135,6 +143,7 @@ def test_random_stones(inner):
     assert np.ptp(lengths) > 0.3
 
 
+@pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
     course = Stones((0.5, 0.44))
     npd = ba.Walker(biped, ba.NPDController(slow.constraint), stones=course)

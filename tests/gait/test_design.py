@@ -20,6 +20,9 @@ from biped_adrc.gait.gait import Gait, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.build import build
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import walk_scenario
 
 
 def speed_of(gait: Gait, biped: Biped) -> float:
@@ -74,6 +77,23 @@ def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> Non
     again = load_gait(tmp_path / "downhill.json", Biped.load("rabbit", "identified-bare"))
     assert again.slope == 0.06
     np.testing.assert_array_equal(again.q_minus, downhill.gait.q_minus)
+
+
+def test_the_slope_of_a_scenario_is_that_of_the_ground(downhill: DesignedGait, tmp_path) -> None:
+    """The gait's where it says none; another one is remarked, and touchdowns are judged by the gait's."""
+    downhill.gait.save(path := tmp_path / "downhill.json")
+    robot = {"robot": {"name": "rabbit", "preset": "identified-bare"}, "gait": str(path)}
+    s = Scenario("NPD", run={"impacts": 1, "h": 2e-3}, **robot)
+    assert walk_scenario(s).walker.slope == 0.06
+    assert walk_scenario(s).remarks == ()
+    s = s.replace(
+        {"ground.slope": 0.05, "hardware.period": 1e-3, "hardware.touchdown": "kinematics"}
+    )
+    walk = walk_scenario(s)
+    assert (walk.walker.slope, walk.walker.touchdown.slope) == (0.05, 0.06)
+    assert "a slope of 0.06 rad, and the ground has 0.05 rad" in walk.remarks[0]
+    wheel = Scenario("passive", robot="rimless_wheel", ground={"slope": 0.15})
+    assert build(wheel).slope == 0.15
 
 
 def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,16 @@ def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
     stiffer = MuJoCoPlant(biped, SoftGround(friction=1.0))
     walk = ba.walk(walker, gait, impacts=1, plant=stiffer)
     assert walk.trajectory.settings["plant"]["ground"]["friction"] == 1.0
+
+
+def test_the_slope_of_a_plant_is_that_of_the_walk(biped, gait):
+    walker = Walker(biped, ba.NPDController(gait.constraint), timing=TICK, torque_limit=150.0)
+    plant = MuJoCoPlant(biped, slope=-0.01)
+    with pytest.warns(ba.WalkWarning, match="made for a slope of 0 rad, and the ground has -0.01"):
+        walk = ba.walk(walker, gait, impacts=1, plant=plant)
+    assert walk.walker.slope == -0.01
+    with pytest.raises(InputError, match=r"a slope of -0\.01 rad, and the walker 0\.02"):
+        ba.walk(replace(walker, slope=0.02), gait, plant=plant)
 
 
 def test_its_signals_are_of_the_plant_that_walked(made):

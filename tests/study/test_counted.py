@@ -54,3 +54,15 @@ def test_the_page_asks_what_its_table_does_not_say(tmp_path, conditions):
     assert ("Whose walks are feasible?" in pictures) == bool(conditions)
     (axes,) = pictures["Who is better on the same walk?"].axes
     assert axes.get_xlabel() == "ratio to K_p 4000.0 in rms_error"
+
+
+def test_a_study_that_asks_for_rounding_has_it(tmp_path):
+    base = {"controller.name": "NPD", "run.impacts": 2}
+    tables = {"name": "rounding", "column": "rounding", "base": base}
+    tables["grid"] = {"hardware.encoders.counts": ["none", 8192.0]}
+    exact, counted = ba.study(tables, tmp_path / "rounding", ThreadPoolExecutor(1)).rows()
+    s = ba.Scenario(**{"hardware": "ideal", **base})
+    assert exact["rounding"] == ba.walk_scenario(s).rounding() < 1e-10
+    s = s.replace({"hardware.encoders.counts": 8192.0})
+    assert counted["rounding"] == ba.walk_scenario(s).rounding()
+    assert run_trials([base])[0]["rounding"] is None

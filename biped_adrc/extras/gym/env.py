@@ -226,7 +226,7 @@ class Picture:
 
     def __init__(self, stage: Stage):
         self.stage, self.biped, self.bones = stage, stage.plant, bones(stage.plant)
-        self.fall = math.tan(stage.scene.walked.slope + stage.task.scenario.ground.slope)
+        self.fall = math.tan(stage.scene.slope(stage.task.scenario))
         lines = self._lines(stage.scene.on_orbit[0], 1, np.zeros(2))
         highest = max(float(z) for ends, _ in lines for z in ends[:, 1])
         self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)

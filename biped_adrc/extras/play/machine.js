@@ -135,7 +135,7 @@ class Walk {
     return this.walks ? "" : word + " at " + this.t.toFixed(2) + " s: " + reason;
   }
   get exchanged() { return numbers.exchanged[(this.step + 1) % 2]; }
-  get slope() { return this.tuned["ground.slope"] === undefined ? this.kind.slope : this.kind.ownSlope + this.tuned["ground.slope"]; }
+  get slope() { return this.tuned["ground.slope"] ?? this.kind.slope; }
   get limits() { return { ...this.kind.limits, torque: this.tuned["hardware.torque_limit"] || this.kind.limits.torque }; }
 
   // the first sample instant after now [s], by the expression that the engines have

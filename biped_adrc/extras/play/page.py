@@ -157,7 +157,7 @@ def laid_out(walk: PageWalk) -> WalkScene:
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
     footholds = np.linspace(-AROUND, AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
-    slope = walk.walker.slope
+    slope = walk.walker.ground_slope
     return WalkScene(walk.walker, run, footholds, -math.tan(slope) * footholds)
 
 

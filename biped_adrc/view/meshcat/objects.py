@@ -135,7 +135,7 @@ def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: flo
     for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
-        plate.set_transform(under(scene.foothold(k), scene.walker.slope, depth))
+        plate.set_transform(under(scene.foothold(k), scene.walker.ground_slope, depth))
     return [f"{k}" for k in range(len(scene.footholds))]
 
 

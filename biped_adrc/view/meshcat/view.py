@@ -183,7 +183,7 @@ def _add_walk(
             }
             for i, arc in enumerate(scene.trajectory.arcs)
         ],
-        "fall": math.tan(scene.walker.slope),
+        "fall": math.tan(scene.walker.ground_slope),
         "ground": -depth,
         "head": draw.HEAD,
         "metres_per_newton": WEIGHT_LENGTH / biped.weight,
