@@ -146,7 +146,7 @@ class Walker(ClosedLoop[Biped]):
         may begin below the ground, as one of a leg without knees does in mid-step.
         """
         x, _ = self.plant.swing_foot(q)
-        depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.slope), 1.0])
+        depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.ground_slope), 1.0])
         falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
         if depth > ON_GROUND and falls and x > max(LEAST_STEP, self.plant.hip(q)[0]):
             foot = self.plant.description.feet[mode.step % 2]
