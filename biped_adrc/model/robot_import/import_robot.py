@@ -50,7 +50,17 @@ from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
 from biped_adrc.model.robot_import.mjcf import read_mjcf
 from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, pairs, to_xml, with_tip
+from biped_adrc.model.robots.urdf import (
+    Joint,
+    Link,
+    Note,
+    Tree,
+    Visual,
+    pairs,
+    to_xml,
+    vector,
+    with_tip,
+)
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Colour = tuple[float, float, float, float]
@@ -291,8 +301,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
         )
     tree, tips = contents.tree, []
     for foot in feet:
-        x, y, z = (contents.turns[foot] @ np.array(hints.tip)).tolist()
-        tree, tip = with_tip(tree, foot, (x, y, z))
+        tree, tip = with_tip(tree, foot, vector(contents.turns[foot] @ np.array(hints.tip)))
         tips.append(tip)
     return replace(contents, tree=tree), tuple(tips)
 

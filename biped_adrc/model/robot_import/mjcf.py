@@ -23,15 +23,7 @@ from biped_adrc.core.files import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.model.robot_import.anatomy import FOOT_NAMES
 from biped_adrc.model.robots.robot_toml import GRAVITY
-from biped_adrc.model.robots.urdf import (
-    Inertial,
-    Joint,
-    Link,
-    Note,
-    Tree,
-    Vector,
-    check_inertial,
-)
+from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Note, Tree, check_inertial, vector
 from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
@@ -95,11 +87,11 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             child = names[b] if last else f"{names[b]}_{name}"
             kind = _KINDS[m.jnt_type[j]] if own else "fixed"
             place = d.xanchor[j] if kind == "revolute" else d.xpos[b] if last else above
-            axis = _vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
+            axis = vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
                 raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
             ends = _range(m, j) if kind == "revolute" else FREELY
-            origin = _vector(place - above)
+            origin = vector(place - above)
             joints.append(Joint(name, kind, parent, child, origin, axis, range=ends))
             links[child] = Link(child, None, ())
             above, parent = place, child
@@ -108,7 +100,7 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             R = d.ximat[b].reshape(3, 3)
             moments = (R * m.body_inertia[b]) @ R.T
             upper = tuple(moments[np.triu_indices(3)].tolist())
-            body = Inertial(float(m.body_mass[b]), _vector(d.xipos[b] - above), upper)
+            body = Inertial(float(m.body_mass[b]), vector(d.xipos[b] - above), upper)
             check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
     for owners, at, item in (
@@ -124,15 +116,10 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
                 and foot not in links
             ):
                 links[foot] = Link(foot, None, ())
-                place, axis = _vector(at[i] - places[b]), (1.0, 0.0, 0.0)
+                place, axis = vector(at[i] - places[b]), (1.0, 0.0, 0.0)
                 joints.append(Joint(f"{foot}_mount", "fixed", names[b], foot, place, axis))
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
     return Tree(model or path.stem, links, tuple(joints), str(path))
-
-
-def _vector(x: Array) -> Vector:
-    """The three entries as a tuple of floats, adding 0.0, which takes the sign off zero."""
-    return float(x[0]) + 0.0, float(x[1]) + 0.0, float(x[2]) + 0.0
 
 
 def _range(m: Any, j: int) -> tuple[float, float]:

@@ -1,7 +1,7 @@
 """Robots as data: a URDF and a robot.toml beside it, read, checked and written.
 
 - `urdf`        links and joints as a small tree, what makes it physical, exchange of the legs, writing it
-- `urdf_reader` reading a URDF into that tree; `urdf_elements` its elements and their attributes
+- `urdf_reader` reading a URDF into that tree
 - `robot_toml`  the record robot.toml, parameter presets
 - `limits`      what ground and motors can give, within which a walk is feasible
 

@@ -35,6 +35,13 @@ from biped_adrc.core.types import Array
 Vector = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""
 
+
+def vector(values: Array) -> Vector:
+    """The three entries of an array as a tuple."""
+    x, y, z = values.tolist()
+    return x, y, z
+
+
 JOINT_TYPES = ("revolute", "prismatic", "fixed", "planar", "floating")
 """The last two leave a robot free in the plane; `robot_import` puts a planar base in their place."""
 GEOMETRY_SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}

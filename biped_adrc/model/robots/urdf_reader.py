@@ -31,8 +31,8 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.core.errors import ModelError
+from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
-from biped_adrc.model.robots import urdf_elements as xml
 from biped_adrc.model.robots.urdf import (
     FREE,
     GEOMETRY_SIZES,
@@ -47,8 +47,15 @@ from biped_adrc.model.robots.urdf import (
     Vector,
     Visual,
     check_inertial,
+    vector,
 )
 
+MOST_LINKS = 200
+"""Largest number of links of a robot."""
+LARGEST = 1e100
+"""Bound on every number in a URDF, in any unit; products of larger ones overflow."""
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_FORMATS = {"mujoco": "MJCF, <mujoco>", "sdf": "SDF, <sdf>"}
 PLANAR = 1e-4
 """Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
 SMALLEST = 1e-9
@@ -83,18 +90,39 @@ class Contents:
     """What was assumed and left out."""
 
 
+def parse(path: Path | str) -> ET.Element:
+    """The element <robot> of a URDF file. Raises ModelError for another file."""
+    path = Path(path)
+    with reading("URDF", path, ModelError):
+        data = path.read_bytes()
+        if path.suffix == ".xacro" or b"<xacro:" in data:
+            raise ValueError(
+                "it holds xacro macros, expected the URDF they expand to; try "
+                f"'xacro {path.name} > robot.urdf' and give robot.urdf"
+            )
+        root = ET.fromstring(data.lstrip())
+        space = root.tag.rpartition("robot")[0]
+        for element in root.iter():  # a default namespace is the file's, not a part of names
+            element.tag = element.tag.removeprefix(space)
+        count = len(root.findall("link"))
+        if root.tag != "robot" or count > MOST_LINKS:
+            what = _FORMATS.get(root.tag, f"<{root.tag}>")
+            raise ValueError(
+                f"{what} with {count} links, expected a URDF, <robot> with at most {MOST_LINKS} links"
+            )
+    return root
+
+
 def read(path: Path | str) -> Contents:
     """Read and check a URDF. Raises ModelError."""
-    robot, file = xml.parse(path), f"URDF '{path}'"
+    robot, file = parse(path), f"URDF '{path}'"
     movers = robot.findall("joint")
     ends = [_ends(joint, file) for joint in movers]
     names = {link.get("name") for link in robot.findall("link")}
     if "world" not in names and any(parent == "world" for parent, _ in ends):
         ET.SubElement(robot, "link", name="world")
     bodies = robot.findall("link")
-    for (tag, name), count in Counter(
-        (e.tag, xml.name_of(e, file)) for e in (*bodies, *movers)
-    ).items():
+    for (tag, name), count in Counter((e.tag, _name(e, file)) for e in (*bodies, *movers)).items():
         if count > 1:
             raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
     order = [link.get("name", "") for link in bodies]
@@ -108,10 +136,10 @@ def read(path: Path | str) -> Contents:
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
     return Contents(
-        Tree(xml.name_of(robot, file), links, joints, str(path)),
-        xml.by_joint(turning, "limit", "effort", file),
-        xml.by_joint(turning, "dynamics", "damping", file),
-        xml.by_joint(turning, "dynamics", "friction", file),
+        Tree(_name(robot, file), links, joints, str(path)),
+        _by_joint(turning, "limit", "effort", file),
+        _by_joint(turning, "dynamics", "damping", file),
+        _by_joint(turning, "dynamics", "friction", file),
         _rotors(robot, file),
         turns,
         _notes(robot, links, yaw),
@@ -147,17 +175,80 @@ def _rotors(robot: ET.Element, file: str) -> dict[str, float]:
         }
         if e.find(".//motorInertia") is not None:
             numbers = ET.Element("transmission", texts)
-            N, J = (xml.numbers(numbers, tag, "", 1, f"{file}, <transmission>")[0] for tag in texts)
-            result[xml.required(e, "joint", file).get("name", "")] = N * N * J
+            N, J = (_numbers(numbers, tag, "", 1, f"{file}, <transmission>")[0] for tag in texts)
+            result[_required(e, "joint", file).get("name", "")] = N * N * J
     return result
+
+
+# -- attributes ------------------------------------------------------------------------------------
+def _place_of(element: ET.Element, file: str) -> str:
+    """Text for messages that names a link or joint: file, kind of element and name."""
+    return f"{file}, {element.tag} '{element.get('name')}'"
+
+
+def _name(element: ET.Element, where: str, key: str = "name") -> str:
+    """The attribute `key` of an element, after a check that it is printable.
+
+    Line breaks and tabs would spoil tables and messages. Raises ModelError.
+    """
+    name = element.get(key, "")
+    if not name or not name.isprintable():
+        raise ModelError(
+            f"{where}: <{element.tag}> has {key}={name!r}, expected a name on one line"
+        )
+    return name
+
+
+def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
+    """The first child <tag>. Raises ModelError where it is missing."""
+    child = element.find(tag)
+    if child is None:
+        raise ModelError(f"{where}: <{tag}> is missing")
+    return child
+
+
+def _numbers(
+    element: ET.Element | None,
+    key: str,
+    default: str,
+    count: int,
+    where: str,
+    least: float = -LARGEST,
+) -> Vector:
+    """`count` numbers of an attribute, none below `least`; `default` where it is missing.
+
+    Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
+    would also read "nan", "inf" and "1_0".
+    """
+    text = default if element is None else element.get(key, default)
+    words = text.split()
+    values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
+    if len(values) != count or not all(least <= value < LARGEST for value in values):
+        raise ModelError(
+            f"{where}: {key}={text!r}, expected {count} number(s) from {least:g} to {LARGEST:g}"
+        )
+    return values  # type: ignore[return-value]
+
+
+def _by_joint(
+    joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
+) -> dict[str, float]:
+    """The number <tag key> of each joint that has it, by name of the joint."""
+    values = {}
+    for joint in joints:
+        element = joint.find(tag)
+        if element is not None and key in element.attrib:
+            where = f"{_place_of(joint, file)} <{tag}>"
+            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, least)[0]
+    return values
 
 
 # -- frames ----------------------------------------------------------------------------------------
 def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
     """Names of the parent and the child link of a joint."""
-    where = xml.place_of(joint, file)
+    where = _place_of(joint, file)
     parent, child = (
-        xml.name_of(xml.required(joint, role, where), where, "link") for role in ("parent", "child")
+        _name(_required(joint, role, where), where, "link") for role in ("parent", "child")
     )
     return parent, child
 
@@ -175,7 +266,7 @@ def _turns(
     each = list(zip(joints, ends, strict=True))
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
-            turns[child] = _origin(joint, xml.place_of(joint, file), turns[parent])[1]
+            turns[child] = _origin(joint, _place_of(joint, file), turns[parent])[1]
     twice = [link for link, count in parents.items() if count > 1]
     circle = [link for link in links if link not in turns]
     missing = sorted({link for pair in ends for link in pair} - set(links))
@@ -216,15 +307,9 @@ def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
     rpy turns about the fixed axes x, y, z in this order.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
-    place = xml.numbers(origin, "xyz", "0 0 0", 3, where)
-    turn = pin.rpy.rpyToMatrix(*xml.numbers(origin, "rpy", "0 0 0", 3, where))
-    return _vector(R @ place), R @ _clean(turn)
-
-
-def _vector(values: Array) -> Vector:
-    """The three entries of an array as a tuple."""
-    x, y, z = values.tolist()
-    return x, y, z
+    place = _numbers(origin, "xyz", "0 0 0", 3, where)
+    turn = pin.rpy.rpyToMatrix(*_numbers(origin, "rpy", "0 0 0", 3, where))
+    return vector(R @ place), R @ _clean(turn)
 
 
 # -- links and joints ------------------------------------------------------------------------------
@@ -233,7 +318,7 @@ def _link(element: ET.Element, file: str, turns: Mapping[str, Array], moved: set
 
     Without mass and moments it is a frame, and so is a root without mass, such as a world.
     """
-    where, R = xml.place_of(element, file), turns[element.get("name", "")]
+    where, R = _place_of(element, file), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
     body, inertial = element.find("inertial"), None
     if body is not None:
@@ -251,10 +336,10 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion. Without <inertia> it is a point.
     """
-    mass = xml.numbers(xml.required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, turn = _origin(element, f"{where} <inertial>", R)
     inertia, where = element.find("inertia"), f"{where} <inertia>"
-    moments = np.array([xml.numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
+    moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
     turned = turn @ moments[SYMMETRIC] @ turn.T
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
@@ -274,9 +359,9 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, GEOMETRY_SIZES[shape.tag]
-    size = sum((xml.numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
-    rgba = xml.numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
-    size = _vector(axes @ size) if box else size
+    size = sum((_numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
+    rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
+    size = vector(axes @ size) if box else size
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
 
 
@@ -288,21 +373,21 @@ def _joint(
     A range of a whole turn or more is none. Raises ModelError for unknown types, mimic joints and axes that are
     not of unit length.
     """
-    where, kind = xml.place_of(element, file), element.get("type", "")
+    where, kind = _place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
             f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
             "joints are not supported"
         )
     axis_element = None if kind in ("fixed", "floating") else element.find("axis")
-    axis = np.array(xml.numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
+    axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
         axis = turns[child] @ axis
     limit = element.find("limit")
     speed, low, high = (
-        xml.numbers(limit, key, "0", 1, f"{where} <limit>")[0]
+        _numbers(limit, key, "0", 1, f"{where} <limit>")[0]
         for key in ("velocity", "lower", "upper")
     )
     place = _origin(element, where, turns[parent])[0]
@@ -311,4 +396,4 @@ def _joint(
     stated = stated and 0.0 < high - low < 2.0 * math.pi
     ends = (low, high) if stated else (-math.inf, math.inf)
     kind = "revolute" if kind == "continuous" else kind
-    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed, ends)
+    return Joint(element.get("name", ""), kind, parent, child, place, vector(axis), speed, ends)
