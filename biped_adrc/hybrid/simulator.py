@@ -152,8 +152,7 @@ def run_arcs(
         if ended is not None:
             status = ended
             break
-    by = f" ({label})" if flown.detail and status in (Status.NOT_FINITE, Status.RAN_AWAY) else ""
-    return Trajectory(tuple(arcs), status, flown.detail + by, {"method": label})
+    return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
 def finite(flown: FlownArc) -> FlownArc:

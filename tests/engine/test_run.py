@@ -445,9 +445,10 @@ def test_disturbances_without_machine_code(biped, gait):
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_torques_without_numbers(biped, gait, python, sampled, factor):
     broken = replace(python, after=0.1, factor=factor)
-    walker = ba.Walker(biped, broken if sampled else Stateless(broken))
-    if sampled:
-        walker = replace(walker, timing=ba.SampledTime(1e-3))
+    law, timing = (
+        (broken, ba.SampledTime(1e-3)) if sampled else (Stateless(broken), ba.ContinuousTime())
+    )
+    walker = ba.Walker(biped, law, timing=timing)
     python, partly = runs(walker, gait, ba.RK4(2e-3))
     expected = ba.Status.RAN_AWAY if factor == 1e300 else ba.Status.NOT_FINITE
     assert (python.status, partly.status) == (expected, expected)

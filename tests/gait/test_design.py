@@ -162,7 +162,9 @@ def test_what_stands_in_the_way_is_named() -> None:
 
 
 def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
-    with pytest.raises(GaitError, match="swing foot in the second half of the step") as caught:
+    with pytest.raises(
+        GaitError, match="swing foot above the ground after 50% of the step"
+    ) as caught:
         design_gait("rabbit", 2.5, 0.3, limits=StepLimits(clearance=None))
     assert "clearance" not in str(caught.value)
 

@@ -317,9 +317,9 @@ def of_robot(biped, gait):
 
 OTHERS = {
     "the length of the legs times 1.3$": lambda b: with_legs(b, 1.3),
-    "masses and inertias of torso times 1.5$": lambda b: b.with_errors(
-        {"torso": 1.5}, {"torso": 1.5}
-    ),
+    "masses and inertias of torso times 1.5$": lambda b: ba.ModelErrors(
+        {"torso": 0.5}, inertia={"torso": 0.5}
+    ).apply(b),
     'close in .*tac2003.*preset="tac2003"': lambda b: ba.Biped.load("rabbit", "tac2003"),
 }
 

@@ -385,7 +385,7 @@ def test_the_command_walks_writes_and_goes_on(tmp_path):
     assert len(table.read_text().splitlines()) == 9
     page = (out / "study.html").read_text()
     assert "a &lt;b&gt; $x$" in page
-    assert page.count("<figure>") == 5
+    assert page.count("<figure>") == 4
     command(*line)
     assert (out / "study.html").read_text() == page
     few = tmp_path / "few.toml"

@@ -199,7 +199,7 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     assert dry[0] == "walks: at most 7 walks"
     assert dry[1] == "Walked once, as nothing that acts is drawn from the seed: walks."
     command(*line)
-    assert (out / "study.html").read_text().count("<figure>") == 4
+    assert (out / "study.html").read_text().count("<figure>") == 3
     best = command("simulate", "--scenario", out / "chosen.toml", "--impacts", "2")
     assert "2 impacts" in best
     with ThreadPoolExecutor(1) as pool:

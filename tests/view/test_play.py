@@ -326,7 +326,7 @@ def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> No
         "field.value = arguments[0]; field.dispatchEvent(new Event('change'))",
         "-5",
     )
-    assert "K_p is -5, expected 30 to 30000" in browser.execute_script(refused)
+    assert "K_p [1/s²] is -5, expected 30 to 30000" in browser.execute_script(refused)
     mixed = "play.sample(); play.tune({ slider: 'ground.slope', value: 0.01, walks: known }); "
     browser.execute_script(mixed + "play.sample(); save()")
     assert "a slider was moved while it walked" in browser.execute_script(refused)

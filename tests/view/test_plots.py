@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, WalkWarning
 from biped_adrc.disturbances.waves import TorquePulse
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.exponential import Exponential
@@ -42,7 +42,8 @@ def pushed(biped: Biped) -> dict[str, Walk]:
         "NPD": (NPDController(gait.constraint), RK4(2e-3)),
         "ADRC": (ADRCController(gait.constraint), Exponential(1e-3)),
     }
-    return {c: walk_of(Walker(biped, law, push), gait, 3, m) for c, (law, m) in laws.items()}
+    with pytest.warns(WalkWarning, match="beside the edges of the push"):
+        return {c: walk_of(Walker(biped, law, push), gait, 3, m) for c, (law, m) in laws.items()}
 
 
 @pytest.fixture(scope="module")

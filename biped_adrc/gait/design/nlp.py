@@ -198,7 +198,9 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
-    above = [i for i, x in enumerate(s) if x > (0.0 if limits.clearance else PASSED) and x < 1.0]
+    above = [
+        i for i, x in enumerate(s) if x > (PASSED if limits.clearance is None else 0.0) and x < 1.0
+    ]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
     name = LATE if limits.clearance is None else "foot clearance"
