@@ -180,9 +180,9 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     walker, options = case.walker, case.options
     x = walker.initial_state(case.q, case.v, case.mode)
     options.check(x)
-    size = walker.controller_size(x)
+    layout = walker.layout_of(x)
     try:
-        compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
+        compiled = CompiledWalker.of(walker, case.method, layout, case.mode.start, case.curve)
     except (NotCompiled, ModelError):
         try:
             run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))
