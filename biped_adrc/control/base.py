@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, NoReturn
+from typing import Any, ClassVar, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from biped_adrc.core.checks import line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import one_line
+from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
@@ -112,37 +113,40 @@ class Controller(Part):
     reads_impulse: ClassVar[tuple[str, ...]] = ()
     """The methods, of "output" and "correct", that leave the directions of `Measurement.impulse` out."""
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
         if no subclass writes it.
         """
         how = "write it: u (p,) [N m] from its state s and the Measurement m"
         self._has_no("method output(s, m)", how)
 
-    def initial_state(self, m: Measurement) -> Array:
-        """State s (size,) at the start of a run; empty (0,) for a controller without state."""
+    def initial_state(self, m: Measurement) -> Any:
+        """State s at the start of a run: an array, or a NamedTuple of arrays, numbers and states.
+
+        Empty (0,) for a controller without state.
+        """
         return np.zeros(0)
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """s' (size,) in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        """s' in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
         return s
 
-    def correct(self, s: Array, m: Measurement) -> Array:
-        """In sampled time: s (size,) corrected by the measurement of this sample instant."""
+    def correct(self, s: Any, m: Measurement) -> Any:
+        """In sampled time: s corrected by the measurement of this sample instant."""
         return s
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """In sampled time: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        """In sampled time: s at the next sample instant, under the applied torque u (p,) [N m]."""
         return s
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """State s (size,) of the controller after an impact, from s before it.
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        """State s of the controller after an impact, from s before it.
 
         after: the measurement after the impact. swap (p,): relabelling of the joints, for `types.relabelled`.
         """
         return s
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
         """Estimates of the p joints by an observer inside, for plots; None without one."""
         return None
 
@@ -189,7 +193,7 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
         controller = getattr(controller, "inner", None)
 
 
-def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:
+def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool) -> None:
     """Check a controller's methods at the start of a run, in state s at m. Raises InputError.
 
     Arrays must have the right shape, as machine code would write past the end of the state; a user's method
@@ -199,14 +203,15 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     if not _is_own(controller):
         return
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
-    first = {"output": u}
+    first: dict[str, Any] = {"output": u}
     for name, method in calls.items():
         result = getattr(controller, name)(s, *method)
-        first[name] = returned(result, s.shape, controller, name, finite=False)
+        first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
         getattr(controller, name)(s, other, *method[1:])  # which a memory takes in
-        if not np.array_equal(first[name], getattr(controller, name)(s, *method), equal_nan=True):
+        again = getattr(controller, name)(s, *method)
+        if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "
                 "at the same instant; expected no memory in the object: return a state from initial_state, and "
@@ -229,5 +234,5 @@ class Passive(Controller):
     2
     """
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         return np.zeros(m.terms.kappa.shape[0])

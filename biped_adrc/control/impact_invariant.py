@@ -33,6 +33,7 @@ near an impact.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -43,6 +44,7 @@ from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived
+from biped_adrc.core.tree import chosen
 from biped_adrc.core.types import Array
 from biped_adrc.model.reduction import BodyTerms
 
@@ -95,13 +97,13 @@ class ImpactInvariant(ContactWindow):
         """True, as the Jacobian of the swing foot is in `Measurement.body`."""
         return True
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         u = self.inner.output(s, m)
         if not self.rates:
             return u
         return self.near(m, self.inner.output(s, self.with_impulse(m)), u)
 
-    def correct(self, s: Array, m: Measurement) -> Array:
+    def correct(self, s: Any, m: Measurement) -> Any:
         z = self.inner.correct(s, m)
         if not self.innovation:
             return z
@@ -125,7 +127,7 @@ class ImpactInvariant(ContactWindow):
         J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
         return m._replace(impulse=impulse_response(m.terms.D, body, J))
 
-    def near(self, m: Measurement, projected: Array, other: Array) -> Array:
+    def near(self, m: Measurement, projected: Any, other: Any) -> Any:
         """`projected` within T of a touchdown, else `other`."""
-        soon = np.where(self.expected(m), projected, other)
-        return np.where(self.landed(m), projected, soon)
+        soon = chosen(self.expected(m), projected, other)
+        return chosen(self.landed(m), projected, soon)

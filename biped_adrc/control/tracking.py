@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -221,35 +221,35 @@ class ObservingController(Controller):
         """The point of the reference at a measurement."""
         return self.reference(m.t, m.q, m.v)
 
-    def estimated(self, s: Array) -> Estimate:
+    def estimated(self, s: Any) -> Estimate:
         """The observer's estimates in s. Raises InputError for an observer that returns something else."""
         x = self.observer.estimate(s)
         check_part(x, f"what {type(self.observer).__name__}.estimate returned", Estimate)
         return x
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         return self.torque(self.point(m), self.estimated(s), m)
 
-    def initial_state(self, m: Measurement) -> Array:
+    def initial_state(self, m: Measurement) -> Any:
         return self.observer.initial_state(*self.measured_output(m))
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
         return self.observer.reset(s, self.reset, swap, *self.measured_output(after))
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.observer.flow(s, self.measured_output(m).position, self.observer_input(m, u))
 
-    def correct(self, s: Array, m: Measurement) -> Array:
+    def correct(self, s: Any, m: Measurement) -> Any:
         y = self.measured_output(m).position
         if m.impulse is not None:  # the innovation y - y^ without the part that the impulse changes
             y_hat = self.observer.estimate(s).position
             y = y_hat + orthogonal_to(self.output_change(m, m.impulse)) @ (y - y_hat)
         return self.observer.correct(s, y)
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.observer.predict(s, self.observer_input(m, u))
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate:
+    def estimate(self, s: Any, m: Measurement) -> Estimate:
         return self.joint_estimate(self.estimated(s), m)
 
     def sampled(self, period: float) -> Self:

@@ -39,6 +39,13 @@ def chosen(which: float, one: Any, other: Any) -> Any:
     return one if one is None else np.where(which > 0.5, one, other)
 
 
+def zeros_like(tree: Any) -> Any:
+    """A tree of the same layout, with zeros."""
+    if isinstance(tree, tuple):
+        return _like(type(tree), [zeros_like(x) for x in tree])
+    return tree if tree is None else np.zeros(np.shape(tree))
+
+
 def _like(kind: Any, parts: list[Any]) -> Any:
     """A tuple or NamedTuple of these parts."""
     return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
@@ -109,7 +116,8 @@ def returned_tree(
     if layout is not None and kind is None:
         return returned(found, layout.parts, part, method, finite)
     if layout is None and not isinstance(found, tuple):
-        shape = np.shape(found) if isinstance(found, np.ndarray | Real) else None
+        numeric = isinstance(found, np.ndarray | Real)
+        shape: tuple[int, ...] | None = np.shape(found) if numeric else None
         return None if found is None else returned(found, shape, part, method, finite)
     if layout is not None and type(found) is not kind:
         raise InputError(

@@ -438,7 +438,7 @@ def estimator(observer, steps):
         law = around(gait().constraint, observer, reset=policy)
         for m, random in measurements(3):
             contract(law, m, random, "predict" in steps)
-            s = random.normal(size=len(law.initial_state(m)))
+            s = random.normal(size=np.shape(law.initial_state(m)))
             agree(around.jump, law, s, m, SWAP)
 
 
