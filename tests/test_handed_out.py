@@ -317,8 +317,6 @@ class Watching(ba.Observer):
 
 
 class Blind(Sensor):
-    size = 1
-
     def start(self, q, v):
         return np.zeros(1)
 

@@ -20,7 +20,7 @@ from biped_adrc.analysis.observer.loop import (
 )
 from biped_adrc.analysis.observer.report import observer_report
 from biped_adrc.control.base import Measurement
-from biped_adrc.control.delayed import Delayed, pade
+from biped_adrc.control.delayed import Delayed, DelayState, pade
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
 
 TABLE_I = ba.GPIObserver.from_poles()
@@ -54,7 +54,7 @@ def asking(u):
 
 def line_flow(line, R, u):
     """R' (order, p) while u (p,) is asked for."""
-    return line.flow(R.ravel(), asking(u), u).reshape(R.shape)
+    return line.flow(DelayState(None, R), asking(u), u).R
 
 
 # -- the loop in continuous time ---------------------------------------------------------------------
@@ -67,8 +67,8 @@ def delayed_loop(observer, delay, known, order=8):
         y, rate, Z, R = X[0], X[1], X[2 : 2 + k], X[2 + k :]  # rate in units of w
         xi = Z[2] * w**2 if k > 2 else 0.0
         a = -K_P * Z[0] - K_D * w * Z[1] - xi
-        late = line.output(R.ravel(), asking(R[0]))
-        dZ = observer.flow(Z.ravel(), y, late if known else a).reshape(Z.shape)
+        late = line.output(DelayState(None, R), asking(R[0]))
+        dZ = observer.flow(Z, y, late if known else a)
         return np.vstack((w * rate, late / w, dZ, line_flow(line, R, a)))
 
     return flow(np.eye(2 + k + order))
@@ -141,19 +141,19 @@ def tick_by_tick(observer, T, delay, known):
     def step(X, noise):
         y, rate, Z, rest = X[0], X[1] / T, X[2 : 2 + k], X[2 + k :] / T**2
         p = X.shape[1]
-        z = form.correct(Z.ravel(), y + noise)
+        z = form.correct(Z, y + noise)
         x = form.estimate(z)
         a = -K_P * x.position - K_D * x.velocity - x.disturbance
         # what acts is rest[0] where a part of a period is waited for; the queue follows it
         old = rest[0] if f > 0.0 else np.zeros(p)
-        waiting = old.copy() if f > 0.0 else np.zeros(0)
-        line = motors.send(Line(rest[int(f > 0.0) :].ravel(), np.zeros(0), waiting, old), a)
+        waiting = old.copy() if f > 0.0 else None
+        line = motors.send(Line(rest[int(f > 0.0) :], None, waiting, old), a)
         first, then = (line.u, line.waiting) if f > 0.0 else (line.u, line.u)
-        Z = form.predict(z, motors.mean_command(line) if known else a).reshape(k, p)
+        Z = form.predict(z, motors.mean_command(line) if known else a)
         for u, h in ((first, f * T), (then, (1.0 - f) * T)):
             y, rate = y + h * rate + 0.5 * h**2 * u, rate + h * u
         held = [then[np.newaxis]] if f > 0.0 else []
-        left = np.vstack((*held, line.queue.reshape(-1, p))) if held or queue else np.zeros((0, p))
+        left = np.vstack((*held, line.queue))
         return np.vstack((y, T * rate, Z, T**2 * left)), a
 
     return step, 2 + k + queue + int(f > 0.0)
@@ -220,9 +220,9 @@ def test_known_feeds_what_acts_and_hidden_what_was_asked(bare, published):
     z, u = inner.initial_state(m) + 1e-4, np.array([1.0, -2.0, 3.0, 4.0])
     for known, fed in ((False, inner.output(z, m)), (True, u)):
         controller = Delayed(inner, 1e-3, 2, known)
-        s = np.concatenate((z, np.ones(8)))
+        s = DelayState(z, np.ones((2, 4)))
         flow = controller.flow(s, m, u)
-        np.testing.assert_array_equal(flow[:12], inner.flow(z, m, fed))
+        np.testing.assert_array_equal(flow.inner, inner.flow(z, m, fed))
         assert not np.array_equal(controller.output(s, m), inner.output(z, m))
 
 

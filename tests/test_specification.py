@@ -188,7 +188,7 @@ def test_the_derivative_of_a_tick_is_that_of_differences():
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
-    after, J = tick_derivative(twin, len(x))(1.5e-3, x, ba.Mode())
+    after, J = tick_derivative(twin, twin.layout_of(x))(1.5e-3, x, ba.Mode())
     expected, K = _differenced(twin, 1.5e-3, x, ba.Mode())
     np.testing.assert_allclose(after, expected, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(J, K, rtol=1e-5, atol=1e-5 * np.max(np.abs(K)))

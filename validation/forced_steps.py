@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
-from biped_adrc.control.stride import StridePI
+from biped_adrc.control.stride import StridePI, StrideState
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -104,18 +104,18 @@ def forced_walk(
     delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     curve = ForcedCurve.of(biped, gait.constraint, force)
-    w, done = np.zeros(3), list[ForcedStep]()  # T, integral and beta, as in `StridePI`
+    w, done = StrideState(0.0, 0.0, 0.0), list[ForcedStep]()
     for _ in range(steps):
         if stride is not None:
-            h = bumped(gait.constraint, w[2] * np.array(stride.direction))
+            h = bumped(gait.constraint, w.beta * np.array(stride.direction))
             curve = ForcedCurve.of(biped, h, force)
         T = curve.duration(delta2 * zeta)
         if not LONGEST >= T:
             break
         zeta = delta2 * zeta - curve.end
-        done.append(ForcedStep(length / T, float(w[2]), zeta))
+        done.append(ForcedStep(length / T, float(w.beta), zeta))
         if stride is not None:
-            w = stride.stepped(np.array((T, w[1], w[2])))
+            w = stride.stepped(w._replace(tau=T))
     return tuple(done)
 
 

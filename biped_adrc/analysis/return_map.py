@@ -137,7 +137,7 @@ class ReturnMap(Shown):
         Raises SimulationError, with the status, when the walker does not come back.
         """
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
-        compiled = self._compiled(len(starts[0][0]))
+        compiled = self._compiled(starts[0][0])
         if compiled is None:
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
         from biped_adrc.engine.batch import strides
@@ -152,17 +152,14 @@ class ReturnMap(Shown):
     def ran(self) -> str:
         """Name of the engine on which P runs: `engine`, or "pinocchio" where a part has no compiled form."""
         q = np.zeros(self.walker.plant.n)
-        return (
-            PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
-        )
+        return PINOCCHIO if self._compiled(self.walker.initial_state(q, q)) is None else COMPILED
 
-    def _compiled(self, states: int) -> CompiledWalker | None:
-        """The compiled walker whose state has `states` numbers, or None where there is no compiled form."""
+    def _compiled(self, x: Array) -> CompiledWalker | None:
+        """The compiled walker with states as x (nx,), or None where there is no compiled form."""
         if self.engine != COMPILED:
             return None
-        size = self.walker.controller_size(states)
         try:
-            return CompiledWalker.of(self.walker, self.method, size)
+            return CompiledWalker.of(self.walker, self.method, self.walker.layout_of(x))
         except (NotCompiled, ModelError):
             return None
 

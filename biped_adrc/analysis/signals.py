@@ -199,9 +199,9 @@ def compiled_readings(
     from biped_adrc.engine.program import COMPILED, Program, numbers_of
     from biped_adrc.engine.symbols import NotCompiled
 
-    nx = trajectory.arcs[0].x.shape[1]
+    layout = walker.layout_of(trajectory.arcs[0].x[0])
     try:
-        program = Program(walker.controller_size(nx), numbers_of(walker, curve=reference))
+        program = Program(layout, numbers_of(walker, curve=reference))
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
         code, K = program.reading(signals_at), program.K

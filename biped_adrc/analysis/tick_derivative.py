@@ -18,6 +18,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import Program, numbers_of
 from biped_adrc.engine.symbols import NotCompiled
@@ -30,8 +31,8 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 """(t [s], x (nx,), mode) -> x after the tick, and J (nx, nx)."""
 
 
-def tick_derivative(walker: Walker, nx: int) -> Ticked:
-    """The tick of a walker with nx numbers in x, with its derivative.
+def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
+    """The tick of a walker whose states have this layout, with its derivative.
 
     Raises InputError for a walker in continuous time; the function that is given, NotFiniteError where
     x+ or J is not finite.
@@ -42,7 +43,7 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
             "timing=SampledTime(period)"
         )
     try:
-        program = Program(walker.controller_size(nx), numbers_of(walker))
+        program, nx = Program(layout, numbers_of(walker)), layout.size
         function, K = _function(program), program.K
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)

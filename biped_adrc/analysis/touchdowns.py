@@ -17,7 +17,6 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
-from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Trajectory
 
 
@@ -108,14 +107,13 @@ def matched(impacts: Array, found: Array) -> Noticed:
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     """Times [s] at which a controller detected a touchdown, right or wrong. Raises as `touchdowns`."""
     k = loop.held
-    if k is None or k.sizes.belief == 0:
+    if k is None or k.touchdown is None:
         raise InputError(
             "the controller of this walk knows touchdowns at once; give touchdown=, such as "
             "FaultyTouchdown(0.005)"
         )
     x = np.vstack([arc.x for arc in run.arcs])
-    first = x.shape[1] - loop.behind + k.sizes.own
-    began = belief_of(x[:, first : first + k.sizes.belief].T)
+    began = loop.layout_of(x[0]).tree(x).tail.belief
     step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
     at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
     times: Array = start[np.append(at_once, np.diff(step) > 0.0)]

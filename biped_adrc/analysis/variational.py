@@ -57,7 +57,7 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
         return lambda i: np.zeros((0, 2 * n))
     limit = math.inf if walker.torque_limit is None else walker.torque_limit
     twin = replace(walker, timing=SampledTime(1e-3), torque_limit=None)
-    ticked = tick_derivative(twin, 2 * n + p)
+    ticked = tick_derivative(twin, twin.layout_of(np.zeros(2 * n)))
 
     def at(i: Instant) -> Array:
         m = i.measurement

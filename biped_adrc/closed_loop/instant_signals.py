@@ -7,7 +7,7 @@ quantities.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import disturbance_parts
 
-Tracked = Callable[[Array, Measurement], ReferencePoint]
+Tracked = Callable[[Any, Measurement], ReferencePoint]
 """reference(s, m) -> the point of a reference at a measurement, s the controller's state."""
 
 
@@ -69,7 +69,7 @@ def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -
     """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
-    r, result = reference(i.s, m), estimated(loop, i.s, parts(loop, x)[3], m, mode)
+    r, result = reference(i.s, m), estimated(loop, i.s, parts(loop, x).tail, m, mode)
     xi_estimate = np.full(p, np.nan) if result is None else result
     matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
     return InstantSignals(

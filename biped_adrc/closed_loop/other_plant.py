@@ -132,16 +132,13 @@ def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
 
 def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
     """An arc with states as the rigid plant's walker has them, and with the place of the stance foot."""
-    size, p, k = loop.controller_size(arc.x[0]) + 2 * loop.plant.n, loop.plant.p, loop.held
-    assert k is not None
-    mine, line = slice(size, size + k.sizes.own), -p * (k.sizes.waiting + 1)
+    layout, p = loop.layout_of(arc.x[0]), loop.plant.p
+    own, at = layout.place("tail", "own"), layout.place("tail", "line", "queue").stop
 
     def without(x: Array) -> Array:
         """The plant's own out, and u_m where the rigid plant's walker has it."""
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
-        return np.concatenate(
-            (np.delete(x[..., :line], mine, axis=-1), u_m, x[..., line:]), axis=-1
-        )
+        return np.concatenate((np.delete(x[..., :at], own, axis=-1), u_m, x[..., at:]), axis=-1)
 
     event = arc.event
     if event is not None:

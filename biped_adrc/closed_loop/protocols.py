@@ -26,8 +26,9 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.ground import StepDown, StepUp
 from biped_adrc.model.reduction import Reduction
@@ -75,17 +76,17 @@ class ControlLaw(NamedTuple):
     On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its twin's.
     """
 
-    output: Callable[[Array, Measurement], Array]
+    output: Callable[[Any, Measurement], Array]
     """output(s, m) -> torque asked for (p,) [N m], before saturation."""
-    flow: Callable[[Array, Measurement, Array], Array]
+    flow: Callable[[Any, Measurement, Array], Any]
     """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
-    jump: Callable[..., Array]
+    jump: Callable[..., Any]
     """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
-    correct: Callable[[Array, Measurement], Array]
+    correct: Callable[[Any, Measurement], Any]
     """correct(s, m) -> s at a sample instant, with the new measurement."""
-    predict: Callable[[Array, Measurement, Array], Array]
+    predict: Callable[[Any, Measurement, Array], Any]
     """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
-    estimate: Callable[[Array, Measurement], Estimate | None]
+    estimate: Callable[[Any, Measurement], Estimate | None]
     """estimate(s, m) -> what an observer inside says, None without one."""
 
 
@@ -123,17 +124,20 @@ class Loop(Protocol):
     def gain(self) -> Array:
         """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
 
+    def layout_of(self, x: Array) -> Layout:
+        """What a state x (nx,) is made of: a `semantics.State`."""
+
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]: `measurement`."""
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
-    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+    def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
 
     def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N], under the torque held in `tail`."""
 

@@ -38,10 +38,11 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.tree import chosen, flatten
 from biped_adrc.core.types import Array, frozen, relabelled
 from biped_adrc.hardware.motors import Line
-from biped_adrc.hardware.sample_hold import Held, HeldParts, lagged, motor_torque, read, written
-from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
+from biped_adrc.hardware.sample_hold import HeldParts, Tail, motor_torque
+from biped_adrc.hardware.touchdown import Belief, Look, Touchdown
 from biped_adrc.model.reduction import Reduction, unknown_force
 
 
@@ -50,7 +51,7 @@ class Instant(NamedTuple):
 
     measurement: Measurement
     """What the controller was given; in continuous time the true q and v."""
-    s: Array
+    s: Any
     """State of the controller."""
     u: Array
     """Torque applied (p,) [N m]."""
@@ -62,13 +63,23 @@ class Instant(NamedTuple):
     """q'' (n,) [rad/s^2]."""
 
 
-def parts(loop: Loop, x: Array) -> tuple[Array, Array, Array, Array]:
-    """q (n,) [rad], v (n,) [rad/s] and s of x, and the tail held between sample instants (empty in
-    continuous time); all read-only, since controllers, sensors and disturbances are given them.
-    """
-    n, k, x = loop.plant.n, loop.held, frozen(x)
-    end = len(x) if k is None else len(x) - k.sizes.total
-    return x[:n], x[n : 2 * n], x[2 * n : end], x[end:]
+class State(NamedTuple):
+    """The walker's state x (nx,) as a tree; its arrays are read-only, as controllers and sensors get them."""
+
+    q: Array
+    """Angles (n,) [rad]."""
+    v: Array
+    """Rates (n,) [rad/s]."""
+    s: Any
+    """State of the controller."""
+    tail: Any
+    """What is held between sample instants, a `Tail`; empty in continuous time."""
+
+
+def parts(loop: Loop, x: Array) -> State:
+    """The state x (nx,) as a tree."""
+    state: State = loop.layout_of(x).tree(frozen(x))
+    return state
 
 
 def measurement(
@@ -106,11 +117,6 @@ def applied(u: Array, zeta: Array) -> Array:
     return force
 
 
-def torque_held(k: HeldParts, tail: Array) -> Array:
-    """The torque that the motors give between sample instants (p,) [N m], read from the held tail of x."""
-    return motor_torque(read(k.sizes, tail).line)
-
-
 def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array) -> Array:
     """q'' of the plant (n,) [rad/s^2] under `force` (n,) [N m], at q (n,) [rad], v (n,) [rad/s].
 
@@ -129,8 +135,8 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
     controller.
     """
     q, v, s, tail = parts(loop, x)
-    m, k = loop.measure(t, q, v, mode), loop.held
-    u = torque_held(k, tail) if k is not None else loop.saturate(loop.calls.output(s, m))
+    m = loop.measure(t, q, v, mode)
+    u = motor_torque(tail.line) if tail else loop.saturate(loop.calls.output(s, m))
     zeta = loop.external(t, q, v, mode)
     force = applied(u, zeta)
     return Instant(m, s, u, zeta, force, acceleration(loop, m.terms, q, v, force))
@@ -145,12 +151,17 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
-        u = loop.bounded(i.u)
-        return np.concatenate((i.measurement.v, i.a, loop.calls.flow(i.s, i.measurement, u)))
-    q, v, s, tail = parts(loop, x)
-    u = torque_held(k, tail)
-    a = loop.plant.acceleration(q, v, applied(u, loop.external(t, q, v, mode)))
-    return np.concatenate((v, a, np.zeros(len(s)), lagged(k, tail)))
+        ds = loop.calls.flow(i.s, i.measurement, loop.bounded(i.u))
+        return np.concatenate((i.measurement.v, i.a, flatten(ds)))
+    (q, v, _, tail), n, dx = parts(loop, x), loop.plant.n, np.zeros(len(x))
+    line = tail.line
+    dx[:n], dx[n : 2 * n] = (
+        v,
+        loop.plant.acceleration(q, v, applied(motor_torque(line), loop.external(t, q, v, mode))),
+    )
+    if line.u_m is not None:  # tau u_m' = u - u_m
+        dx[loop.layout_of(x).place("tail", "line", "u_m")] = k.motors.speed * (line.u - line.u_m)
+    return dx
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
@@ -163,39 +174,36 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
-    h = read(k.sizes, tail)
-    if k.touchdown is not None:
+    if tail.belief is not None:
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
-        s, line = decided(loop, k, s, m, labelled(loop, b, h.line))
+        s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
         line = labelled(loop, b, line)
     else:
-        b = h.b
-        w = k.sense(h.w, q, v)
+        b, w = None, k.sense(tail.sensors, q, v)
         m = loop.measure(t, *k.reading(w, q, v), mode)
-        s, line = decided(loop, k, s, m, h.line)
-    return np.concatenate((q, v, s, written(Held(w, line, h.own, b))))
+        s, line = decided(loop, k, s, m, tail.line)
+    return flatten(State(q, v, s, tail._replace(belief=b, sensors=w, line=line)))
 
 
 def on_stance_foot(
-    loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Array, mode: Mode
+    loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Tail, mode: Mode
 ) -> tuple[float, float]:
     """Vertical forces of the ground on stance and swing foot [N] of a plant whose stance foot is pinned.
 
     resultant (2,) [N]: of what acts from outside, which the ground does not carry.
     """
-    assert loop.held is not None
-    force = applied(torque_held(loop.held, tail), loop.external(t, q, v, mode))
+    force = applied(motor_torque(tail.line), loop.external(t, q, v, mode))
     a = loop.plant.acceleration(q, v, force)
     return loop.plant.ground_reaction(q, v, a)[1] - resultant[1], 0.0
 
 
-def command(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
+def command(loop: Loop, s: Any, m: Measurement) -> tuple[Any, Array]:
     """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
     s = loop.calls.correct(s, m)
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 
 
-def decided(loop: Loop, k: HeldParts, s: Array, m: Measurement, line: Line) -> tuple[Array, Line]:
+def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tuple[Any, Line]:
     """The controller's state and the queue of torques after it has acted on a measurement; torques
     are (p,) [N m].
 
@@ -203,10 +211,9 @@ def decided(loop: Loop, k: HeldParts, s: Array, m: Measurement, line: Line) -> t
     the observer's input is the torque that acts in the coming period, otherwise the one just asked for.
     """
     s, u = command(loop, s, m)
-    if k.sizes.rate > 0:
-        u = k.motors.limit(line, u)
+    u = k.motors.limit(line, u)
     line = k.motors.send(line, u)
-    return loop.calls.predict(s, m, k.motors.mean_command(line) if k.sizes.known > 0 else u), line
+    return loop.calls.predict(s, m, k.motors.mean_command(line) if k.known else u), line
 
 
 def release(loop: Loop, x: Array) -> Array:
@@ -215,9 +222,9 @@ def release(loop: Loop, x: Array) -> Array:
 
     For a computation delay that is no whole number of periods.
     """
-    p, x = loop.plant.p, x.copy()
-    x[-p:] = x[-2 * p : -p]
-    return x
+    state = parts(loop, x)
+    line = state.tail.line
+    return flatten(state._replace(tail=state.tail._replace(line=line._replace(u=line.waiting))))
 
 
 def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
@@ -235,7 +242,7 @@ def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     after: the single support that begins. loop.gain (n,) [1] is the relative error of the impact map: v+
     becomes (1 + gain) v+.
     """
-    q, v = parts(loop, x)[:2]
+    q, v, _, _ = parts(loop, x)
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
     return after_contact(loop, t, x, impact.q, v_plus, after)
@@ -255,18 +262,17 @@ def after_contact(
     (q, v, s, tail), k = parts(loop, x), loop.held
     reading = q_plus, v_plus
     if k is not None:
-        h = read(k.sizes, tail)
-        h = h._replace(line=h.line.relabelled(loop.swap))
+        tail = tail._replace(line=tail.line.relabelled(loop.swap))
         if k.touchdown is not None:
-            h = h._replace(b=unnoticed(k, h.b, t))
-            return np.concatenate((q_plus, v_plus, s, written(h)))
+            belief = unnoticed(k.touchdown, tail.belief, t)
+            return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
         if k.sensors is not None:
-            expected = loop.nominal.impact(*k.reading(h.w, q, v)).v
-            h = h._replace(w=k.sensors.impact(h.w, q_plus, v_plus, expected))
-        reading = k.reading(h.w, q_plus, v_plus)
-        tail = written(h)
+            expected = loop.nominal.impact(*k.reading(tail.sensors, q, v)).v
+            w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
+            tail = tail._replace(sensors=w)
+        reading = k.reading(tail.sensors, q_plus, v_plus)
     s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
-    return np.concatenate((q_plus, v_plus, s, tail))
+    return flatten(State(q_plus, v_plus, s, tail))
 
 
 def clearance(tan_slope: float, drop: float, foot: Array) -> float:
@@ -289,9 +295,10 @@ def time_left(longest: float, start: float, t: float) -> float:
 
 
 def noticed(
-    loop: Loop, t: float, s: Array, tail: Array, q: Array, v: Array, mode: Mode
-) -> tuple[Measurement, Array, Array, Array]:
-    """What a controller is given at a sample instant t [s], in the labels that it believes in, and s, w, b.
+    loop: Loop, t: float, s: Any, tail: Tail, q: Array, v: Array, mode: Mode
+) -> tuple[Measurement, Any, Any, Belief]:
+    """What a controller is given at a sample instant t [s], in the labels that it believes in, and s, the
+    sensors' state and the belief.
 
     It senses q (n,) [rad], v (n,) [rad/s] in its labels. Where a touchdown is noticed these turn, a rate that
     the sensors derive from differences is relabelled, and the controller jumps; a new belief begins.
@@ -299,12 +306,12 @@ def noticed(
     k = loop.held
     assert k is not None
     assert k.touchdown is not None
-    h = read(k.sizes, tail)
-    old, force = belief_of(h.b), 0.0
+    assert tail.belief is not None
+    old, force = tail.belief, 0.0
     q_b, v_b = turned(loop, old.other, q, v)
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
-    w = k.sense(h.w, q_b, v_b)
+    w = k.sense(tail.sensors, q_b, v_b)
     q_seen, v_seen = k.reading(w, q_b, v_b)
     look = Look(
         t,
@@ -323,7 +330,7 @@ def noticed(
     if k.sensors is not None:
         w = chosen(fires, k.sensors.impact(w, q_b, v_b, loop.nominal.R @ v_seen), w)
     m = loop.measure(t, *k.reading(w, q_b, v_b), mode._replace(step=step, start=start))
-    return m, loop.jumped(fires, s, m), w, numbers_of(Belief(other, step, start, d))
+    return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
 
 def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
@@ -332,27 +339,21 @@ def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
     return chosen(other, model.relabel(q), q), chosen(other, model.R @ v, v)
 
 
-def chosen(which: float, one: Any, other: Any) -> Any:
-    """`one`, a number or an array, where `which` is 1, `other` where it is 0."""
-    return np.where(which > 0.5, one, other)
-
-
-def labelled(loop: Loop, b: Array, line: Line) -> Line:
+def labelled(loop: Loop, b: Belief, line: Line) -> Line:
     """Torques of the plant's joints in the labels of a belief b, and back: the same exchange of the legs."""
-    pairs = zip(line.relabelled(loop.swap), line, strict=True)
-    return Line(*(chosen(belief_of(b).other, *pair) for pair in pairs))
+    result: Line = chosen(b.other, line.relabelled(loop.swap), line)
+    return result
 
 
-def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> Array | None:
+def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
     """The observer's estimate of xi (p,) [rad/s^2] for the plant's joints, m the measurement in their labels.
 
     None without an observer.
     """
-    k = loop.held
-    if k is None or k.touchdown is None:
+    b = tail.belief if tail else None
+    if b is None:
         estimate = loop.calls.estimate(s, m)
         return None if estimate is None else estimate.disturbance
-    b = belief_of(read(k.sizes, tail).b)
     believed = mode._replace(step=b.step, start=b.start)
     seen = loop.measure(m.t, *turned(loop, b.other, m.q, m.v), believed)
     estimate = loop.calls.estimate(s, seen)
@@ -362,9 +363,7 @@ def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> 
     return chosen(b.other, relabelled(xi, loop.swap), xi)
 
 
-def unnoticed(k: HeldParts, b: Array, t: float) -> Array:
+def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:
     """A belief b after a true touchdown at t [s] of which the controller knows nothing."""
-    assert k.touchdown is not None
-    old = belief_of(b)
-    other = 1.0 - old.other
-    return numbers_of(old._replace(other=other, d=k.touchdown.touchdown(old.d, other, t)))
+    other = 1.0 - b.other
+    return b._replace(other=other, d=touchdown.touchdown(b.d, other, t))

@@ -26,12 +26,13 @@ from biped_adrc.closed_loop.protocols import (
     OnFeet,
     SteppingPlant,
 )
-from biped_adrc.closed_loop.semantics import after_contact, torque_held
+from biped_adrc.closed_loop.semantics import after_contact
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
@@ -96,11 +97,9 @@ class SteppingLoop(ClosedLoop[Any]):
         still = np.zeros(self.plant.n)
         return len(started(self.plant, 0.0, still, still, None)) - 2 * self.plant.n
 
-    @cached_property
-    def own_places(self) -> slice:
-        """Places in x of the plant's own numbers, counted from its end."""
-        assert self.held is not None
-        return slice(-self.behind, self.held.sizes.own - self.behind)
+    def own_places(self, x: Array) -> slice:
+        """Places in x (nx,) of the plant's own numbers."""
+        return self.layout_of(x).place("tail", "own")
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
@@ -114,40 +113,36 @@ class SteppingLoop(ClosedLoop[Any]):
         """
         mode = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, mode)
-        loop, engine = self.prepared(self.controller_size(x0))
+        loop, engine = self.prepared(x0)
         run = simulator.run(loop, x0, mode, None, options)
         return replace(run, settings={**run.settings, **engine})
 
-    def prepared(self, size: int) -> tuple[SteppingLoop, dict[str, str]]:
-        """The loop that runs, for a controller with `size` states, and the settings that say what runs."""
+    def prepared(self, x: Array) -> tuple[SteppingLoop, dict[str, str]]:
+        """The loop that runs from a state x (nx,), and the settings that say what runs."""
         return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
     def checked_start(self, x0: Array, options: RunOptions, mode: Mode) -> Array:
         """x0 (nx,) as an array. Raises InputError for one that is no state of this loop."""
         x, n = numbers(x0, "the initial state"), self.plant.n
         options.check(x)
-        size, expected = len(x), 2 * n + self.behind
-        if whole := expected <= size:
-            with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-                m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
-                expected += len(self.law.initial_state(m))
-        if size != expected:
-            has = f"{'' if whole else 'at least '}{expected}"
+        with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+            expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
+        if len(x) != expected:
             raise InputError(
-                f"the initial state has {size} numbers, and a loop with {type(self.controller).__name__} has "
-                f"{has}; expected what initial_state(q, v) of this loop gives"
+                f"the initial state has {len(x)} numbers, and a loop with {type(self.controller).__name__} has "
+                f"{expected}; expected what initial_state(q, v) of this loop gives"
             )
         return x
 
     def with_plant(self, x: Array, row: Array) -> Array:
         """x (nx,) with the plant in another state, its row (2 n + k,), all else kept."""
         x, n = x.copy(), self.plant.n
-        x[: 2 * n], x[self.own_places] = row[: 2 * n], row[2 * n :]
+        x[: 2 * n], x[self.own_places(x)] = row[: 2 * n], row[2 * n :]
         return x
 
     def row(self, x: Array) -> Array:
         """The plant's row (2 n + k,) in x (nx,), read-only."""
-        return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places])))
+        return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places(x)])))
 
     def mover(self, fired: str | None) -> Mover:
         """One function for all arcs; the plant does not need to know what fired."""
@@ -200,16 +195,14 @@ class SteppingLoop(ClosedLoop[Any]):
         plant, u = self.plant, x[..., -self.plant.p :]
         if not isinstance(plant, LaggingPlant):
             return u
-        return plant.motor_torque(x[..., self.own_places], u)
+        return plant.motor_torque(x[..., self.own_places(x)], u)
 
     def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """On stance and swing foot [N], as the plant says (`closed_loop.feet`)."""
-        k, plant = self.held, cast("Any", self.plant)
-        assert k is not None
-        row = np.concatenate((q, v, tail[: k.sizes.own]))
-        forces = plant.footing(row, torque_held(k, tail), self.load(t, row, mode)).force
+        plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
+        forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
 
     def found(
@@ -225,7 +218,7 @@ class SteppingLoop(ClosedLoop[Any]):
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
-        size = (2 * n + self.held.sizes.own,) if self.held else None
+        size = (2 * n + self.held.own,) if self.held else None
         row = returned(row, size, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
             raise NotFiniteError(
@@ -336,7 +329,7 @@ class Stretches(Record):
         at, v = of + np.arange(nodes) % 2, rows[:, n : 2 * n]
         a = np.vstack((np.diff(v, axis=0) / np.diff(t)[:, np.newaxis], np.zeros(n)))
         x = np.array(self.held)[of]
-        x[:, : 2 * n], x[:, self.loop.own_places] = rows[at, : 2 * n], rows[at, 2 * n :]
+        x[:, : 2 * n], x[:, self.loop.own_places(x[0])] = rows[at, : 2 * n], rows[at, 2 * n :]
         dx = np.zeros_like(x)
         dx[:, :n], dx[:, n : 2 * n] = v[at], a[of]
         zeta = np.array(self.zeta) if self.zeta else self.loop.zetas(t, rows, mode)

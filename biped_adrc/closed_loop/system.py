@@ -15,24 +15,24 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
-from biped_adrc.closed_loop.semantics import Instant
+from biped_adrc.closed_loop.semantics import Instant, State
 from biped_adrc.control.base import Controller, Measurement, check_methods, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
 from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends, check_timing
+from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.gait.reference import Reference, check_point
-from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
@@ -87,6 +87,8 @@ class Bounds(NamedTuple):
 
 
 P = TypeVar("P", bound=Plant)
+MADE_AGAIN = ("held", "calls", "layout")
+"""What a loop keeps besides its fields, and makes again where it is needed."""
 
 
 @dataclass(frozen=True)
@@ -161,14 +163,16 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """The methods of `law`; the states that they give are checked, as `saturate` checks the torque."""
         law = self.law
 
-        def kept(name: str, finite: bool = True) -> Callable[..., Array]:
+        def kept(name: str, finite: bool = True) -> Callable[..., Any]:
             method = getattr(law, name)
             if getattr(type(law), name) is getattr(Controller, name):
                 return method
 
-            def after(s: Array, m: Measurement, *more: Array) -> Array:
+            def after(s: Any, m: Measurement, *more: Array) -> Any:
                 result = method(s, m, *map(frozen, more))
-                return s if result is s else frozen(returned(result, s.shape, law, name, finite))
+                if result is s:
+                    return s
+                return frozen(returned_tree(result, Layout.of(s), law, name, finite))
 
             return after
 
@@ -189,12 +193,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        hardware = (self.sensors, self.motors, self.own, self.touchdown)
-        return held.held_parameters(n, p, time, *hardware)
+        return HeldParts.of(n, p, time, self.sensors, self.motors, self.own, self.touchdown)
 
     def __getstate__(self) -> dict[str, object]:
         """Without what is made again where it is needed."""
-        return {name: value for name, value in vars(self).items() if name not in ("held", "calls")}
+        return {name: value for name, value in vars(self).items() if name not in MADE_AGAIN}
 
     @property
     def own(self) -> int:
@@ -239,17 +242,23 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return self.disturbance.switching_times(mode.step, mode.start)
 
     # -- the state ---------------------------------------------------------------------------------
-    @cached_property
-    def behind(self) -> int:
-        """How many numbers of x come after the controller's state s."""
-        return 0 if self.held is None else self.held.sizes.total
+    def layout_of(self, x: Array) -> Layout:
+        """What x (nx,) is made of, found once from the controller's state at a start in its (q, v)."""
+        layout: Layout | None = vars(self).get("layout")
+        if layout is None:
+            n, mode = self.plant.n, Mode()
+            m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
+            layout = self._begun(m, self.law.initial_state(m), mode)[1]
+        return layout
 
-    def controller_size(self, x: Array | int) -> int:
-        """Numbers in s, from x (nx,) or from its length nx: nx - 2 n - `behind`."""
-        length = x if isinstance(x, int) else len(x)
-        return length - 2 * self.plant.n - self.behind
+    def _begun(self, m: Measurement, s: Any, mode: Mode) -> tuple[Array, Layout]:
+        """x (nx,) at the start of a run at m, with the state s of the controller, and its layout."""
+        tail = () if self.held is None else self.held.start(m.q, m.v, *mode)
+        state = State(m.q, m.v, s, tail)
+        layout = vars(self).setdefault("layout", Layout.of(state))
+        return flatten(state), layout
 
-    def split_state(self, x: Array) -> tuple[Array, Array, Array]:
+    def split_state(self, x: Array) -> tuple[Array, Array, Any]:
         """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
         return semantics.parts(self, x)[:3]
 
@@ -267,11 +276,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
             )
             for part in nested(self.law):
                 _check_tracking(part, m, self.plant.p)
-            s = returned(self.law.initial_state(m), None, self.law, "initial_state")
+            s = returned_tree(self.law.initial_state(m), None, self.law, "initial_state")
             check_methods(self.law, s, m, self.sampled)
-            k = self.held
-            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, mode)
-        return np.concatenate((m.q, m.v, s, tail))
+            return self._begun(m, s, mode)[0]
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
@@ -298,12 +305,12 @@ class ClosedLoop(HybridSystem, Generic[P]):
             returned(u, shape, self.controller, "output")
         return u
 
-    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+    def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
         return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
 
     def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N]; 0 where there is no ground."""
         return 0.0, 0.0
@@ -332,9 +339,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def relaxing(self) -> Relaxing | None:
         """Torques of motors with lag, which go to those asked of them."""
         k, p = self.held, self.plant.p
-        if k is None or not k.sizes.lag:
+        if k is None or k.motors.speed == 0.0:
             return None
-        at = -p * (k.sizes.waiting + 2)
+        at = k.line.place("u_m").start - k.line.size  # the line is the end of x
         return Relaxing(slice(at, at + p), slice(-p, None), k.motors.speed)
 
     def clocks(self) -> tuple[Clock, ...]:
@@ -345,7 +352,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         if not isinstance(time, SampledTime) or k is None:
             return ()
         control = Clock("control", time.period, self.tick, time.restart)
-        if not k.sizes.waiting:
+        if k.motors.fraction == 0.0:
             return (control,)
         after = k.motors.fraction * time.period
         return (control, Clock("motors", time.period, self._release, time.restart, after))

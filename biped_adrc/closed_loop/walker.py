@@ -39,7 +39,9 @@ from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import check_ends
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, Indices, read_only
+from biped_adrc.hardware.sample_hold import Tail
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
@@ -80,8 +82,8 @@ def remainder(
 ) -> tuple[Array, Array]:
     """N_w, and row 1 of N_E (p,), of the closed loop at (t, w, E), t in [s]."""
     i = semantics.instant(loop, t, form.back(w, E), mode)
-    rest, u = len(i.s) > form.order * form.p, loop.bounded(i.u)
-    ds = loop.calls.flow(i.s, i.measurement, u) if rest else i.s
+    s, u = flatten(i.s), loop.bounded(i.u)
+    ds = flatten(loop.calls.flow(i.s, i.measurement, u)) if len(s) > form.order * form.p else s
     xi_total = i.a[: form.p] - i.measurement.terms.kappa @ i.u
     dw = np.concatenate((w[form.n : 2 * form.n], i.a, ds[form.order * form.p :]))
     return dw, form.scale * xi_total
@@ -186,7 +188,7 @@ class Walker(ClosedLoop[Biped]):
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
 
     def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N]; the latter carries none."""
         return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)

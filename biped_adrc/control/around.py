@@ -31,14 +31,13 @@ of the touchdown itself is its `ResetPolicy`.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Self
-
-import numpy as np
+from typing import Any, Self
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.checks import NonNegativeFloat
 from biped_adrc.core.part import derived
 from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.tree import chosen
 from biped_adrc.core.types import Array, Indices, freeze
 from biped_adrc.observers.base import Estimate
 
@@ -56,31 +55,30 @@ class Around(Controller):
         """Whether the controller inside needs `Measurement.body`."""
         return self.inner.needs_body
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    @property
+    def reads_impulse(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The methods of the controller inside that read `Measurement.impulse`."""
+        return self.inner.reads_impulse
+
+    def output(self, s: Any, m: Measurement) -> Array:
         return self.inner.output(s, m)
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a)
-
-    def initial_state(self, m: Measurement) -> Array:
+    def initial_state(self, m: Measurement) -> Any:
         return self.inner.initial_state(m)
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.inner.flow(s, m, u)
 
-    def correct(self, s: Array, m: Measurement) -> Array:
+    def correct(self, s: Any, m: Measurement) -> Any:
         return self.inner.correct(s, m)
 
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_correct(s, m, a)
-
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.inner.predict(s, m, u)
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
         return self.inner.jump(s, after, swap)
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
         return self.inner.estimate(s, m)
 
     def sampled(self, period: float) -> Self:
@@ -99,11 +97,8 @@ class AddedTorque(Around):
     def __post_init__(self) -> None:
         freeze(self, "torque")
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         return self.inner.output(s, m) + self.torque
-
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a) + self.torque
 
 
 @dataclass(frozen=True)
@@ -130,6 +125,6 @@ class ContactWindow(AcrossContact):
 class Hold(ContactWindow):
     """A policy that restarts the observer of `inner` at each tick for `window` [s] after a touchdown."""
 
-    def correct(self, s: Array, m: Measurement) -> Array:
+    def correct(self, s: Any, m: Measurement) -> Any:
         fresh, run = self.inner.initial_state(m), self.inner.correct(s, m)
-        return np.where(m.t_step < self.until, fresh, run)
+        return chosen(m.t_step < self.until, fresh, run)

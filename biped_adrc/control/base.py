@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, NoReturn
+from typing import Any, ClassVar, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import one_line
+from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
@@ -59,6 +60,9 @@ class Measurement(NamedTuple):
     """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
     """elsewhere(q, v) -> the measurement in another state, at the same time; None outside of a closed loop."""
+    impulse: Array | None = None
+    """Changes of the rates (n, 2) [1/(kg m)] for each N s on the striking foot, which errors leave out; None
+    but for a controller inside `ImpactInvariant`, near a touchdown."""
 
     @property
     def q_b(self) -> Array:
@@ -106,55 +110,45 @@ class Controller(Part):
 
     needs_body: ClassVar[bool] = False
     """Whether `Measurement.body` has to be there."""
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
+    """The methods, of "output" and "correct", that leave the directions of `Measurement.impulse` out."""
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
         if no subclass writes it.
         """
         how = "write it: u (p,) [N m] from its state s and the Measurement m"
         self._has_no("method output(s, m)", how)
 
-    def initial_state(self, m: Measurement) -> Array:
-        """State s (size,) at the start of a run; empty (0,) for a controller without state."""
+    def initial_state(self, m: Measurement) -> Any:
+        """State s at the start of a run: an array, or a NamedTuple of arrays, numbers and states.
+
+        Empty (0,) for a controller without state.
+        """
         return np.zeros(0)
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """s' (size,) in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        """s' in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
         return s
 
-    def correct(self, s: Array, m: Measurement) -> Array:
-        """In sampled time: s (size,) corrected by the measurement of this sample instant."""
+    def correct(self, s: Any, m: Measurement) -> Any:
+        """In sampled time: s corrected by the measurement of this sample instant."""
         return s
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """In sampled time: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        """In sampled time: s at the next sample instant, under the applied torque u (p,) [N m]."""
         return s
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """State s (size,) of the controller after an impact, from s before it.
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        """State s of the controller after an impact, from s before it.
 
         after: the measurement after the impact. swap (p,): relabelling of the joints, for `types.relabelled`.
         """
         return s
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
         """Estimates of the p joints by an observer inside, for plots; None without one."""
         return None
-
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        """u (p,) [N m] as `output`, without the part of the rate error along the change of the rates a (n, 2).
-
-        For `impact_invariant`: an impulse of the striking foot changes the rates along a, and leaves this
-        torque unchanged. Raises InputError for a controller that has no such form.
-        """
-        self._has_no("rate error that could be projected")
-
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        """s (size,) as `correct`, without the part of the innovation along the change of the rates a (n, 2).
-
-        Raises InputError for a controller that has no such form.
-        """
-        self._has_no("innovation that could be projected")
 
     def sampled(self, period: float) -> Controller:
         """The same controller for ticks every `period` [s]; itself where its `predict` needs no other form."""
@@ -205,7 +199,7 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
         controller = getattr(controller, "inner", None)
 
 
-def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:
+def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool) -> None:
     """Check a controller's methods at the start of a run, in state s at m. Raises InputError.
 
     Arrays must have the right shape, as machine code would write past the end of the state; a user's method
@@ -215,14 +209,15 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     if not _is_own(controller):
         return
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
-    first = {"output": u}
+    first: dict[str, Any] = {"output": u}
     for name, method in calls.items():
         result = getattr(controller, name)(s, *method)
-        first[name] = returned(result, s.shape, controller, name, finite=False)
+        first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
         getattr(controller, name)(s, other, *method[1:])  # which a memory takes in
-        if not np.array_equal(first[name], getattr(controller, name)(s, *method), equal_nan=True):
+        again = getattr(controller, name)(s, *method)
+        if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "
                 "at the same instant; expected no memory in the object: return a state from initial_state, and "
@@ -245,5 +240,5 @@ class Passive(Controller):
     2
     """
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         return np.zeros(m.terms.kappa.shape[0])

@@ -43,12 +43,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from math import factorial
-from typing import Annotated, Self
+from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from biped_adrc.control.around import Around
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Measurement
 from biped_adrc.core.checks import PositiveFloat, Range
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
@@ -60,6 +60,24 @@ OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in ra
 """Order k; above 10 the coefficients cover more than ten decades, and the approximation gets no better."""
 
 
+class DelayState(NamedTuple):
+    """State of a `Delayed`."""
+
+    inner: Any
+    """Of the controller inside."""
+    R: Array
+    """Of the delay (k, p) [N m]."""
+
+
+class QueueState(NamedTuple):
+    """State of a `Predicted`."""
+
+    inner: Any
+    """Of the controller inside."""
+    U: Array
+    """Torques on their way (N, p) [N m], the oldest first."""
+
+
 @dataclass(frozen=True)
 class Delayed(Around):
     """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade
@@ -68,6 +86,8 @@ class Delayed(Around):
     known: whether the observer inside is fed with the torque that acts. torque_limit [N m]: of the command. It
     compiles around whatever compiles in continuous time. Raises InputError for numbers out of range.
     """
+
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     delay: PositiveFloat
     order: OrderInt = 4
@@ -84,46 +104,39 @@ class Delayed(Around):
         """The drives' own limit [N m], infinite for none."""
         return math.inf if self.torque_limit is None else float(self.torque_limit)
 
-    def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """Split the state s into that of the controller inside, and the states R (k, p) [N m] of the delay."""
-        size = len(s) - self.order * m.terms.kappa.shape[0]
-        return s[:size], s[size:].reshape(self.order, -1)
-
-    def asked(self, z: Array, m: Measurement) -> Array:
+    def asked(self, z: Any, m: Measurement) -> Array:
         """The command (p,) [N m] that enters the delay line, within the drives' own limit; z: the
         inner state.
         """
         u = self.inner.output(z, m)
         return np.minimum(np.maximum(u, -self.limit), self.limit)
 
-    def output(self, s: Array, m: Measurement) -> Array:
-        return self.pade[0] @ self.parts(s, m)[1]
+    def output(self, s: Any, m: Measurement) -> Array:
+        u: Array = self.pade[0] @ s.R
+        return u
 
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
-
-    def initial_state(self, m: Measurement) -> Array:
+    def initial_state(self, m: Measurement) -> Any:
         """The inner state at the start, with R as if its command had acted for long enough."""
         z = self.inner.initial_state(m)
         u = self.asked(z, m)
         R = np.zeros((self.order, len(u)))
         R[0] = u / self.pade[1][0]
-        return np.concatenate((z, R.ravel()))
+        return DelayState(z, R)
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        (z, R), (_, D), rate = self.parts(s, m), self.pade, 1.0 / self.delay
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        (z, R), (_, D), rate = s, self.pade, 1.0 / self.delay
         asked = self.asked(z, m)
         dz = self.inner.flow(z, m, u if self.known else asked)
         dR = np.zeros(R.shape)
         dR[:-1] = rate * R[1:]
         dR[-1] = rate * (asked - D[:-1] @ R) / D[-1]
-        return np.concatenate((dz, dR.ravel()))
+        return DelayState(dz, dR)
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        z, R = self.parts(s, after)
-        return np.concatenate((self.inner.jump(z, after, swap), relabelled(R, swap).ravel()))
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        return DelayState(self.inner.jump(s.inner, after, swap), relabelled(s.R, swap))
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        return self.inner.estimate(self.parts(s, m)[0], m)
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(s.inner, m)
 
     def sampled(self, period: float) -> Self:
         raise InputError(
@@ -168,6 +181,8 @@ class Predicted(Around):
     Raises InputError for d that is not positive, or longer than `timing.LONGEST_DELAY` periods.
     """
 
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
+
     prediction: float
     period: float | None = None
 
@@ -183,12 +198,6 @@ class Predicted(Around):
     def weights(self) -> tuple[Array, Array]:
         """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `weights`."""
         return weights(self.prediction, self.period or self.prediction)
-
-    def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """Split the state s into that of the controller inside, and the torques on their way U (N, p) [N m]."""
-        count, p = len(self.weights[0]), m.terms.kappa.shape[0]
-        end = len(s) - count * p
-        return s[:end], s[end:].reshape(count, p)
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
         """The measurement d later, predicted by the nominal model under the torques U (N, p) [N m].
@@ -206,32 +215,26 @@ class Predicted(Around):
         q, v = m.q + d * m.v + 0.5 * d**2 * a_q, m.v + d * a_v
         return m.elsewhere(q, v)._replace(t=m.t + d)
 
-    def output(self, s: Array, m: Measurement) -> Array:
-        z, U = self.parts(s, m)
-        return self.inner.output(z, self.ahead(U, m))
+    def output(self, s: Any, m: Measurement) -> Array:
+        return self.inner.output(s.inner, self.ahead(s.U, m))
 
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
-
-    def initial_state(self, m: Measurement) -> Array:
+    def initial_state(self, m: Measurement) -> Any:
         U = np.zeros((len(self.weights[0]), m.terms.kappa.shape[0]))
-        return np.concatenate((self.inner.initial_state(self.ahead(U, m)), U.ravel()))
+        return QueueState(self.inner.initial_state(self.ahead(U, m)), U)
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        z, U = self.parts(s, after)
-        U = relabelled(U, swap)
-        return np.concatenate((self.inner.jump(z, self.ahead(U, after), swap), U.ravel()))
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        U = relabelled(s.U, swap)
+        return QueueState(self.inner.jump(s.inner, self.ahead(U, after), swap), U)
 
-    def correct(self, s: Array, m: Measurement) -> Array:
-        z, U = self.parts(s, m)
-        return np.concatenate((self.inner.correct(z, self.ahead(U, m)), U.ravel()))
+    def correct(self, s: Any, m: Measurement) -> Any:
+        return s._replace(inner=self.inner.correct(s.inner, self.ahead(s.U, m)))
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        z, U = self.parts(s, m)
-        return np.concatenate((self.inner.predict(z, self.ahead(U, m), u), U[1:].ravel(), u))
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        z = self.inner.predict(s.inner, self.ahead(s.U, m), u)
+        return QueueState(z, np.concatenate((s.U[1:], u[np.newaxis])))
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        z, U = self.parts(s, m)
-        return self.inner.estimate(z, self.ahead(U, m))
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(s.inner, self.ahead(s.U, m))
 
     def sampled(self, period: float) -> Self:
         return replace(self, inner=self.inner.sampled(period), period=period)

@@ -21,8 +21,7 @@ inertia. It is a quadratic program in closed form, q_b'' = a + G' d / |G|^2, whe
 nearer bound, 0 inside.
 
 The bounds never exclude each other, but the limit of the torque, which is not in the program, may. An instant
-at which the torque that acts does not keep them is *infeasible*; in sampled time the last number of the state
-counts them.
+at which the torque that acts does not keep them is *infeasible*; in sampled time the state counts them.
 
 Nguyen, Hereid, Grizzle, Ames, Sreenath, 3D dynamic walking on stepping stones with control barrier functions,
 CDC 2016; Nguyen, Sreenath, Exponential control barrier functions, ACC 2016.
@@ -36,8 +35,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.control.around import Around
-from biped_adrc.control.base import Controller, Measurement, nested
-from biped_adrc.control.outer_loop import OuterLoop, own_reference, tracked_constraint
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.outer_loop import own_reference, tracked_constraint
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices
@@ -61,9 +60,18 @@ class FootError(NamedTuple):
     g: float
 
 
+class BarrierState(NamedTuple):
+    """State of a `FootBarrier`."""
+
+    inner: Any
+    """Of the controller inside."""
+    infeasible: float
+    """Number of infeasible instants so far."""
+
+
 @dataclass(frozen=True)
 class FootBarrier(Around):
-    """The module's filter around `inner`; its state is that of `inner` and the number of infeasible instants.
+    """The module's filter around `inner`; its state is a `BarrierState`.
 
     biped: the robot of the nominal model. stones: L of the steps [m], the first one first; behind the last one
     nothing is filtered. step: L_r [m], None for a reference that steps on the stones, as in `Footstep`.
@@ -137,9 +145,9 @@ class FootBarrier(Around):
             x - x_c, dx - slope * dx_r, G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N
         )
 
-    def missing(self, s: Array, m: Measurement, u: Array) -> tuple[float, Array]:
-        """d [m/s^2] under the torque u (p,) [N m], and G (p,) [m]."""
-        x = self.inner.estimate(s[:-1], m) if self.observed else None
+    def missing(self, s: Any, m: Measurement, u: Array) -> tuple[float, Array]:
+        """d [m/s^2] under the torque u (p,) [N m], and G (p,) [m]; s: state of the controller inside."""
+        x = self.inner.estimate(s, m) if self.observed else None
         f, xi, k = self.error(m), m.terms.xi if x is None else x.disturbance, self.rate
         y = f.G @ (m.terms.kappa @ u + xi) + f.g + 2.0 * k * f.de + k * k * f.e
         bound = k * k * self.tolerance
@@ -147,44 +155,38 @@ class FootBarrier(Around):
         d = np.where(m.step < len(self.stones) + 0.5, d, 0.0)
         return d, f.G
 
-    def filtered(self, s: Array, m: Measurement, u: Array) -> Array:
-        """The torque (p,) [N m] of the program, from that of the controller inside."""
+    def filtered(self, s: Any, m: Measurement, u: Array) -> Array:
+        """The torque (p,) [N m] of the program, from that of the controller inside, in its state s."""
         d, G = self.missing(s, m, u)
         return u + m.terms.kappa_inverse @ (G * (d / (G @ G)))
 
-    def output(self, s: Array, m: Measurement) -> Array:
-        return self.filtered(s, m, self.inner.output(s[:-1], m))
+    def output(self, s: Any, m: Measurement) -> Array:
+        return self.filtered(s.inner, m, self.inner.output(s.inner, m))
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.filtered(s, m, self.inner.projected_output(s[:-1], m, a))
+    def initial_state(self, m: Measurement) -> Any:
+        return BarrierState(self.inner.initial_state(m), 0.0)
 
-    def initial_state(self, m: Measurement) -> Array:
-        return np.append(self.inner.initial_state(m), 0.0)
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        return BarrierState(self.inner.flow(s.inner, m, u), 0.0)
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        return np.append(self.inner.flow(s[:-1], m, u), 0.0)
+    def correct(self, s: Any, m: Measurement) -> Any:
+        return s._replace(inner=self.inner.correct(s.inner, m))
 
-    def correct(self, s: Array, m: Measurement) -> Array:
-        return np.append(self.inner.correct(s[:-1], m), s[-1])
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > ROUND_OFF, 1.0, 0.0)
+        return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        return np.append(self.inner.projected_correct(s[:-1], m, a), s[-1])
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        return s._replace(inner=self.inner.jump(s.inner, after, swap))
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        infeasible = np.where(abs(self.missing(s, m, u)[0]) > ROUND_OFF, 1.0, 0.0)
-        return np.append(self.inner.predict(s[:-1], m, u), s[-1] + infeasible)
-
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        return np.append(self.inner.jump(s[:-1], after, swap), s[-1])
-
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        return self.inner.estimate(s[:-1], m)
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(s.inner, m)
 
 
-def infeasible_instants(controller: Controller, s: Array) -> int | None:
-    """How many instants were infeasible until the state s (size,) of a controller; None without a barrier."""
-    for c in nested(controller):
-        if isinstance(c, FootBarrier):
-            return round(float(s[-1])) if np.isfinite(s[-1]) else None
-        s = c.parts(s)[0] if isinstance(c, OuterLoop) else s
-    return None
+def infeasible_instants(s: Any) -> int | None:
+    """How many instants were infeasible until the state s of a controller; None without a barrier."""
+    while not isinstance(s, BarrierState):
+        if not hasattr(s, "inner"):
+            return None
+        s = s.inner
+    return round(float(s.infeasible)) if np.isfinite(s.infeasible) else None

@@ -37,6 +37,7 @@ from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import GaitError, ReachError
 from biped_adrc.core.part import derived, with_fields
+from biped_adrc.core.tree import chosen
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction, VirtualConstraint
 from biped_adrc.gait.family import DECISION, GaitFamily, load_family
@@ -97,7 +98,7 @@ class StepCurve:
 
 
 class StepState(NamedTuple):
-    """What the state w of a `Footstep` holds, in this order."""
+    """State w of a `Footstep`."""
 
     begin: float
     """v- [m/s]."""
@@ -114,17 +115,7 @@ class StepState(NamedTuple):
     plus: float
     """Theta where the step began [rad]."""
     reset: Array
-    """Coefficients of the reset (2 p,)."""
-
-    @classmethod
-    def of(cls, w: Array) -> StepState:
-        """The parts of w."""
-        return cls(w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7:])
-
-    @property
-    def flat(self) -> Array:
-        """w."""
-        return np.concatenate((np.array(self[:-1]), self.reset))
+    """Coefficients of the reset (2, p)."""
 
 
 def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
@@ -206,20 +197,14 @@ class Footstep(OuterLoop):
         """The constraint of the controller inside, whose place the family's takes."""
         return tracked_constraint(self.inner)
 
-    @property
-    def own_size(self) -> int:
-        return 7 + 2 * (len(self.family.phase) - 1)
-
-    def correction(self, w: Array) -> Correction:
-        x = StepState.of(w)
-        reset = x.reset.reshape(2, -1)
-        return StepCurve(self.family, x.begin, x.end, x.L, x.plus, reset, self.base)
+    def correction(self, w: StepState) -> Correction:
+        return StepCurve(self.family, w.begin, w.end, w.L, w.plus, w.reset, self.base)
 
     def length(self, step: int) -> float:
         """L [m] of a single support: of its stone, or the usual one."""
         return length_of(self.stones, step, self.step)
 
-    def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> Array:
+    def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> StepState:
         """w of a step that begins at m on the member v [m/s], after steps of length `earlier` and `before` [m].
 
         The slope after impact is that of the family, since rates measured just after an impact are noisy.
@@ -227,29 +212,28 @@ class Footstep(OuterLoop):
         L, plus = self.length(m.step), float(self.family.phase @ m.q)
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
         reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
-        return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset.ravel()).flat
+        return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset)
 
-    def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """w (own_size,) at the start of a run; one that starts later than EARLY goes on along the member."""
+    def own_start(self, h: Constraint, m: Measurement) -> StepState:
+        """w at the start of a run; one that starts later than EARLY goes on along the member."""
         w = self.begun(self.speed, self.step, self.step, 0.0, m)
-        x = StepState.of(w)
-        _, plus, minus = self.family.curve(np.array((self.speed, x.L)))
-        early = (x.plus - plus) / (minus - plus) < EARLY
-        return np.where(early, w, x._replace(plus=plus, reset=0.0 * x.reset).flat)
+        _, plus, minus = self.family.curve(np.array((self.speed, w.L)))
+        early = (w.plus - plus) / (minus - plus) < EARLY
+        result: StepState = chosen(early, w, w._replace(plus=plus, reset=0.0 * w.reset))
+        return result
 
-    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        x = StepState.of(w)
-        return self.begun(x.end, x.before, x.L, x.r, after)
+    def own_jump(self, w: StepState, h: Constraint, after: Measurement) -> StepState:
+        return self.begun(w.end, w.before, w.L, w.r, after)
 
-    def own_correct(self, w: Array, m: Measurement) -> Array:
-        T, omega, x = self.period, self.bandwidth, StepState.of(w)
+    def own_correct(self, w: StepState, m: Measurement) -> StepState:
+        T, omega, x = self.period, self.bandwidth, w
         e = m.terms.D[-1] @ m.v - x.sigma
         r = x.r + T * omega**2 * e
         sigma = x.sigma + T * (x.r - body_of(m).G[-1] + 2.0 * omega * e)
         minus = self.family.curve(np.array((x.begin, x.L)))[2]
         early = (self.family.phase @ m.q - x.plus) / (minus - x.plus) < DECISION
         end = np.where(early, self.decision(x, sigma**2, r, m.step), x.end)
-        return x._replace(end=end, sigma=sigma, r=r).flat  # type: ignore[arg-type]
+        return x._replace(end=end, sigma=sigma, r=r)  # type: ignore[arg-type]
 
     def decision(self, x: StepState, y: float, r: float, step: int) -> float:
         """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support `step`, the module's equation."""

@@ -19,6 +19,7 @@ gives xi. share = 1 is the friction of the robot's record, 0 the controller insi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -58,19 +59,16 @@ class FrictionFeedforward(Around):
         dq_d, (viscous, static) = self.path(m.t, m.q, m.v).dq_d, self.coefficients
         return viscous * dq_d + static * np.tanh(dq_d / STICTION_SPEED)
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: Any, m: Measurement) -> Array:
         return self.inner.output(s, m) + self.friction(m)
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a) + self.friction(m)
-
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.inner.flow(s, m, u - self.friction(m))
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         return self.inner.predict(s, m, u - self.friction(m))
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
         x = self.inner.estimate(s, m)
         if x is None:
             return None

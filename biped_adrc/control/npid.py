@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
@@ -34,6 +35,17 @@ from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.gait.reference import Reference
+
+
+class FilterState(NamedTuple):
+    """State of an `NPIDController`, or its rate; each (p,)."""
+
+    e: Array
+    """Filtered error e_f [rad]."""
+    de: Array
+    """Its rate e_f' [rad/s]."""
+    total: Array
+    """Its integral s [rad s]."""
 
 
 @dataclass(frozen=True)
@@ -98,37 +110,33 @@ class NPIDController(Controller):
         held = expm(np.block([[A, b[:, np.newaxis]], [np.zeros((1, 4))]]) * self.period)
         return held[:3, :3].copy(), held[:3, 3].copy()
 
-    def output(self, s: Array, m: Measurement) -> Array:
+    def output(self, s: FilterState, m: Measurement) -> Array:
         r = self.reference(m.t, m.q, m.v)
-        e_f, de_f, total = s.reshape(3, -1)
-        f = -self.gains.K_p * e_f - self.gains.K_d * de_f - self.K_i * total
+        f = -self.gains.K_p * s.e - self.gains.K_d * s.de - self.K_i * s.total
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
-    def initial_state(self, m: Measurement) -> Array:
-        """Rows e_f, e_f', s (3 p,) of the filter, with the measured error and its rate, and no integral."""
+    def initial_state(self, m: Measurement) -> FilterState:
+        """The filter with the measured error and its rate, and no integral."""
         r = self.reference(m.t, m.q, m.v)
         e, de = m.q_b - r.q_d, m.v_b - r.dq_d
-        return np.concatenate((e, de, np.zeros(len(e))))
+        return FilterState(e, de, np.zeros(len(e)))
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+    def flow(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
         return self._filtered(s, m)
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
         return self._filtered(s, m)
 
-    def _filtered(self, s: Array, m: Measurement) -> Array:
-        """M Z + b e (3 p,) of the filter, with the error e of this measurement: Z' in continuous time, Z
+    def _filtered(self, s: FilterState, m: Measurement) -> FilterState:
+        """M Z + b e of the filter, with the error e of this measurement: Z' in continuous time, Z
         one period later in sampled time.
         """
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
-        return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
+        return FilterState(*(M @ np.array(s) + np.outer(b, e)))
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """Rows e_f, e_f', s (3 p,) of the filter after impact: a new start, but for the integral
-        s, relabelled by swap (p,).
-        """
-        p = len(swap)
-        return np.concatenate((self.initial_state(after)[: 2 * p], relabelled(s[2 * p :], swap)))
+    def jump(self, s: FilterState, after: Measurement, swap: Indices) -> FilterState:
+        """The filter after impact: a new start, but for the integral, relabelled by swap (p,)."""
+        return self.initial_state(after)._replace(total=relabelled(s.total, swap))
 
     def sampled(self, period: float) -> NPIDController:
         return replace(self, period=period)

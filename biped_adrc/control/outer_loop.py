@@ -1,6 +1,6 @@
 """Outer loops: around a controller that tracks a virtual constraint, a state that corrects the constraint.
 
-    h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (s_inner, w)
+    h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (inner, own),   own = w
 
 w is the loop's own state; it changes at impact, and between impacts only by `own_flow`. The inner controller,
 whichever it is, tracks the sum. Outer loops can be nested: their corrections add up.
@@ -15,14 +15,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
+from typing import Any, ClassVar, NamedTuple
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement, nested
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import with_fields
+from biped_adrc.core.tree import zeros_like
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
 from biped_adrc.gait.reference import Reference, ReferencePoint
@@ -31,90 +30,80 @@ from biped_adrc.observers.base import ErrorSystem, Estimate
 Constraint = VirtualConstraint | CorrectedConstraint
 
 
+class LoopState(NamedTuple):
+    """State of an outer loop."""
+
+    inner: Any
+    """Of the controller inside."""
+    own: Any
+    """w, the loop's own."""
+
+
 @dataclass(frozen=True)
 class OuterLoop(Around):
     """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
 
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
+
     def __post_init__(self) -> None:
         tracked_constraint(self.inner)
 
-    @property
     @abstractmethod
-    def own_size(self) -> int:
-        """Number of the loop's own states w."""
+    def own_start(self, h: Constraint, m: Measurement) -> Any:
+        """w at the start of a run; h is the constraint that the inner controller tracks."""
 
     @abstractmethod
-    def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """w (own_size,) at the start of a run; h is the constraint that the inner controller tracks."""
+    def own_jump(self, w: Any, h: Constraint, after: Measurement) -> Any:
+        """w after impact, from w before it; h is the constraint that the inner controller then tracks."""
 
     @abstractmethod
-    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        """w (own_size,) after impact, from w before it; h is the constraint that the
-        inner controller then tracks.
-        """
-
-    @abstractmethod
-    def correction(self, w: Array) -> Correction:
-        """The correction c(Theta; w) for this w (own_size,), a function of Theta [rad].
+    def correction(self, w: Any) -> Correction:
+        """The correction c(Theta; w) for this w, a function of Theta [rad].
 
         It returns c, dc/dTheta, d2c/dTheta2, each (p,).
         """
 
-    def own_flow(self, w: Array) -> Array:
-        """w' (own_size,) in continuous time; zero by default."""
-        return np.zeros(self.own_size)
+    def own_flow(self, w: Any) -> Any:
+        """w' in continuous time; zero by default."""
+        return zeros_like(w)
 
-    def own_correct(self, w: Array, m: Measurement) -> Array:
-        """w (own_size,) after the measurement of a sample instant; unchanged by default."""
+    def own_correct(self, w: Any, m: Measurement) -> Any:
+        """w after the measurement of a sample instant; unchanged by default."""
         return w
 
-    def parts(self, s: Array) -> tuple[Array, Array]:
-        """s_inner, and w (own_size,), which is the end of s."""
-        end = len(s) - self.own_size
-        return s[:end], s[end:]
-
-    def _acting(self, w: Array) -> Controller:
+    def _acting(self, w: Any) -> Controller:
         """The inner controller with its constraint corrected by c(Theta; w)."""
         return with_correction(self.inner, self.correction(w))
 
     # -- what a controller does ------------------------------------------------------------------
-    def output(self, s: Array, m: Measurement) -> Array:
-        z, w = self.parts(s)
-        return self._acting(w).output(z, m)
+    def output(self, s: Any, m: Measurement) -> Array:
+        return self._acting(s.own).output(s.inner, m)
 
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
-
-    def initial_state(self, m: Measurement) -> Array:
+    def initial_state(self, m: Measurement) -> Any:
         z = self.inner.initial_state(m)
-        s = np.concatenate((z, self.own_start(reference_in_force(self.inner, z), m)))
-        core, end = innermost(self, s)
-        return np.concatenate((core.initial_state(m), s[end:]))
+        s = LoopState(z, self.own_start(reference_in_force(self.inner, z), m))
+        return with_core(self, s, innermost(self, s).initial_state(m))
 
-    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        z, w = self.parts(s)
-        dz = self._acting(w).flow(z, m, u) if len(z) else z
-        return np.concatenate((dz, self.own_flow(w)))
+    def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        return LoopState(self._acting(s.own).flow(s.inner, m, u), self.own_flow(s.own))
 
-    def correct(self, s: Array, m: Measurement) -> Array:
-        z, w = self.parts(s)
-        return np.concatenate((self._acting(w).correct(z, m), self.own_correct(w, m)))
+    def correct(self, s: Any, m: Measurement) -> Any:
+        return LoopState(self._acting(s.own).correct(s.inner, m), self.own_correct(s.own, m))
 
-    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        z, w = self.parts(s)
-        return np.concatenate((self._acting(w).predict(z, m, u), w))
+    def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        return LoopState(self._acting(s.own).predict(s.inner, m, u), s.own)
 
-    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        z, w = self.parts(s)
-        z = self.inner.jump(z, after, swap)
-        state = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
-        core, end = innermost(self, state)
-        return np.concatenate((core.jump(s[:end], after, swap), state[end:]))
+    def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        z = self.inner.jump(s.inner, after, swap)
+        state = LoopState(z, self.own_jump(s.own, reference_in_force(self.inner, z), after))
+        before = core_state(self, s)
+        return with_core(self, state, innermost(self, state).jump(before, after, swap))
 
     def error_system(self) -> ErrorSystem | None:
         return self.inner.error_system()
 
-    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        return self.inner.estimate(self.parts(s)[0], m)
+    def estimate(self, s: Any, m: Measurement) -> Estimate | None:
+        return self.inner.estimate(s.inner, m)
 
 
 OF_A_LOOP = "an outer loop corrects the virtual constraint of its inner controller"
@@ -150,16 +139,14 @@ def tracking(controller: Controller, reference: Constraint) -> Controller:
     return with_fields(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined]
 
 
-def reference_in_force(controller: Controller, s: Array) -> Constraint:
-    """The reference that a controller tracks in its state s (size,), all corrections included.
+def reference_in_force(controller: Controller, s: Any) -> Constraint:
+    """The reference that a controller tracks in its state s, all corrections included.
 
     Raises InputError as `tracked_constraint`.
     """
     if isinstance(controller, OuterLoop):
-        z, w = controller.parts(s)
-        return CorrectedConstraint(
-            reference_in_force(controller.inner, z), controller.correction(w)
-        )
+        h = reference_in_force(controller.inner, s.inner)
+        return CorrectedConstraint(h, controller.correction(s.own))
     return own_reference(controller) or tracked_constraint(controller)
 
 
@@ -168,24 +155,33 @@ def tracked_by(law: Controller, reference: Reference | OuterLoop) -> Reference |
     return law if isinstance(law, OuterLoop) else reference
 
 
-def tracked_point(h: Reference | OuterLoop, s: Array, m: Measurement) -> ReferencePoint:
+def tracked_point(h: Reference | OuterLoop, s: Any, m: Measurement) -> ReferencePoint:
     """The point at the measurement m of a reference, or of what an outer loop with state s has in force."""
     r = reference_in_force(h, s) if isinstance(h, OuterLoop) else h
     return r(m.t, m.q, m.v)
 
 
-def innermost(loop: OuterLoop, s: Array) -> tuple[Controller, int]:
-    """The controller inside all outer loops, tracking the reference in force in s
-    (size,), and its number of states.
+def innermost(loop: OuterLoop, s: LoopState) -> Controller:
+    """The controller inside all outer loops, tracking the reference in force in the state s.
 
-    Its states are the first ones of s. An observer of outputs starts from the error of the
-    reference in force, not of h alone.
+    An observer of outputs starts from the error of the reference in force, not of h alone.
     """
     core: Controller = loop
-    size = len(s)
     while isinstance(core, OuterLoop):
-        size, core = size - core.own_size, core.inner
-    return tracking(core, reference_in_force(loop, s)), size
+        core = core.inner
+    return tracking(core, reference_in_force(loop, s))
+
+
+def core_state(controller: Controller, s: Any) -> Any:
+    """The state of the controller inside all outer loops, in a state s of the outermost."""
+    return core_state(controller.inner, s.inner) if isinstance(controller, OuterLoop) else s
+
+
+def with_core(controller: Controller, s: Any, core: Any) -> Any:
+    """A state s of nested outer loops with another state of the controller inside all of them."""
+    if not isinstance(controller, OuterLoop):
+        return core
+    return s._replace(inner=with_core(controller.inner, s.inner, core))
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:

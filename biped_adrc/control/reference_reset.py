@@ -89,21 +89,17 @@ class ReferenceReset(OuterLoop):
         reach = self.share * (h.theta_minus - h.theta_plus)
         return h.theta_plus + reach, -1.0 / reach
 
-    @property
-    def own_size(self) -> int:
-        return 2 * tracked_constraint(self.inner).curve.coefficients.shape[0]
-
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """(a_0, a_1) flat (2 p,) for the reference h in force; zero where there is nothing to correct."""
+        """(a_0, a_1) (2, p) for the reference h in force; zero where there is nothing to correct."""
         r, c, (end, rate) = h(m.t, m.q, m.v), tracked_constraint(self.inner).phase, self.range
         dtheta, x = c @ m.v, rate * (c @ m.q - end)
         bends = (x >= LEAST_REACH) * (dtheta * rate < 0.0)
         slope = (m.v_b - r.dq_d) / np.where(bends, dtheta, 1.0)
-        a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope).ravel()
+        a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope)
         return np.where(bends, a, 0.0)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
         return self.own_start(h, after)
 
     def correction(self, w: Array) -> Correction:
-        return ResetPolynomial(w.reshape(2, -1), *self.range)
+        return ResetPolynomial(w, *self.range)

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constra
 from biped_adrc.core.checks import Checked, FiniteFloat, PositiveFloat
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
+from biped_adrc.core.tree import chosen
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.gait import Gait
@@ -75,10 +77,21 @@ class StrideGains(Checked):
     limit: PositiveFloat = 0.3
 
 
+class StrideState(NamedTuple):
+    """State w of a `StridePI`."""
+
+    tau: float
+    """Time since the single support began [s]."""
+    I: float  # noqa: E741
+    """Integral of the speed's errors [m/s]."""
+    beta: float
+    """Amplitude of the correction [rad]."""
+
+
 @dataclass(frozen=True)
 class StridePI(OuterLoop):
-    """An outer loop, the PI on the walking speed around `inner`; its state is (tau, I,
-    beta). Make it with `on_gait`.
+    """An outer loop, the PI on the walking speed around `inner`; its state is a
+    `StrideState`. Make it with `on_gait`.
 
     speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError for a speed or length that is not
     positive, and for a direction that has not p finite numbers.
@@ -120,33 +133,30 @@ class StridePI(OuterLoop):
             inner, length / gait.period if speed is None else speed, length, direction, gains
         )
 
-    @property
-    def own_size(self) -> int:
-        return 3
+    def own_start(self, h: Constraint, m: Measurement) -> StrideState:
+        return StrideState(m.t_step, 0.0, 0.0)
 
-    def own_start(self, h: Constraint, m: Measurement) -> Array:
-        return np.array((m.t_step, 0.0, 0.0))
+    def own_flow(self, w: StrideState) -> StrideState:
+        return StrideState(1.0, 0.0, 0.0)
 
-    def own_flow(self, w: Array) -> Array:
-        return np.array((1.0, 0.0, 0.0))
+    def own_correct(self, w: StrideState, m: Measurement) -> StrideState:
+        return w._replace(tau=m.t_step)
 
-    def own_correct(self, w: Array, m: Measurement) -> Array:
-        return np.array((m.t_step, w[1], w[2]))
-
-    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
+    def own_jump(self, w: StrideState, h: Constraint, after: Measurement) -> StrideState:
         return self.stepped(w)
 
-    def stepped(self, w: Array) -> Array:
-        """State (tau, I, beta) (3,) after an impact: I and beta by the PI on the speed of the
+    def stepped(self, w: StrideState) -> StrideState:
+        """State after an impact: I and beta by the PI on the speed of the
         step just finished, bounded.
 
         With tau = 0, as when a run starts at the impact, no step has been timed and the state stays as it is.
         """
-        timed, k = w[0] > 0.0, self.gains
-        e = self.speed - self.step_length / np.where(timed, w[0], 1.0)
-        I = np.minimum(np.maximum(w[1] + e, -self.most_I), self.most_I)  # noqa: E741
+        timed, k = w.tau > 0.0, self.gains
+        e = self.speed - self.step_length / np.where(timed, w.tau, 1.0)
+        I = np.minimum(np.maximum(w.I + e, -self.most_I), self.most_I)  # noqa: E741
         beta = np.minimum(np.maximum(k.K_P * e + k.K_I * I, -k.limit), k.limit)
-        return np.where(timed, np.array((0.0, I, beta)), w)
+        result: StrideState = chosen(timed, StrideState(0.0, I, beta), w)
+        return result
 
     @derived
     def most_I(self) -> float:
@@ -159,5 +169,5 @@ class StridePI(OuterLoop):
         h = tracked_constraint(self.inner)
         return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
 
-    def correction(self, w: Array) -> Correction:
-        return Bump(w[2] * np.array(self.direction), *self.phase)
+    def correction(self, w: StrideState) -> Correction:
+        return Bump(w.beta * np.array(self.direction), *self.phase)

@@ -181,9 +181,9 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     x = walker.initial_state(case.q, case.v, case.mode)
     options.check(x)
     walker.check_foot(case.q, case.v, case.mode)
-    size = walker.controller_size(x)
+    layout = walker.layout_of(x)
     try:
-        compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
+        compiled = CompiledWalker.of(walker, case.method, layout, case.mode.start, case.curve)
     except (NotCompiled, ModelError):
         try:
             run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))

@@ -27,7 +27,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from operator import methodcaller
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import casadi as ca
 import numpy as np
@@ -38,6 +38,7 @@ from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import OuterLoop, tracked_point
+from biped_adrc.core.tree import Layout, chosen
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
@@ -45,7 +46,6 @@ from biped_adrc.engine.symbols import (
     NotCompiled,
     Scalar,
     Vector,
-    chosen,
     column,
     maximum,
     minimum,
@@ -54,7 +54,7 @@ from biped_adrc.engine.symbols import (
 )
 from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.gait.reference import Reference
-from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.model.planar_robot import PlanarRobot
 
 T = TypeVar("T")
@@ -79,6 +79,8 @@ class SymbolicLoop(NamedTuple):
     """The controller's methods in its time base."""
     held: HeldParts | None
     """Parameters of what is held between sample instants, None in continuous time."""
+    layout: Layout
+    """Of a state x."""
     torques: list[Scalar]
     """All torques so far; none may be beyond `numbers.strongest`."""
     zeta: Array
@@ -100,6 +102,10 @@ class SymbolicLoop(NamedTuple):
         """Relative errors of v+ (n,) [1], or empty."""
         return self.numbers.impact_gain
 
+    def layout_of(self, x: Array) -> Layout:
+        """The layout of all states."""
+        return self.layout
+
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no method asks
         for leaves no code.
@@ -111,13 +117,12 @@ class SymbolicLoop(NamedTuple):
         limit = self.numbers.torque_limit
         return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
 
-    def jumped(self, fires: float, s: Array, m: Measurement) -> Array:
+    def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
-        after: Array = chosen(fires > 0.5, self.calls.jump(s, m, self.swap), s)
-        return after
+        return self.trace(chosen)(fires, self.calls.jump(s, m, self.swap), s)
 
     def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Array, mode: Mode
+        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on both feet [N]: `force` where the plant moves by itself."""
         if self.numbers.moves:
@@ -193,10 +198,6 @@ class WalkerNumbers(NamedTuple):
     moves: bool = False
     """Whether the plant moves by itself, and has sample instants alone."""
 
-    def nx(self, size: int) -> int:
-        """Numbers in a state: 2 n, `size` of the controller, and what is held."""
-        return 2 * self.plant.n + size + (self.held.sizes.total if self.held else 0)
-
 
 class SymbolicFunction(NamedTuple):
     """`void f(double* K, double* inp, double* out)` as CasADi's columns: out as an expression of K and inp."""
@@ -215,8 +216,8 @@ class SymbolicFunction(NamedTuple):
 class Equations:
     """The functions of one structure, each traced when it is asked for."""
 
-    size: int
-    """Numbers in the controller's state."""
+    layout: Layout
+    """Of a state x."""
     numbers: WalkerNumbers
     """The numbers by name."""
 
@@ -228,7 +229,7 @@ class Equations:
     @property
     def nx(self) -> int:
         """Numbers in a state."""
-        return self.numbers.nx(self.size)
+        return self.layout.size
 
     @property
     def names(self) -> list[str]:
@@ -244,7 +245,7 @@ class Equations:
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
         calls = ControlLaw(*(partial(run, trace, getattr(law, x)) for x in ControlLaw._fields))
-        return SymbolicLoop(plant, model, K, trace, calls, held, [], zeta, force)
+        return SymbolicLoop(plant, model, K, trace, calls, held, self.layout, [], zeta, force)
 
     def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""

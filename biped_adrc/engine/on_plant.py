@@ -65,7 +65,7 @@ class CompiledLoop(SteppingLoop):
     pushes: list[Call] | None = None
     """Terms of its disturbance; None for Python."""
 
-    def prepared(self, size: int) -> tuple[CompiledLoop, dict[str, str]]:
+    def prepared(self, x: Array) -> tuple[CompiledLoop, dict[str, str]]:
         """As `SteppingLoop.prepared`, with work space of its own.
 
         What cannot be compiled still gets the terms of its model and its references in machine code, where they
@@ -78,7 +78,7 @@ class CompiledLoop(SteppingLoop):
             if not isinstance(self.model, Biped):
                 raise NotCompiled(f"the model is a {type(self.model).__name__}, expected a Biped")
             numbers = controller_numbers(robot_of(self.model), self)._replace(moves=True)
-            values["program"] = Program(size, numbers)
+            values["program"] = Program(self.layout_of(x), numbers)
             _ = values["program"].machine
         except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}

@@ -25,6 +25,7 @@ from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum
 from biped_adrc.engine import equations
@@ -65,7 +66,7 @@ class Program(Equations):
     @cached_property
     def key(self) -> Hashable:
         """What decides the code, but that of readings."""
-        return self.size, structure(self.numbers._replace(curve=None))
+        return self.layout, structure(self.numbers._replace(curve=None))
 
     @cached_property
     def machine(self) -> LoadedCode:
@@ -131,6 +132,15 @@ def push_code(term: Disturbance, n: int) -> LoadedCode:
     return generated(("push", n, structure(term)), {"push": partial(equations.push, term, n)})
 
 
+def at_rest(layout: Layout) -> Layout:
+    """A layout of the same size; controller, sensors and belief are rows of numbers that nothing reads."""
+    q, v, s, tail = layout.parts
+    line, none = tail.parts[-1], Layout.of(None)
+    own = tail.size - line.size
+    tail = tail._replace(parts=(Layout(None, (own,), own), none, none, line))
+    return layout._replace(parts=(q, v, Layout(None, (s.size,), s.size), tail))
+
+
 NO_PUSH = Sum()
 
 
@@ -150,12 +160,12 @@ class CompiledWalker:
         cls,
         walker: Walker,
         method: OneStepMethod,
-        size: int,
+        layout: Layout,
         t_first: float = 0.0,
         reference: Reference | None = None,
         in_python: bool = False,
     ) -> CompiledWalker:
-        """For a controller with `size` states and a run that begins at t_first [s].
+        """For states of this layout (`ClosedLoop.layout_of`) and a run that begins at t_first [s].
 
         reference: what readings of the program refer to. in_python: sample instants and impacts are those of
         `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
@@ -172,8 +182,8 @@ class CompiledWalker:
         numbers = numbers_of(walker, split, reference)
         if in_python:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
-            numbers = numbers._replace(controller=Passive(), held=held)
-        program = Program(size, numbers)
+            numbers, layout = numbers._replace(controller=Passive(), held=held), at_rest(layout)
+        program = Program(layout, numbers)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
         push = walker.disturbance or NO_PUSH
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
@@ -192,8 +202,8 @@ class CompiledWalker:
         }
         fields = dict[str, float]()
         if isinstance(walker.timing, SampledTime) and walker.held is not None:
-            T, motors = walker.timing.period, walker.held.motors
-            part = motors.fraction * T if walker.held.sizes.waiting else 0.0
+            T = walker.timing.period
+            part = walker.held.motors.fraction * T
             fields |= {"period": T, "restart": walker.timing.restart, "part": part}
         fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
         fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}

@@ -97,9 +97,9 @@ def run_compiled(
     is no planar tree.
     """
     options.check(np.asarray(x0))
-    size = walker.controller_size(x0)
+    layout = walker.layout_of(np.asarray(x0))
     try:
-        compiled = CompiledWalker.of(walker, method, size, options.t0)
+        compiled = CompiledWalker.of(walker, method, layout, options.t0)
         run = simulate_compiled(compiled, x0, mode, method, options)
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
@@ -107,7 +107,7 @@ def run_compiled(
     (walker, references), result = compiled_plant(walker), None
     if walker.sampled:
         with suppress(NotCompiled):
-            compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
+            compiled = CompiledWalker.of(walker, method, layout, options.t0, in_python=True)
             ticks = PythonTicks(compiled, walker, references)
             with ticks.interrupted():
                 result = simulate_compiled(compiled, x0, mode, method, options, ticks)

@@ -90,7 +90,7 @@ class CompiledWalk:
 
         Raises NotCompiled for a part without machine code.
         """
-        compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
+        compiled = CompiledWalker.of(walker, method, walker.layout_of(x), mode.start, curve)
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
             look = compiled.program.reading(step_reading).addresses["reading"]
@@ -145,7 +145,7 @@ class PythonWalk:
         if isinstance(loop, Walker):
             loop, _ = compiled_plant(loop)
         elif isinstance(loop, CompiledLoop):
-            loop, _ = loop.prepared(loop.controller_size(x))
+            loop, _ = loop.prepared(x)
             if loop.program is not None:
                 at = torque_place(loop.program)
                 places.append((loop.program.K[at : at + p], slice(p)))

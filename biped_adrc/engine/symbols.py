@@ -228,7 +228,7 @@ class Solver:
             for i in range(j + 1, n):
                 one, other = rows[j, j:].copy(), rows[i, j:].copy()
                 swap = abs(Scalar(expression(other[0]))) > abs(Scalar(expression(one[0])))
-                rows[j, j:], rows[i, j:] = chosen(swap, other, one), chosen(swap, one, other)
+                rows[j, j:], rows[i, j:] = wheres(swap, other, one), wheres(swap, one, other)
             self.pivots.append(abs(rows[j, j]))
             inverse.append(1.0 / rows[j, j])
             for i in range(j + 1, n):
@@ -245,7 +245,7 @@ class Solver:
         return functools.reduce(minimum, self.pivots, Scalar(ca.SX(math.inf)))
 
 
-chosen: Callable[..., Any] = elementwise(where)
+wheres: Callable[..., Any] = elementwise(where)
 """`where`, entry by entry."""
 
 

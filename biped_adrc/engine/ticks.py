@@ -20,8 +20,10 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.instant_signals import controller_inputs
+from biped_adrc.closed_loop.semantics import State
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.outer_loop import tracked_point
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.calls import FUNCTION, CompiledReference, Shape, parts_of
 from biped_adrc.engine.program import CompiledWalker, Program
@@ -51,7 +53,8 @@ class PythonTicks:
         """walker: whose methods are called, with its references compiled."""
         self.walker, self.nx = walker, compiled.program.nx
         self.error: BaseException | None = None
-        ideal = walker.sensors is None and walker.motors is None and walker.behind == walker.plant.p
+        tail = compiled.program.layout.parts[State._fields.index("tail")]
+        ideal = walker.sensors is None and walker.motors is None and tail.size == walker.plant.p
         tick = self._measured(compiled.program, references[:1]) if ideal else self._tick
         self.functions = [FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
         for name, function in zip(("tick", "impact"), self.functions, strict=True):
@@ -104,6 +107,7 @@ class PythonTicks:
         machine code; the point of `references`, one at most, is among them.
         """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
+        s_layout = walker.layout_of(np.zeros(nx)).parts[State._fields.index("s")]
         curve = references[0].reference if references else None
         program = replace(program, numbers=program.numbers._replace(curve=curve))
         tracked = None if curve is None else partial(tracked_point, curve)
@@ -122,9 +126,9 @@ class PythonTicks:
             for r in references:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
             m = semantics.measurement(walker, t, q, v, mode, body, terms)
-            s, u = semantics.command(walker, frozen(x[2 * n : end].copy()), m)
+            s, u = semantics.command(walker, frozen(s_layout.tree(x[2 * n : end].copy())), m)
             result[: 2 * n], result[end:nx] = x[: 2 * n], u
-            result[2 * n : end] = walker.calls.predict(s, m, u)
+            result[2 * n : end] = flatten(walker.calls.predict(s, m, u))
 
         return tick
 

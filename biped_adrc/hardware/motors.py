@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,15 +29,16 @@ from biped_adrc.core.types import Array, Indices, relabelled
 
 
 class Line(NamedTuple):
-    """The torques on their way to the motors at one instant, each (p,) [N m]; empty where
-    the walker has no such part.
+    """The torques on their way to the motors at one instant, each (p,) or (.., p) [N m].
+
+    None where the walker has no such part.
     """
 
     queue: Array
-    """Torques that wait for whole periods (j p,), the oldest first."""
-    u_m: Array
-    """Torque of the motors; empty without lag."""
-    waiting: Array
+    """Torques that wait for whole periods (j, p), the oldest first."""
+    u_m: Array | None
+    """Torque of the motors; None without lag."""
+    waiting: Array | None
     """Torque that acts from t_k + f T on."""
     u: Array
     """Torque commanded to the motors now."""
@@ -45,24 +46,30 @@ class Line(NamedTuple):
     @property
     def sent(self) -> Array:
         """The torque sent last: the end of the queue, else the one that waits, else the one that acts."""
-        if len(self.queue) > 0:
-            return self.queue[len(self.queue) - len(self.u) :]
-        return self.waiting if len(self.waiting) > 0 else self.u
+        if self.queue.shape[-2] > 0:
+            return self.queue[..., -1, :]
+        return self.u if self.waiting is None else self.waiting
 
     def relabelled(self, swap: Indices) -> Line:
         """The torques after an impact; swap (p,): the relabelling of the joints."""
-        p = len(self.u)
-        return Line(
-            *(relabelled(x.reshape(-1, p), swap).ravel() if len(x) > 0 else x for x in self)
-        )
+        each: Any = (x if x is None else relabelled(x, swap) for x in self)
+        return Line(*each)
+
+
+def line_at_rest(p: int, lag: float, delay: float, period: float) -> tuple[Line, float]:
+    """The line without torques of p motors with a lag [s] and a delay [s] of the clock, and the fraction f."""
+    j, fraction = whole_and_part(delay, period)
+    none = np.zeros(p)
+    u_m, waiting = none if lag > 0.0 else None, none if fraction > 0.0 else None
+    return Line(np.zeros((j, p)), u_m, waiting, none), fraction
 
 
 @dataclass(frozen=True)
 class TorqueLine:
     """Rate limit, lag and fractional delay of the motors, for ticks every T."""
 
-    change: float
-    """Largest change of the torque in a period [N m], infinite without limit."""
+    change: float | None
+    """Largest change of the torque in a period [N m], None without limit."""
     speed: float
     """1 / tau [1/s], 0 without lag."""
     fraction: float
@@ -74,10 +81,9 @@ class TorqueLine:
         That is the last of the queue, or the command to the motors now: the waiting torque has
         acted already, or never will.
         """
-        p = len(line.u)
-        last = line.u
-        if len(line.queue) > 0:
-            last = line.queue[len(line.queue) - p :]
+        if self.change is None:
+            return u
+        last = line.queue[-1] if len(line.queue) > 0 else line.u
         return np.minimum(np.maximum(u, last - self.change), last + self.change)
 
     def send(self, line: Line, u: Array) -> Line:
@@ -86,16 +92,15 @@ class TorqueLine:
         """
         queue, next_one = line.queue, u
         if len(queue) > 0:
-            p = len(u)
-            next_one = queue[:p]
-            queue = np.concatenate((queue[p:], u))
-        if len(line.waiting) > 0:
+            next_one = queue[0]
+            queue = np.concatenate((queue[1:], u[np.newaxis]))
+        if line.waiting is not None:
             return Line(queue, line.u_m, next_one, line.u)
-        return Line(queue, line.u_m, line.waiting, next_one)
+        return Line(queue, line.u_m, None, next_one)
 
     def mean_command(self, line: Line) -> Array:
         """Mean (p,) [N m] of the torque commanded to the motors from this tick until the next."""
-        if len(line.waiting) > 0:
+        if line.waiting is not None:
             return self.fraction * line.u + (1.0 - self.fraction) * line.waiting
         return line.u
 
@@ -118,7 +123,7 @@ class Motors(Checked, Shown):
 
     def sampled(self, period: float, fraction: float) -> TorqueLine:
         """The motors for ticks every `period` [s], with the fraction f of a period in the delay."""
-        change = math.inf if self.rate_limit is None else self.rate_limit * period
+        change = None if self.rate_limit is None else self.rate_limit * period
         return TorqueLine(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
 
 

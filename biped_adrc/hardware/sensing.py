@@ -13,10 +13,8 @@ these methods, which are pure functions; randomness is a part of w, so that a wa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-
-import numpy as np
+from typing import Any
 
 from biped_adrc.core.checks import Checked, check_part
 from biped_adrc.core.errors import InputError
@@ -24,26 +22,21 @@ from biped_adrc.core.types import Array
 
 
 class Sensor(Checked):
-    """Base of all sensors: frozen dataclasses with a `reading`; those with a memory have `size` and `sense`."""
+    """Base of all sensors: write `reading`, and `start` and `sense` for a sensor with a memory."""
 
-    @property
-    def size(self) -> int:
-        """Length of the state w."""
-        return 0
+    def start(self, q: Array, v: Array) -> Any:
+        """State w at the start of a run in q (n,) [rad], v (n,) [rad/s]; None without a memory."""
+        return None
 
-    def start(self, q: Array, v: Array) -> Array:
-        """State w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s]."""
-        return np.zeros(self.size)
-
-    def sense(self, w: Array, q: Array, v: Array) -> Array:
-        """State w (size,) after a tick at q (n,) [rad], v (n,) [rad/s]."""
+    def sense(self, w: Any, q: Array, v: Array) -> Any:
+        """State w after a tick at q (n,) [rad], v (n,) [rad/s]."""
         return w
 
-    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        """State w (size,) after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
+    def impact(self, w: Any, q: Array, v: Array, v_model: Array) -> Any:
+        """State w after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
         return w
 
-    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    def reading(self, w: Any, q: Array, v: Array) -> tuple[Array, Array]:
         """q^ (n,) [rad] and v^ (n,) [rad/s], from w and from q, v (n,) as read by the sensors before it.
 
         Raises InputError where no class writes it.
@@ -97,37 +90,27 @@ def _parts(sensor: Sensor) -> tuple[Sensor, ...]:
 
 @dataclass(frozen=True)
 class Sensing(Sensor):
-    """Several sensors, one behind the other; w has their states one after the other."""
+    """Several sensors, one behind the other; w is the tuple of their states."""
 
     parts: tuple[Sensor, ...]
 
-    @property
-    def size(self) -> int:
-        return sum(part.size for part in self.parts)
+    def start(self, q: Array, v: Array) -> tuple[Any, ...]:
+        return tuple([part.start(q, v) for part in self.parts])
 
-    def start(self, q: Array, v: Array) -> Array:
-        return np.concatenate([part.start(q, v) for part in self.parts])
+    def sense(self, w: tuple[Any, ...], q: Array, v: Array) -> tuple[Any, ...]:
+        return tuple([part.sense(own, q, v) for part, own in zip(self.parts, w, strict=True)])
 
-    def sense(self, w: Array, q: Array, v: Array) -> Array:
-        return np.concatenate([part.sense(own, q, v) for part, own in self._each(w)])
+    def impact(self, w: tuple[Any, ...], q: Array, v: Array, v_model: Array) -> tuple[Any, ...]:
+        each = zip(self.parts, w, strict=True)
+        return tuple([part.impact(own, q, v, v_model) for part, own in each])
 
-    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        return np.concatenate([part.impact(own, q, v, v_model) for part, own in self._each(w)])
-
-    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        for part, own in self._each(w):
+    def reading(self, w: tuple[Any, ...], q: Array, v: Array) -> tuple[Array, Array]:
+        for part, own in zip(self.parts, w, strict=True):
             q, v = part.reading(own, q, v)
         return q, v
 
     def sampled(self, n: int, p: int, period: float) -> Sensor:
         return Sensing(tuple(part.sampled(n, p, period) for part in self.parts))
-
-    def _each(self, w: Array) -> Iterator[tuple[Sensor, Array]]:
-        """Each sensor with its own slice of w."""
-        at = 0
-        for part in self.parts:
-            yield part, w[at : at + part.size]
-            at += part.size
 
     @property
     def noisy(self) -> bool:

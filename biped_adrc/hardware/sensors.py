@@ -7,8 +7,6 @@ or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At im
 and a difference across it is useless: v^ goes through the nominal model's impact (7), and the first
 tick after it keeps that value.
 
-The state w is (q^, v^, fresh, r): fresh is 1 where no difference can be taken, r the state of the noise.
-
 The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 
     x_n = (1403580 x_(n-2) - 810728 x_(n-3)) mod m_1,   m_1 = 2^32 - 209
@@ -25,7 +23,7 @@ An inertial sensor on the torso measures the unactuated pitch and its rate, with
 d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] the mounting error of the
 sensor. It is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
 
-Its state w is (q_N^, v_N^, b + k d T, r). After an impact the rate is read anew, the angle is that of the last
+After an impact the rate is read anew, the angle is that of the last
 tick: at an impact the rate jumps and the angle does not.
 
 No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
@@ -36,7 +34,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -114,6 +112,32 @@ class Sensors(Shown, Sensor):
         )
 
 
+class Sensed(NamedTuple):
+    """State of `Sensors`."""
+
+    angle: Array
+    """Angles of the last tick, as read (n,) [rad]."""
+    rate: Array
+    """Rates as read (n,) [rad/s]."""
+    fresh: float
+    """1 at a start and after an impact, where no difference of angles can be taken yet; else 0."""
+    r: Array
+    """State of the random numbers (6,), or (0,)."""
+
+
+class Pitch(NamedTuple):
+    """State of a `PitchSensor`."""
+
+    angle: float
+    """As read [rad]."""
+    rate: float
+    """As read [rad/s]."""
+    off: float
+    """Bias with the drift so far [rad]."""
+    r: Array
+    """State of the random numbers (6,), or (0,)."""
+
+
 @dataclass(frozen=True)
 class SampledSensors(Sensor):
     """`Sensors` on n coordinates, for ticks every `period` [s]: counts, noise, differences and their
@@ -141,16 +165,12 @@ class SampledSensors(Sensor):
     def noisy(self) -> bool:
         return len(self.random) > 0
 
-    @property
-    def size(self) -> int:
-        return 2 * len(self.noise) + 1 + len(self.random)
-
-    def start(self, q: Array, v: Array) -> Array:
+    def start(self, q: Array, v: Array) -> Sensed:
         return self.anew(q, v, self.random)
 
-    def sense(self, w: Array, q: Array, v: Array) -> Array:
+    def sense(self, w: Sensed, q: Array, v: Array) -> Sensed:
         n = len(q)
-        before, rate, fresh, r = w[:n], w[n : 2 * n], w[2 * n], w[2 * n + 1 :]
+        before, rate, fresh, r = w
         y, dy = q, v
         if self.noisy:
             r, g = normals(r, 2 * n)
@@ -159,20 +179,19 @@ class SampledSensors(Sensor):
         difference = rate + self.share * ((angle - before) / self.period - rate)
         difference = np.where(fresh > 0.5, rate, difference)
         rate = np.where(self.differences > 0, difference, dy)
-        return np.concatenate((angle, rate, np.zeros(1), r))
+        return Sensed(angle, rate, 0.0, r)
 
-    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        return self.anew(q, np.where(self.differences > 0, v_model, v), w[2 * len(q) + 1 :])
+    def impact(self, w: Sensed, q: Array, v: Array, v_model: Array) -> Sensed:
+        return self.anew(q, np.where(self.differences > 0, v_model, v), w.r)
 
-    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        n = len(q)
-        return w[:n], w[n : 2 * n]
+    def reading(self, w: Sensed, q: Array, v: Array) -> tuple[Array, Array]:
+        return w.angle, w.rate
 
-    def anew(self, q: Array, v: Array, r: Array) -> Array:
+    def anew(self, q: Array, v: Array, r: Array) -> Sensed:
         """State w of the sensors in q, v (n,) at the start of a run and after an impact, where no difference
         of angles can be taken yet; r (6,): state of the random numbers.
         """
-        return np.concatenate((self.rounded(q), v, np.ones(1), r))
+        return Sensed(self.rounded(q), v, 1.0, r)
 
     def rounded(self, y: Array) -> Array:
         """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
@@ -268,21 +287,17 @@ class PitchSensor(Sensor):
         """State r of the noise at the start of a run: (6,), or (0,) without noise."""
         return seeded(self.seed) if self.noisy else np.zeros(0)
 
-    @property
-    def size(self) -> int:
-        return 3 + len(self.random)
+    def start(self, q: Array, v: Array) -> Pitch:
+        return Pitch(q[-1] + self.bias, v[-1] + self.drift, self.bias, self.random)
 
-    def start(self, q: Array, v: Array) -> Array:
-        at = np.array([q[-1] + self.bias, v[-1] + self.drift, self.bias])
-        return np.concatenate((at, self.random))
+    def sense(self, w: Pitch, q: Array, v: Array) -> Pitch:
+        r, g = normals(w.r, 1) if len(self.random) > 0 else (w.r, np.zeros(1))
+        angle = q[-1] + w.off + self.noise * g[0]
+        return Pitch(angle, v[-1] + self.drift, w.off + self.turn, r)
 
-    def sense(self, w: Array, q: Array, v: Array) -> Array:
-        r, g = normals(w[3:], 1) if len(self.random) > 0 else (w[3:], np.zeros(1))
-        off = np.array([w[2] + self.turn])
-        return np.concatenate((q[-1:] + w[2] + self.noise * g, v[-1:] + self.drift, off, r))
+    def impact(self, w: Pitch, q: Array, v: Array, v_model: Array) -> Pitch:
+        return w._replace(rate=v[-1] + self.drift)
 
-    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        return np.concatenate((w[:1], v[-1:] + self.drift, w[2:]))
-
-    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))
+    def reading(self, w: Pitch, q: Array, v: Array) -> tuple[Array, Array]:
+        angle, rate = np.array([w.angle]), np.array([w.rate])
+        return np.concatenate((q[:-1], angle)), np.concatenate((v[:-1], rate))

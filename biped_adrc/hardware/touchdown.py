@@ -7,16 +7,14 @@ Without such a part a controller, its observer and the labels of its measurement
 With one they change at the tick at which `notice` fires, and the controller's assumption until then, its
 belief, is a part of the walker's state:
 
-    b = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
+    belief = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
 
 A touchdown and a detection each toggle `other`. So a detection before its touchdown is an early one, and a
 touchdown that is not detected before the next one leaves the labels right again and the belief two steps
 behind. Both engines run these methods, which are pure functions; randomness is a part of d.
 
 `FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
-late, with probability 1 - missed. d is (waits, due, done, r): whether a touchdown waits to be detected and
-when that is due [s], whether the false detection has been, and the state r of the random numbers
-(`hardware.sensors`).
+late, with probability 1 - missed; its state d is a `Due`.
 
 The others use the swing foot: its place by the measured angles, or its force. Both have a gate on the phase,
 that is on how far the swing foot is ahead:
@@ -30,7 +28,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -42,21 +40,18 @@ from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensors import seeded, uniforms
 
-HEAD = 3
-"""Number of entries of b before d."""
-
 
 class Belief(NamedTuple):
-    """The controller's assumption about the present single support, the parts of b."""
+    """The controller's assumption about the present single support."""
 
     other: float
     """1 where its labels differ from the plant's, else 0."""
-    step: int
+    step: float
     """Number of the single support, counted by detections."""
     start: float
     """Time of the last detection [s]."""
-    d: Array
-    """State d of the detector (size,)."""
+    d: Any
+    """State d of the detector."""
 
 
 class Look(NamedTuple):
@@ -79,7 +74,7 @@ class Look(NamedTuple):
 
 
 class Touchdown(Checked, ABC):
-    """Base of all touchdown detectors: write `notice`, and `size` for a detector with a memory.
+    """Base of all touchdown detectors: write `notice`, and `start` for a detector with a memory.
 
     >>> @dataclass(frozen=True)
     ... class Low(ba.Touchdown):
@@ -96,38 +91,53 @@ class Touchdown(Checked, ABC):
     needs_force: ClassVar[bool] = False
     """Whether `Look.force` is needed."""
 
-    @property
-    def size(self) -> int:
-        """Length of the detector's state d."""
-        return 0
+    def start(self) -> Any:
+        """State d at the start of a run; None without a memory."""
+        return None
 
-    def start(self) -> Array:
-        """State d (size,) at the start of a run."""
-        return np.zeros(self.size)
-
-    def touchdown(self, d: Array, other: float, t: float) -> Array:
-        """State d (size,) after a true touchdown at t [s]; `other` is the value after it."""
+    def touchdown(self, d: Any, other: float, t: float) -> Any:
+        """State d after a true touchdown at t [s]; `other` is the value after it."""
         return d
 
     @abstractmethod
-    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """State d (size,) after a tick, and 1 where a touchdown is detected, else 0."""
-
-
-def belief_of(b: Array) -> Belief:
-    """Split the controller's row of assumptions b (3 + size,) into a `Belief`."""
-    return Belief(b[0], b[1], b[2], b[HEAD:])
-
-
-def numbers_of(belief: Belief) -> Array:
-    """Join a `Belief` to the row b (3 + size,), the inverse of `belief_of`."""
-    return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
+    def notice(self, d: Any, look: Look) -> tuple[Any, float]:
+        """State d after a tick, and 1 where a touchdown is detected, else 0."""
 
 
 STEP_AND_TIME = Range(
     "a step and a time in it [s], such as (2, 0.3)",
     lambda x: len(x) == 2 and isinstance(x[0], int) and x[0] >= 1 and 0.0 <= x[1] < math.inf,
 )
+
+
+class Due(NamedTuple):
+    """State of a `FaultyTouchdown`."""
+
+    waits: float
+    """1 while a touchdown waits to be detected, else 0."""
+    due: float
+    """When that is due [s]."""
+    done: float
+    """1 once the false detection has been, else 0."""
+    r: Array
+    """State of the random numbers (6,), or (0,)."""
+
+
+class Load(NamedTuple):
+    """State of a `ByForce`."""
+
+    free: float
+    """1 once the foot has been free, else 0."""
+    loaded: float
+    """1 while it is loaded after that, else 0."""
+    since: float
+    """Since when [s]."""
+    waits: float
+    """1 while a touchdown waits for the delay, else 0."""
+    due: float
+    """When it is detected [s]."""
+
+
 ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 
 
@@ -158,32 +168,28 @@ class FaultyTouchdown(Shown, Touchdown):
         """Step, and time in it [s], of the false detection (2,); step 0 for none."""
         return np.array((0, 0.0) if self.false_at is None else self.false_at, dtype=float)
 
-    @property
-    def size(self) -> int:
-        return 3 + len(self.random)
+    def start(self) -> Due:
+        return Due(0.0, 0.0, float(self.false_at is None), self.random)
 
-    def start(self) -> Array:
-        return np.concatenate((np.zeros(2), [float(self.false_at is None)], self.random))
-
-    def touchdown(self, d: Array, other: float, t: float) -> Array:
+    def touchdown(self, d: Due, other: float, t: float) -> Due:
         """State d after a true touchdown: its detection is due `late` [s] later, if the labels
         differ and it is not missed.
         """
-        missed, r = 0.0, d[3:]
+        missed, r = 0.0, d.r
         if len(r) > 0:
             r, u = uniforms(r, 1)
             missed = 1.0 * (u[0] < self.missed)
-        waits = np.where(other > 0.5, 1.0 - missed, 0.0)
-        return np.concatenate((np.array([waits, t + self.late, d[2]]), r))
+        waits: Any = np.where(other > 0.5, 1.0 - missed, 0.0)
+        return Due(waits, t + self.late, d.done, r)
 
-    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+    def notice(self, d: Due, look: Look) -> tuple[Due, float]:
         """Fire when a detection is due and the labels still differ; and once at the false time."""
-        due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
-        at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d[2] < 0.5)
+        due = 1.0 * (d.waits * look.other > 0.5) * (look.t >= d.due - SAME_INSTANT)
+        at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d.done < 0.5)
         false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
         fires = np.maximum(due, false)
-        left = np.array([d[0] * (1.0 - fires), d[1], np.maximum(d[2], false)])
-        return np.concatenate((left, d[3:])), fires
+        left = d._replace(waits=d.waits * (1.0 - fires), done=np.maximum(d.done, false))
+        return left, fires
 
 
 @dataclass(frozen=True)
@@ -229,15 +235,15 @@ class ByKinematics(Gated):
 
     height: FiniteFloat = 0.0
 
-    size = 1
+    def start(self) -> float:
+        """Height of the foot at the tick before [m]."""
+        return 0.0
 
-    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """Fire when the foot is below the height, lower than at the tick before, and the gate
-        open; d = (height before,) [m].
-        """
+    def notice(self, d: float, look: Look) -> tuple[float, float]:
+        """Fire when the foot is below the height, lower than d [m] at the tick before, and the gate open."""
         height = look.foot[1] + self.tangent * look.foot[0]
-        low = 1.0 * (height < self.height) * (height < d[0])
-        return np.array([height]), low * self.gate(look)
+        low = 1.0 * (height < self.height) * (height < d)
+        return height, low * self.gate(look)
 
 
 @dataclass(frozen=True)
@@ -266,21 +272,21 @@ class ByForce(Gated):
                 f"the touchdown's forces are off = {self.off} N and on = {self.on} N, expected 0 <= off <= on"
             )
 
-    size = 5
     needs_force = True
 
-    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """Fire when a free foot has been loaded for long enough, after the delay; d = (free,
-        loaded, since, waits, due).
-        """
+    def start(self) -> Load:
+        return Load(0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def notice(self, d: Load, look: Look) -> tuple[Load, float]:
+        """Fire when a free foot has been loaded for long enough, after the delay."""
         t = look.t
-        free = np.maximum(d[0], 1.0 * (look.force < self.off))
-        stays = d[1] * (look.force >= self.off)
+        free = np.maximum(d.free, 1.0 * (look.force < self.off))
+        stays = d.loaded * (look.force >= self.off)
         loaded = np.maximum(stays, 1.0 * (look.force > self.on) * free * self.gate(look))
-        since = np.where(d[1] > 0.5, d[2], t)
-        sure = loaded * (t - since >= self.debounce - SAME_INSTANT) * (1.0 - d[3])
-        due = np.where(sure > 0.5, t + self.delay, d[4])
-        waits = np.maximum(d[3], sure)
+        since: Any = np.where(d.loaded > 0.5, d.since, t)
+        sure = loaded * (t - since >= self.debounce - SAME_INSTANT) * (1.0 - d.waits)
+        due: Any = np.where(sure > 0.5, t + self.delay, d.due)
+        waits = np.maximum(d.waits, sure)
         fires = waits * (t >= due - SAME_INSTANT)
         left = 1.0 - fires
-        return np.array([free * left, loaded * left, since, waits * left, due]), fires
+        return Load(free * left, loaded * left, since, waits * left, due), fires

@@ -6,7 +6,7 @@
     input = kappa u (p,) [rad/s^2],  y = q_b (p,) [rad]
 
 for the observers under ADRC; those under DOB use the momentum and the known force of all n coordinates. States
-are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may serve
+are passed in and handed back; an observer holds only numbers. So one observer object may serve
 many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
 code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and judges
 it alone.
@@ -28,7 +28,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import NamedTuple, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -75,7 +75,7 @@ class ResetPolicy(Enum):
 class ErrorSystem(NamedTuple):
     """Linear error dynamics of an observer: its error obeys e' = A e + b (q_b'' - kappa u).
 
-    With Z = z as (k, p): E = S (q_b, q_b') - Z, where S puts q_b in row 0 and q_b' * velocity_scale in row 1.
+    For z (k, p): E = S (q_b, q_b') - z, where S puts q_b in row 0 and q_b' * velocity_scale in row 1.
     The forcing enters row 1 times velocity_scale.
     """
 
@@ -96,38 +96,38 @@ class Observer(Part):
     """
 
     @abstractmethod
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """State z (size,) whose estimates are position y, velocity dy and disturbance xi, each (p,)."""
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Any:
+        """State z whose estimates are position y, velocity dy and disturbance xi, each (p,)."""
 
     @abstractmethod
-    def estimate(self, z: Array) -> Estimate:
-        """Estimates in the state z (size,), each (p,) [rad], [rad/s], [rad/s^2]."""
+    def estimate(self, z: Any) -> Estimate:
+        """Estimates in the state z, each (p,) [rad], [rad/s], [rad/s^2]."""
 
     @abstractmethod
     def reset(
-        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        """State z (size,) after impact, from z before it.
+        self, z: Any, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
+    ) -> Any:
+        """State z after impact, from z before it.
 
         `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are measured after it.
         """
 
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' (size,) in continuous time, for the measurement y (p,) and the input (p,).
+    def flow(self, z: Any, y: Array, input: Array) -> Any:
+        """z' in continuous time, for the measurement y (p,) and the input (p,).
 
         Raises InputError for an observer that was made for sampled time.
         """
         self._only("works in sampled time only; give a SampledTime")
 
-    def correct(self, z: Array, y: Array) -> Array:
-        """In sampled time: z (size,) corrected by the measurement y (p,) of the sample instant.
+    def correct(self, z: Any, y: Array) -> Any:
+        """In sampled time: z corrected by the measurement y (p,) of the sample instant.
 
         Raises InputError for an observer in continuous time, as `predict` does.
         """
         self._only("works in continuous time; call sampled(period)")
 
-    def predict(self, z: Array, input: Array) -> Array:
-        """In sampled time: z (size,) one period later under a constant input (p,)."""
+    def predict(self, z: Any, input: Array) -> Any:
+        """In sampled time: z one period later under a constant input (p,)."""
         self._only("works in continuous time; call sampled(period)")
 
     def sampled(self, period: float) -> Observer:
@@ -220,7 +220,7 @@ def check_chain(order: int, scale: float, what: str) -> None:
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """Base of observers with m extended states; z is Z (lead + m, p) row by row. Subclasses add the dynamics.
+    """Base of observers with m extended states; z is (lead + m, p). Subclasses add the dynamics.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
 
@@ -244,21 +244,20 @@ class ChainObserver(Observer):
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
         """State z whose estimates are y, dy and xi, each (p,); higher derivatives are zero."""
-        Z = np.zeros((self.order, len(y)))
-        Z[0] = y
+        z = np.zeros((self.order, len(y)))
+        z[0] = y
         if self.lead > 1:
-            Z[1] = dy / self.scale
+            z[1] = dy / self.scale
         if self.m > 0:
-            Z[self.lead] = xi / self.scale**self.lead
-        return Z.ravel()
+            z[self.lead] = xi / self.scale**self.lead
+        return z
 
     def estimate(self, z: Array) -> Estimate:
         """Estimates x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
-        Z = z.reshape(self.order, -1)
-        none = np.zeros(Z.shape[1])
-        velocity = Z[1] * self.scale if self.lead > 1 else none
+        none = np.zeros(z.shape[1])
+        velocity = z[1] * self.scale if self.lead > 1 else none
         return Estimate(
-            Z[0], velocity, Z[self.lead] * self.scale**self.lead if self.m > 0 else none
+            z[0], velocity, z[self.lead] * self.scale**self.lead if self.m > 0 else none
         )
 
     def reset(
@@ -273,12 +272,12 @@ class ChainObserver(Observer):
             return z
         if policy is ResetPolicy.MODEL and self.lead > 1:
             return self.initial_state(y, dy, xi)
-        Z, p = z.reshape(self.order, -1), len(swap)
-        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
+        p = len(swap)
+        z = np.concatenate((relabelled(z[:, :p], swap), z[:, p:]), axis=1)
         if policy is not ResetPolicy.RELABEL:
-            Z[0] = y
+            z[0] = y
             if self.lead > 1:
-                Z[1] = dy / self.scale
+                z[1] = dy / self.scale
         if policy is ResetPolicy.MODEL:
-            Z[2:] = 0.0
-        return Z.ravel()
+            z[2:] = 0.0
+        return z

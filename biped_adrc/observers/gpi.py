@@ -84,11 +84,11 @@ class InjectedChain(ChainObserver):
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
         """z' of the scaled states, for the measurement y (p,) [rad] and the input kappa u (p,) [rad/s^2]."""
-        Z, w = z.reshape(self.order, -1), self.scale
-        dZ = w * np.outer(self.scaled_gains, y - Z[0])
-        dZ[:-1] += w * Z[1:]
-        dZ[self.lead - 1] += input / w ** (self.lead - 1)
-        return dZ.ravel()
+        w = self.scale
+        dz = w * np.outer(self.scaled_gains, y - z[0])
+        dz[:-1] += w * z[1:]
+        dz[self.lead - 1] += input / w ** (self.lead - 1)
+        return dz
 
     def sampled(self, period: float) -> SampledChain:
         """The current (filtered) discrete observer for ticks every `period` [s]."""
@@ -186,10 +186,10 @@ class SampledChain(ChainObserver):
 
     def correct(self, z: Array, y: Array) -> Array:
         """State z at the sample instant, corrected by the measurement y (p,)."""
-        Z = z.reshape(self.order, -1)
-        return np.ravel(Z + np.outer(self.L, y - Z[0]))
+        result: Array = z + np.outer(self.L, y - z[0])
+        return result
 
     def predict(self, z: Array, input: Array) -> Array:
         """State z one period later under a constant input (p,)."""
-        Z = z.reshape(self.order, -1)
-        return np.ravel(self.Phi @ Z + np.outer(self.Gamma, input))
+        result: Array = self.Phi @ z + np.outer(self.Gamma, input)
+        return result

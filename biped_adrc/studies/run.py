@@ -152,7 +152,7 @@ def measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     if status not in NO_WALK:
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
         row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
-        row["infeasible_qp"] = infeasible_instants(walker.law, parts(walker, walked.final_state)[2])
+        row["infeasible_qp"] = infeasible_instants(parts(walker, walked.final_state).s)
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:

@@ -4,6 +4,7 @@ Run: python examples/policies/keep_torque.py
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,31 +12,36 @@ import biped_adrc as ba
 from biped_adrc.control.around import AcrossContact
 
 
+class State(NamedTuple):
+    inner: np.ndarray  # of the observer
+    w: np.ndarray  # kappa^-1 (xi^ - xi) of the last tick (4,) [N m]
+
+
 @dataclass(frozen=True)
 class KeepTorque(AcrossContact):
-    """w = kappa^-1 (xi^ - xi) of the last tick ends the state; after impact xi^ = xi + kappa w, w swapped."""
+    """After impact xi^ = xi + kappa w, with w of the last tick, its legs swapped."""
 
     def initial_state(self, m):
-        return np.concatenate((self.inner.initial_state(m), np.zeros(4)))
+        return State(self.inner.initial_state(m), np.zeros(4))
 
     def jump(self, s, after, swap):
-        w = s[-4:][swap]
+        w = s.w[swap]
         xi = after.terms.xi + after.terms.kappa @ w
-        return np.concatenate((self.inner.observer.initial_state(after.q_b, after.v_b, xi), w))
+        return State(self.inner.observer.initial_state(after.q_b, after.v_b, xi), w)
 
     def correct(self, s, m):
-        z = self.inner.correct(s[:-4], m)
+        z = self.inner.correct(s.inner, m)
         unknown = self.inner.estimate(z, m).disturbance - m.terms.xi
-        return np.concatenate((z, m.terms.kappa_inverse @ unknown))
+        return State(z, m.terms.kappa_inverse @ unknown)
 
     def output(self, s, m):
-        return self.inner.output(s[:-4], m)
+        return self.inner.output(s.inner, m)
 
     def estimate(self, s, m):
-        return self.inner.estimate(s[:-4], m)
+        return self.inner.estimate(s.inner, m)
 
     def predict(self, s, m, u):
-        return np.concatenate((self.inner.predict(s[:-4], m, u), s[-4:]))
+        return State(self.inner.predict(s.inner, m, u), s.w)
 
 
 biped = ba.Biped.load("rabbit")

@@ -4,6 +4,7 @@ Run: python examples/policies/ramp_torque.py
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,37 +12,41 @@ import biped_adrc as ba
 from biped_adrc.control.around import ContactWindow
 
 
+class State(NamedTuple):
+    inner: np.ndarray  # of the controller inside
+    u_0: np.ndarray  # the last torque (4,) [N m]
+
+
 @dataclass(frozen=True)
 class RampTorque(ContactWindow):
-    """u = u_0 + w (u - u_0), w = x^2 (3 - 2 x), x = t_step / window; u_0 (p,), the last torque with its legs
-    swapped, ends the state."""
+    """u = u_0 + w (u - u_0), w = x^2 (3 - 2 x), x = t_step / window; u_0 has its legs swapped at impact."""
 
     window: float = 0.005
 
     def initial_state(self, m):
         z = self.inner.initial_state(m)
-        return np.concatenate((z, self.inner.output(z, m)))
+        return State(z, self.inner.output(z, m))
 
     def jump(self, s, after, swap):
-        return np.concatenate((self.inner.jump(s[:-4], after, swap), s[-4:][swap]))
+        return State(self.inner.jump(s.inner, after, swap), s.u_0[swap])
 
     def correct(self, s, m):
-        return np.concatenate((self.inner.correct(s[:-4], m), s[-4:]))
+        return State(self.inner.correct(s.inner, m), s.u_0)
 
     def output(self, s, m):
         x = np.minimum(m.t_step / self.window, 1.0)
-        return s[-4:] + x**2 * (3.0 - 2.0 * x) * (self.inner.output(s[:-4], m) - s[-4:])
+        return s.u_0 + x**2 * (3.0 - 2.0 * x) * (self.inner.output(s.inner, m) - s.u_0)
 
     def predict(self, s, m, u):
-        last = np.where(m.t_step < self.until, s[-4:], u)
-        return np.concatenate((self.inner.predict(s[:-4], m, u), last))
+        last = np.where(m.t_step < self.until, s.u_0, u)
+        return State(self.inner.predict(s.inner, m, u), last)
 
 
 class LastTorque(RampTorque):
     """u = u_0 for t_step < window [s]: every motor keeps its last torque, then gives the controller's."""
 
     def output(self, s, m):
-        return np.where(m.t_step < self.until, s[-4:], self.inner.output(s[:-4], m))
+        return np.where(m.t_step < self.until, s.u_0, self.inner.output(s.inner, m))
 
 
 biped = ba.Biped.load("rabbit")

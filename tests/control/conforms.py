@@ -20,6 +20,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_npd import OutputNPDController
+from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
@@ -31,7 +32,7 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import LinearOutputs, Outputs
 from biped_adrc.gait.reference import check_point
-from biped_adrc.hardware.motors import Line, Motors, TorqueLine, whole_and_part
+from biped_adrc.hardware.motors import Line, Motors, TorqueLine, line_at_rest
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Look, Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -133,16 +134,15 @@ def _(sensor: Sensor):
     sampled, random = sensor.sampled(5, 4, PERIOD), np.random.default_rng(6)
     (q, v, dv), law = random.normal(size=(3, 5)), type(sampled)
     w = agree(law.start, sampled, q, v)
-    assert w.shape == (sampled.size,)
-    assert np.array_equal(w, sampled.start(q, v))
+    assert same(w, sampled.start(q, v))
     for _ in range(5):
-        kept, at = (w.copy(), q.copy(), v.copy()), (sampled, w, q, v)
+        kept, at = flatten((w, q, v)).copy(), (sampled, w, q, v)
         after = [agree(law.sense, *at), agree(law.impact, *at, v + dv)]
-        assert np.array_equal(after[0], law.sense(*at))
-        assert all(x.shape == w.shape and np.all(np.isfinite(x)) for x in after)
+        assert same(after[0], law.sense(*at))
+        assert all(Layout.of(x) == Layout.of(w) and np.all(np.isfinite(flatten(x))) for x in after)
         reading = agree(law.reading, *at)
         assert [x.shape for x in reading] == [(5,), (5,)]
-        assert all(np.array_equal(a, b) for a, b in zip(kept, (w, q, v), strict=True))
+        assert np.array_equal(kept, flatten((w, q, v)))
         w, q, v = after[0], q + 0.01 * v, v + 0.1 * dv
     timing = ba.SampledTime(PERIOD)
     walker = ba.Walker(
@@ -153,7 +153,6 @@ def _(sensor: Sensor):
         runaway_torque=np.inf,
     )
     loop_compiles(replace(walker, model=robot()))
-    assert walker.held.sizes.sensors == sampled.size
     assert pickle.loads(pickle.dumps(walker)).sensors == sensor
 
 
@@ -162,16 +161,16 @@ def _(touchdown: Touchdown):
     """Pure, of the size that it says, at ticks and touchdowns, in Python, machine code and the loop."""
     law, d, fired = type(touchdown), touchdown.start(), 0.0
     for i in range(60):
-        assert d.shape == (touchdown.size,)
-        foot, kept = np.array([0.3, 0.02 * np.sin(0.5 * i)]), d.copy()
+        foot, kept = np.array([0.3, 0.02 * np.sin(0.5 * i)]), flatten(d).copy()
         force = 80.0 * (np.sin(0.3 * i) > 0.0)
         look = Look(PERIOD * i, 0.2, foot, force, float(i > 45), 1.0, PERIOD * i)
         after, fires = agree(law.notice, touchdown, d, look)
         assert fires in (0.0, 1.0)
-        assert np.array_equal(d, kept)
-        d, fired = np.asarray(after), fired + fires
+        assert np.array_equal(flatten(d), kept)
+        assert Layout.of(after) == Layout.of(d)
+        d, fired = as_floats(after), fired + fires
         if i == 45:
-            d = np.asarray(agree(law.touchdown, touchdown, d, 1.0, look.t))
+            d = as_floats(agree(law.touchdown, touchdown, d, 1.0, look.t))
     assert fired
     timing = ba.SampledTime(PERIOD, restart=False)
     law = ba.NPDController(gait().constraint)
@@ -244,25 +243,24 @@ def _(motors: Motors):
     """The line of torques in machine code, with every delay, and in the loop behind a controller."""
     random = np.random.default_rng(7)
     for delay in (0.0, 1.3 * PERIOD):
-        j, f = whole_and_part(delay, PERIOD)
-        k = motors.sampled(PERIOD, f)
-        sizes = (4 * j, 4 * (motors.lag > 0.0), 4 * (f > 0.0), 4)
+        rest, f = line_at_rest(4, motors.lag, delay, PERIOD)
+        k, layout = motors.sampled(PERIOD, f), Layout.of(rest)
+        assert len(rest.queue) == int(delay / PERIOD)
         for _ in range(3):
-            line, u = Line(*(20.0 * random.normal(size=n) for n in sizes)), random.normal(size=4)
-            kept = [x.copy() for x in line]
-            last = line.queue[-4:] if j else line.u
+            line, u = layout.tree(20.0 * random.normal(size=layout.size)), random.normal(size=4)
+            kept = flatten(line).copy()
+            last, change = line.queue[-1] if len(line.queue) else line.u, k.change or np.inf
             limited = agree(TorqueLine.limit, k, line, u)
-            assert np.array_equal(limited, np.clip(u, last - k.change, last + k.change))
+            assert np.array_equal(limited, np.clip(u, last - change, last + change))
             sent = agree(TorqueLine.send, k, line, limited)
             after = agree(Line.relabelled, sent, SWAP)
-            assert [len(x) for x in sent] == [len(x) for x in after] == list(sizes)
+            assert Layout.of(sent) == Layout.of(after) == layout
             assert agree(TorqueLine.mean_command, k, sent).shape == (4,)
-            assert all(np.array_equal(a, b) for a, b in zip(kept, line, strict=True))
+            assert np.array_equal(kept, flatten(line))
     for delay, known in ((2.0 * PERIOD, False), (1.3 * PERIOD, True)):
         timing = ba.SampledTime(PERIOD, delay=delay, delay_known=known)
         controller = ba.ADRCController(gait().constraint, SLOW)
         walker = ba.Walker(heavy(), controller, timing=timing, motors=motors, runaway_torque=np.inf)
-        assert walker.held.sizes.queue == int(delay / PERIOD)
         loop_compiles(replace(walker, model=robot()), 20, ticks=4)
     assert pickle.loads(pickle.dumps(motors)) == motors
 
@@ -331,11 +329,16 @@ def moved_to(m, q, v):
     return m._replace(q=q, v=v, terms=terms, body=body)
 
 
+def disturbed(s, random):
+    """A state with each of its numbers off by some per cent."""
+    x = flatten(s)
+    return Layout.of(s).tree(x * (1.0 + 0.01 * random.normal(size=len(x))))
+
+
 def contract(law, m, random, sampled):
     """Pure functions of the right shapes that leave alone what they are given."""
-    s = law.initial_state(m)
-    s = s * (1.0 + 0.01 * random.normal(size=len(s)))
-    kept = [np.copy(x) for x in (s, m.q, m.v)]
+    s = disturbed(law.initial_state(m), random)
+    kept = flatten((s, m.q, m.v)).copy()
     u = law.output(s, m)
     assert np.array_equal(u, law.output(s, m))
     assert u.shape == (len(m.q_b),)
@@ -343,10 +346,9 @@ def contract(law, m, random, sampled):
     after = [law.jump(s, m, SWAP)]
     after += [law.correct(s, m), law.predict(s, m, u)] if sampled else [law.flow(s, m, u)]
     for state in after:
-        assert state.shape == s.shape
-        assert np.all(np.isfinite(state))
-    for one, other in zip(kept, (s, m.q, m.v), strict=True):
-        assert np.array_equal(one, other)
+        assert Layout.of(state) == Layout.of(s)
+        assert np.all(np.isfinite(flatten(state)))
+    assert np.array_equal(kept, flatten((s, m.q, m.v)))
 
 
 def methods_compile(law, sampled):
@@ -355,8 +357,7 @@ def methods_compile(law, sampled):
     Returns False where its torque cannot be compiled.
     """
     for m, random in measurements(5):
-        s = law.initial_state(m)
-        s, u = s * (1.0 + 0.01 * random.normal(size=len(s))), 20.0 * random.normal(size=4)
+        s, u = disturbed(law.initial_state(m), random), 20.0 * random.normal(size=4)
         a, kind = 0.1 * random.normal(size=(5, 2)), type(law)
         try:
             agree(kind.output, law, s, m)
@@ -366,11 +367,10 @@ def methods_compile(law, sampled):
         calls |= {"initial_state": (m,), "jump": (s, m, SWAP)}
         if law.estimate(s, m) is not None:
             calls["estimate"] = (s, m)
-        for name in ("projected_output", "projected_correct")[: 1 + sampled]:
-            if unless("be projected", partial(getattr(law, name), s, m, a)) is not None:
-                calls[name] = (s, m, a)
         for name, rest in calls.items():
             agree(getattr(kind, name), law, *rest)
+        for name in law.reads_impulse[: 1 + sampled]:
+            agree(getattr(kind, name), law, s, m._replace(impulse=a))
     return True
 
 
@@ -389,7 +389,7 @@ def loop_compiles(walker, states=20, ticks=0):
         for _ in range(ticks):
             x = walker.tick(0.1, x, mode)
         if program is None:
-            program = Program(walker.controller_size(x), numbers_of(walker))
+            program = Program(walker.layout_of(x), numbers_of(walker))
         zeta = 30.0 * random.normal(size=n)
         pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
         flow = pushed.flow(0.1, x, mode)
@@ -438,7 +438,7 @@ def estimator(observer, steps):
         law = around(gait().constraint, observer, reset=policy)
         for m, random in measurements(3):
             contract(law, m, random, "predict" in steps)
-            s = random.normal(size=len(law.initial_state(m)))
+            s = random.normal(size=np.shape(law.initial_state(m)))
             agree(around.jump, law, s, m, SWAP)
 
 
@@ -497,6 +497,16 @@ def close(program, name, given, expected, bits=0.0):
     assert np.max(np.abs(found - expected)) <= max(1e-11 * np.max(np.abs(expected)), bits)
 
 
+def same(one, other):
+    """Whether two trees have the same numbers."""
+    return np.array_equal(flatten(one), flatten(other))
+
+
+def as_floats(tree):
+    """The tree with its numbers as floats, as the closed loop has them."""
+    return Layout.of(tree).tree(flatten(tree).astype(float))
+
+
 def agree(law, *arguments):
     """The result in Python, equal to that of the machine code to 1e-12 of its largest number.
 
@@ -506,11 +516,10 @@ def agree(law, *arguments):
     numbers = np.array([x for argument in arguments for x in floats(argument)] + [0.0])
     K = Vector("K", len(numbers))
     found = run(Tracer(), law, *(K.like(argument) for argument in arguments))
-    parts = found if isinstance(found, tuple) else (found,)
-    text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, column(*parts))})
+    out = column(flatten(found))
+    text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, out)})
     code = load_or_compile(text, ["law"])
-    whole = expected if isinstance(expected, tuple) else (expected,)
-    one = np.concatenate([np.ravel(x) for x in whole])
+    one = flatten(expected)
     other = call(code, "law", numbers, np.zeros(1), len(one))
     assert np.max(np.abs(one - other), initial=0.0) <= 1e-12 * np.max(np.abs(one), initial=1.0)
     return expected

@@ -54,7 +54,7 @@ def inside(h):
 
 def off(law, m, seed=1):
     s = law.initial_state(m)
-    return s * (1.0 + 0.1 * np.random.default_rng(seed).normal(size=len(s))) + 0.01
+    return s * (1.0 + 0.1 * np.random.default_rng(seed).normal(size=s.shape)) + 0.01
 
 
 def walked(biped, gait, controller, impacts=2, engine="compiled", push=PUSH):

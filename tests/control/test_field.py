@@ -12,12 +12,13 @@ from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.around import Around
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npd import NPDController
-from biped_adrc.control.npid import NPIDController
+from biped_adrc.control.npid import FilterState, NPIDController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.tree import flatten
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
@@ -161,20 +162,20 @@ def test_the_error_obeys_the_filtered_pid(biped, gait):
     assert ddy == pytest.approx(-K_D * de_f - K_P * e_f - 5e4 * s, rel=1e-8)
     expected = np.concatenate((de_f, 1e6 * (y - e_f) - 2e3 * de_f, e_f))
     assert walker.flow(0.0, x, Mode())[10:] == pytest.approx(expected, rel=1e-9)
-    after = walker.law.jump(rows.ravel(), m, SWAP)
-    assert after == pytest.approx(np.concatenate((y, dy, s[SWAP])), abs=1e-12)
+    after = walker.law.jump(FilterState(*rows), m, SWAP)
+    assert flatten(after) == pytest.approx(np.concatenate((y, dy, s[SWAP])), abs=1e-12)
 
 
 def test_a_tick_of_the_filtered_pid_is_its_flow_under_a_held_error(biped, gait):
     """Two ticks of T / 2 are one of T, and a short one is T times the slope: what only the solution does."""
     law = NPIDController(gait.constraint, damping=0.3)
     m = Walker(biped, law).measure(0.0, *off_orbit(gait, biped), Mode())
-    s, u, T = np.linspace(-1.0, 1.0, 12), np.zeros(4), 2e-3
+    s, u, T = FilterState(*np.linspace(-1.0, 1.0, 12).reshape(3, 4)), np.zeros(4), 2e-3
     whole, half, short = (law.sampled(t) for t in (T, T / 2, 1e-9))
     twice = half.predict(half.predict(s, m, u), m, u)
-    assert whole.predict(s, m, u) == pytest.approx(twice, rel=1e-12)
-    slope = law.flow(s, m, u)
-    assert short.predict(s, m, u) - s == pytest.approx(1e-9 * slope, rel=1e-5, abs=1e-12)
+    assert flatten(whole.predict(s, m, u)) == pytest.approx(flatten(twice), rel=1e-12)
+    change = flatten(short.predict(s, m, u)) - flatten(s)
+    assert change == pytest.approx(1e-9 * flatten(law.flow(s, m, u)), rel=1e-5, abs=1e-12)
 
 
 def test_a_pid_like_adrc_has_the_transfer_function_of_its_observer():
@@ -210,7 +211,7 @@ def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
     x = random.normal(size=(3, 4))
     one, other = (o.flow(o.initial_state(*x), y, u) for o in (observer, gpi))
     weights = [(o.scale ** np.arange(3))[:, np.newaxis] for o in (observer, gpi)]
-    physical = [dz.reshape(3, 4) * w for dz, w in zip((one, other), weights, strict=True)]
+    physical = [dz * w for dz, w in zip((one, other), weights, strict=True)]
     assert physical[0] == pytest.approx(physical[1], rel=1e-3)
     A = observer.error_system().A
     assert np.poly(A * epsilon) == pytest.approx([1.0, *observer.alpha], rel=1e-9)

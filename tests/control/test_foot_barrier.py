@@ -10,7 +10,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.around import AddedTorque
-from biped_adrc.control.foot_barrier import FootBarrier, infeasible_instants
+from biped_adrc.control.foot_barrier import BarrierState, FootBarrier, infeasible_instants
 from biped_adrc.core.errors import InputError
 from biped_adrc.studies.run import run_trials
 
@@ -83,15 +83,15 @@ def test_the_corridor_bends_as_its_polynomial_does(biped, gait):
 def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
     qpsolvers = pytest.importorskip("qpsolvers")
     inner, random = ba.NPDController(gait.constraint), np.random.default_rng(2)
-    law, s, sides = FootBarrier(inner, biped, (0.4,)), np.zeros(1), set()
+    law, s, sides = FootBarrier(inner, biped, (0.4,)), BarrierState(np.zeros(0), 0.0), set()
     for _ in range(20):
         m = near_orbit(biped, gait, random, law)
-        f, k, u = law.error(m), m.terms.kappa, inner.output(s[:-1], m)
+        f, k, u = law.error(m), m.terms.kappa, inner.output(s.inner, m)
         rest = f.g + f.G @ m.terms.xi + 200.0 * f.de + 1e4 * f.e
         G, h = np.array([f.G @ k, -f.G @ k]), np.array([30.0 - rest, 30.0 + rest])
         best = qpsolvers.solve_qp(k.T @ k, -k.T @ k @ u, G, h, solver="daqp", primal_tol=1e-10)
         np.testing.assert_allclose(law.output(s, m), best, rtol=1e-5, atol=1e-4)
-        sides.add(np.sign(law.missing(s, m, u)[0]))
+        sides.add(np.sign(law.missing(s.inner, m, u)[0]))
     assert sides >= {-1.0, 1.0}
 
 
@@ -164,10 +164,10 @@ def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds
         run = ba.simulate(
             walker, walker.initial_state(*gait.start(biped)), ba.Mode(), ba.RK4(1e-3), t_end=0.65
         )
-        counts.append(infeasible_instants(walker.law, parts(walker, run.final_state)[2]))
+        counts.append(infeasible_instants(parts(walker, run.final_state).s))
     assert 50 < counts[0] <= 651
     assert counts[1] == 0
-    assert infeasible_instants(inner.inner, np.zeros(0)) is None
+    assert infeasible_instants(np.zeros(0)) is None
 
 
 def test_a_row_of_a_study_has_them(gait):

@@ -80,10 +80,10 @@ def test_the_map_says_what_the_simulated_robot_does_under_a_force(biped, slow):
     push = ba.HipForce(biped, (-6.0, 0.0))
     walk = ba.walk(walker(biped, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
     law, y = walk.walker.law, decisions(biped, walk)
-    w = [arc.x[-1][10 : 10 + law.own_size] for arc in walk.trajectory.arcs[:4]]
+    w = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs[:4]]
     for k in (1, 2):
-        begin, end = np.array((w[k][0], w[k][3])), np.array((w[k][1], w[k][2]))
-        predicted = law.family.steps.next_square(y[k], begin, end, w[k + 1][2], w[k][5])
+        begin, end = np.array((w[k].begin, w[k].before)), np.array((w[k].end, w[k].L))
+        predicted = law.family.steps.next_square(y[k], begin, end, w[k + 1].L, w[k].r)
         assert predicted == pytest.approx(y[k + 1], rel=0.02)
 
 
@@ -114,7 +114,7 @@ def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
     push = ba.HipForce(biped, (-14.4, 0.0), steps=(5, 99))
     walk = ba.walk(walker(biped, gait, push, step=0.25), gait, impacts=20)
     assert walk.feasibility.outcome == "feasible"
-    r = walk.trajectory.arcs[-1].x[-1][15]
+    r = walk.walker.split_state(walk.trajectory.arcs[-1].x[-1])[2].own.r
     hip = walk.walker.plant.hip(walk.trajectory.arcs[-1].x[-1][:5])[1]
     assert r == pytest.approx(14.4 * hip, rel=0.1)
 

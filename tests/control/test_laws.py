@@ -28,7 +28,7 @@ class Luenberger(ba.Observer):
         return np.concatenate((y, dy, xi))
 
     def estimate(self, z):
-        return Estimate(*z.reshape(3, -1))
+        return Estimate(*z)
 
     def reset(self, z, policy, swap, y, dy, xi):
         return self.initial_state(y, dy, xi)
@@ -37,7 +37,7 @@ class Luenberger(ba.Observer):
         l1, l2, l3 = self.gains
         position, velocity, xi = self.estimate(z)
         e = y - position
-        return np.concatenate((velocity + l1 * e, xi + input + l2 * e, l3 * e))
+        return np.array((velocity + l1 * e, xi + input + l2 * e, l3 * e))
 
 
 @dataclass(frozen=True)

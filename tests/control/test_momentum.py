@@ -35,7 +35,7 @@ def test_the_error_has_the_transfer_function_of_the_module(poles):
     observer, w = MomentumObserver.from_poles(poles), 37.0
     order, l_1 = observer.order, -float(np.sum(poles).real)
     zero, unit = np.zeros((order, order)), np.eye(order)
-    A = observer.flow(unit.ravel(), zero[0], zero[0]).reshape(order, order)
+    A = observer.flow(unit, zero[0], zero[0])
     by_y = observer.flow(zero[0], np.ones(1), np.zeros(1))
     s = 1j * w
     Z = np.linalg.solve(s * unit - A, by_y / s)  # pi = zeta / s, with beta = 0

@@ -80,16 +80,16 @@ def test_reset_policies():
     y, dy, xi = np.full(4, 100.0), np.full(4, 200.0), np.full(4, 300.0)
 
     def reset(policy):
-        return observer.reset(Z.ravel(), ba.ResetPolicy(policy), swap, y, dy, xi).reshape(4, 4)
+        return observer.reset(Z, ba.ResetPolicy(policy), swap, y, dy, xi)
 
     assert np.array_equal(reset("none"), Z)
     assert np.array_equal(reset("relabel"), Z[:, swap])
     measured = reset("measured")
     assert np.array_equal(measured[2:], Z[2:, swap])
-    found = observer.estimate(measured.ravel())
+    found = observer.estimate(measured)
     assert found.position == pytest.approx(y)
     assert found.velocity == pytest.approx(dy)
-    model = observer.estimate(reset("model").ravel())
+    model = observer.estimate(reset("model"))
     assert model.disturbance == pytest.approx(xi)
     assert not np.any(reset("model")[3])
 

@@ -111,9 +111,8 @@ def walked(walker, so_long):
     begin = walker.initial_state(*before_touchdown(so_long), ba.Mode())
     run = simulate(walker, begin, ba.Mode(), ba.RK4(5e-4), t_end=so_long + 0.02)
     assert len(run.arcs) == 2, run
-    n, held = 2 * walker.plant.n, walker.held.sizes.total
-    x = np.concatenate([arc.x for arc in run.arcs])
-    return np.concatenate((x[:, :n], x[:, -held:]), axis=1)
+    x, layout = np.concatenate([arc.x for arc in run.arcs]), walker.layout_of(begin)
+    return np.delete(x, layout.place("s"), axis=1)
 
 
 def difference(walker, source, so_long=0.03):

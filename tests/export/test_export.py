@@ -11,8 +11,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, OutputError
+from biped_adrc.core.tree import flatten
 from biped_adrc.extras.export import loaded as loading
-from biped_adrc.extras.export.computer import Computer, Noticed
+from biped_adrc.extras.export.computer import Computer, Landing, Noticed
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, compiled
 from biped_adrc.extras.export.source import source_of
@@ -93,8 +94,8 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
     old = q + 2e-3 * v
     before = sampled.sense(w, old, v)
     wanted = sampled.impact(before, R @ old + r, R @ v, R @ sampled.reading(before, old, v)[1])
-    found = around.impact(np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
-    np.testing.assert_allclose(found, np.append(wanted, 1.0), rtol=1e-12)
+    found = around.impact(Landing(w, 0.0), R @ old + r, R @ v, np.zeros(3))
+    np.testing.assert_allclose(flatten(found), flatten(Landing(wanted, 1.0)), rtol=1e-12)
     with pytest.raises(InputError, match="do not exchange in pairs"):
         Noticed(inner, R, np.abs(r))
 

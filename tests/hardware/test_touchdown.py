@@ -13,8 +13,7 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.run import run_compiled
-from biped_adrc.hardware.sample_hold import read
-from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown, Look, belief_of
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown, Look
 from biped_adrc.hybrid.simulator import RunOptions
 
 T = 1e-3
@@ -36,11 +35,11 @@ def low_order(constraint):
 
 
 def held_at(system, x):
-    return read(system.held.sizes, x[-system.behind :])
+    return semantics.parts(system, x).tail
 
 
 def beliefs(system, x):
-    return belief_of(held_at(system, x).b)
+    return held_at(system, x).belief
 
 
 def ticks(arc):
@@ -243,10 +242,10 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
     system = walker(biped, gait, FaultyTouchdown(late=5e-3), sensors=SENSORS)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
-    w = [held_at(system, x).w for x in (event.x_minus, event.x_plus)]
+    w = [held_at(system, x).sensors.angle for x in (event.x_minus, event.x_plus)]
     np.testing.assert_array_equal(w[1], w[0])
     nodes = np.vstack([arc.x[ticks(arc)[1]] for arc in walked.arcs])
-    seen = np.array([held_at(system, x).w for x in nodes])
+    seen = np.array([held_at(system, x).sensors.angle for x in nodes])
     noticed = np.flatnonzero(np.diff([beliefs(system, x).step for x in nodes]) > 0.0) + 1
     assert len(noticed) == 1
     angles = seen[:, :5].copy()

@@ -63,7 +63,7 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
     ]
     for walk in walks:
         assert walk.trajectory.settings["plant"]["lag"] == TAU
-        assert walk.walker.held.sizes.lag == 1
+        assert walk.walker.held.motors.speed == 1.0 / TAU
         # u_m goes to what is held of the asked torque, stretch by stretch
         arc, u = walk.trajectory.arcs[0], walk.signals.u[walk.signals.step == 1]
         ways, asked = np.diff(arc.t)[:, np.newaxis], arc.x[:-1, -4:]

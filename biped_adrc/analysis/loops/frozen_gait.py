@@ -33,10 +33,10 @@ from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hardware.sample_hold import HeldSizes, read
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
 from biped_adrc.model.model_errors import ModelErrors
@@ -173,18 +173,19 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     """
     assert isinstance(twin.timing, SampledTime)
     assert twin.held is not None
-    n, T, sizes, mode = twin.plant.n, twin.timing.period, twin.held.sizes, Mode()
+    n, T, mode = twin.plant.n, twin.timing.period, Mode()
     result, ticked = [], None
     for point in points:
         x, J = (
             twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode),
             np.zeros((0, 0)),
         )
-        ticked = ticked or tick_derivative(twin, len(x))
+        layout = twin.layout_of(x)
+        ticked = ticked or tick_derivative(twin, layout)
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
-        u, z = read(sizes, J[len(x) - sizes.total :]).line.sent, _released(sizes, J)[2 * n :]
+        u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
 
@@ -209,12 +210,12 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     return _acting(TickMatrices(share @ Z[:, :, some], share @ Y, C[:, :, some], E))
 
 
-def _released(sizes: HeldSizes, J: Array) -> Array:
+def _released(layout: Layout, J: Array) -> Array:
     """J (nx, nx) after the torque that waits for a part of the period has begun to
     act, as `semantics.release`.
     """
-    if not sizes.waiting:
-        return J
-    p, J = sizes.p, J.copy()
-    J[-p:] = J[-2 * p : -p]
+    u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))
+    if waiting.start < waiting.stop:
+        J = J.copy()
+        J[u] = J[waiting]
     return J

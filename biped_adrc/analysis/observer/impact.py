@@ -98,8 +98,8 @@ def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy
     )
     y, dy, *xi = impact.after
     xi_0 = xi[0] if xi else np.zeros_like(y)
-    estimate = observer.reset(before.ravel(), policy, impact.swap, y, dy, xi_0)
-    return after - estimate.reshape(after.shape)
+    estimate = observer.reset(before, policy, impact.swap, y, dy, xi_0)
+    return after - estimate
 
 
 def impact_peak(

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.tree import Layout, chosen
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.program import controller_numbers
@@ -116,9 +118,14 @@ class Computer:
         motion does not respond to it.
         """
         x = self.alone.initial_state(q, v)
-        _, J = tick_derivative(self.alone, len(x))(0.0, x, Mode())
+        _, J = tick_derivative(self.alone, self.layout)(0.0, x, Mode())
         held = J[2 * len(q) :, 2 * len(q) :]
         return math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0)) / self.timing.period
+
+    @cached_property
+    def layout(self) -> Layout:
+        """What the state of `alone` is made of: (q, v), and x_c."""
+        return self.alone.layout_of(np.zeros(2 * self.alone.plant.n))
 
     @cached_property
     def numbers(self) -> WalkerNumbers:
@@ -128,14 +135,22 @@ class Computer:
         return controller_numbers(self.robot, self.alone)
 
 
+class Landing(NamedTuple):
+    """State of `Noticed`."""
+
+    inner: Any
+    """Of the sensors inside."""
+    landed: float
+    """1 between a touchdown and the sample instant after it, else 0."""
+
+
 @dataclass(frozen=True)
 class Noticed(Sensor):
     """Sensors on the computer where touchdowns are detected at sample instants, as in `closed_loop.semantics`.
 
     A detected touchdown comes with the measurement of that instant. The measurement is read in the old labels
     first, so that rates go on; these are relabelled, and the sample instant that follows at once reads nothing
-    again. The state is that of `inner`, and 1 between touchdown and sample instant. Raises InputError for a
-    robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
+    again. Raises InputError for a robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
     """
 
     inner: Sensor
@@ -153,23 +168,18 @@ class Noticed(Sensor):
     def sampled(self, n: int, p: int, period: float) -> Noticed:
         return replace(self, inner=self.inner.sampled(n, p, period))
 
-    @property
-    def size(self) -> int:
-        return self.inner.size + 1
+    def start(self, q: Array, v: Array) -> Landing:
+        return Landing(self.inner.start(q, v), 0.0)
 
-    def start(self, q: Array, v: Array) -> Array:
-        return np.concatenate((self.inner.start(q, v), np.zeros(1)))
+    def sense(self, w: Landing, q: Array, v: Array) -> Landing:
+        return Landing(chosen(w.landed, w.inner, self.inner.sense(w.inner, q, v)), 0.0)
 
-    def sense(self, w: Array, q: Array, v: Array) -> Array:
-        after = np.where(w[-1] > 0.5, w[:-1], self.inner.sense(w[:-1], q, v))
-        return np.concatenate((after, np.zeros(1)))
-
-    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+    def impact(self, w: Landing, q: Array, v: Array, v_model: Array) -> Landing:
         R = self.R
         q_old, v_old = R @ q + self.offset, R @ v
-        before = self.inner.sense(w[:-1], q_old, v_old)
+        before = self.inner.sense(w.inner, q_old, v_old)
         rates = self.inner.reading(before, q_old, v_old)[1]
-        return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))
+        return Landing(self.inner.impact(before, q, v, R @ rates), 1.0)
 
-    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        return self.inner.reading(w[:-1], q, v)
+    def reading(self, w: Landing, q: Array, v: Array) -> tuple[Array, Array]:
+        return self.inner.reading(w.inner, q, v)

@@ -24,14 +24,14 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
 from biped_adrc.engine.ir import straight_line
-from biped_adrc.engine.symbols import Scalar, Vector, column, where
+from biped_adrc.engine.symbols import Scalar, Vector, column, wheres
 from biped_adrc.engine.tracer import run
 from biped_adrc.extras.export.c_text import CFunction, Entry
-from biped_adrc.extras.export.computer import Computer
-from biped_adrc.hardware.sample_hold import read
+from biped_adrc.extras.export.computer import Computer, Noticed
 
 HEAD = 4
 """Number of inputs before q: t, time of the previous sample instant, number and start of the single support."""
@@ -42,13 +42,11 @@ class Inputs:
     """The inputs of a function as symbols, and the closed loop that reads them."""
 
     computer: Computer
-    size: int
-    """Numbers in the controller's state s."""
 
     @cached_property
     def equations(self) -> Equations:
         """Equations of the computer's parts, with a symbol for each of its numbers."""
-        return Equations(self.size, self.computer.numbers)
+        return Equations(self.computer.layout, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
@@ -59,10 +57,8 @@ class Inputs:
         return SymbolicInstant(inp, self.equations.loop(), t, x, mode)
 
     @property
-    def parts(self) -> tuple[Array, Array, Array, Array]:
-        """The parts of x: q and v (n,), the controller's state s, and the numbers kept
-        between sample instants.
-        """
+    def parts(self) -> semantics.State:
+        """The state x as a tree."""
         return semantics.parts(self.at.loop, self.at.x)
 
     def function(self, *parts: object) -> SymbolicFunction:
@@ -72,46 +68,43 @@ class Inputs:
 
 def init(computer: Computer) -> SymbolicFunction:
     """Trace x_c at the start of a single support at (t, q, v), with no torque in the queue."""
-    inputs, k = Inputs(computer, 0), computer.held
-    q, v = inputs.parts[:2]
-    at = inputs.at
+    inputs = Inputs(computer)
+    (q, v, _, tail), at = inputs.parts, inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
     controller = at.loop.trace.on_symbols(inputs.equations.symbols[1].controller)
     s = run(at.loop.trace, controller.initial_state, m)
     held = at.loop.held
-    w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
-    return inputs.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
+    w = None if held is None or held.sensors is None else held.sensors.start(q, v)
+    line = np.zeros(computer.held.line.size)
+    return inputs.function(flatten(s), flatten(tail._replace(sensors=w, line=line)))
 
 
-def step(computer: Computer, size: int) -> SymbolicFunction:
-    """Trace x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
-    inputs, k = Inputs(computer, size), computer.held
-    n = k.sizes.n
+def step(computer: Computer) -> SymbolicFunction:
+    """Trace x_c, u (p,) [N m] and lost at a sample instant."""
+    inputs = Inputs(computer)
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)
-    line = read(k.sizes, semantics.parts(at.loop, x)[3]).line
-    return inputs.function(x[2 * n :], line.sent, at.loop.lost)
+    sent = semantics.parts(at.loop, x).tail.line.sent
+    return inputs.function(x[2 * computer.robot.n :], sent, at.loop.lost)
 
 
-def touchdown(computer: Computer, size: int) -> SymbolicFunction:
-    """Trace x_c after a touchdown, for a controller with `size` numbers; step and start are
-    of the support that begins.
-    """
-    inputs = Inputs(computer, size)
-    at, (q, v) = inputs.at, inputs.parts[:2]
+def touchdown(computer: Computer) -> SymbolicFunction:
+    """Trace x_c after a touchdown; step and start are of the support that begins."""
+    inputs = Inputs(computer)
+    at, (q, v, _, _) = inputs.at, inputs.parts
     x = at.loop.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
     return inputs.function(x[2 * len(q) :])
 
 
 def _released(inputs: Inputs) -> Array:
     """x in which a torque that waited for a fraction of the period acts, once that time is over."""
-    k, at = inputs.computer.held, inputs.at
-    if k.sizes.waiting == 0:
+    computer, at = inputs.computer, inputs.at
+    fraction = computer.held.motors.fraction
+    if fraction == 0.0:
         return at.x
-    p, after = k.sizes.p, k.motors.fraction * inputs.computer.timing.period - SAME_INSTANT
-    over = at.t - Scalar(at.inp.symbol[1]) >= after
-    u = [where(over, new, old) for new, old in zip(at.x[-2 * p : -p], at.x[-p:], strict=True)]
-    return np.concatenate((at.x[:-p], np.array(u, dtype=object)))
+    over = at.t - Scalar(at.inp.symbol[1]) >= fraction * computer.timing.period - SAME_INSTANT
+    p, released = computer.robot.p, semantics.release(at.loop, at.x)
+    return np.concatenate((at.x[:-p], wheres(over, released[-p:], at.x[-p:])))
 
 
 @dataclass(frozen=True)
@@ -150,12 +143,9 @@ def functions(computer: Computer) -> Functions:
     """Trace the functions of a computer and name their numbers. Raises InputError for a
     method that cannot be traced.
     """
-    sizes = computer.held.sizes
-    first = init(computer)
-    size = first.out.shape[0] - sizes.total
-    traced = first, step(computer, size), touchdown(computer, size)
-    n, every = sizes.n, fields_of(computer, size)
-    total = size + sizes.total
+    traced = init(computer), step(computer), touchdown(computer)
+    n, p, every = computer.robot.n, computer.robot.p, fields_of(computer)
+    total = computer.layout.size - 2 * n
     live = _live(*traced[1:], n, total)
     kept, at = list[Field](), 0
     for field in every:
@@ -164,28 +154,34 @@ def functions(computer: Computer) -> Functions:
         at += field.size
     left = {name for field in kept for name in field}
     states = [f"next->{name}" if name in left else "" for field in every for name in field]
-    results = [*(f"u[{i}]" for i in range(sizes.p)), "*lost"]
+    results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     read = _read(functions[1].function) | _read(functions[2].function)
     rates = tuple(i for i in range(n) if HEAD + n + i in read)
     return Functions(tuple(kept), functions[0], functions[1], functions[2], rates)
 
 
-def fields_of(computer: Computer, size: int) -> tuple[Field, ...]:
-    """The fields of x_c in its order, for a controller with `size` numbers in s."""
-    k = computer.held.sizes
+def fields_of(computer: Computer) -> tuple[Field, ...]:
+    """The fields of x_c in its order."""
+    n, p, line = computer.robot.n, computer.robot.p, computer.held.line
+    s, sensors = computer.layout.parts[2], computer.sensors
     sensed = (
-        Field("angle", k.n, "angles of the sample instant before [rad]", double=True),
-        Field("rate", k.n, "rates from differences, filtered [rad/s]"),
+        Field("angle", n, "angles of the sample instant before [rad]", double=True),
+        Field("rate", n, "rates from differences, filtered [rad/s]"),
         Field("fresh", 1, "1 where no difference can be taken"),
-        Field("landed", k.sensors - 2 * k.n - 1, "1 between a touchdown and the step after it"),
+        Field(
+            "landed",
+            int(isinstance(sensors, Noticed)),
+            "1 between a touchdown and the step after it",
+        ),
     )
+    queue = line.place("queue").stop
     return (
-        Field("s", size, "state of the controller, its observer included"),
-        *(sensed if k.sensors > 0 else ()),
-        Field("queue", k.queue * k.p, "torques on their way, the oldest first [N m]"),
-        Field("waiting", k.waiting * k.p, "torque that acts within this period [N m]"),
-        Field("acting", k.p, "torque that acts on the motors [N m]"),
+        Field("s", s.size, "state of the controller, its observer included"),
+        *(() if sensors is None else sensed),
+        Field("queue", queue, "torques on their way, the oldest first [N m]"),
+        Field("waiting", line.size - queue - p, "torque that acts within this period [N m]"),
+        Field("acting", p, "torque that acts on the motors [N m]"),
     )
 
 

@@ -83,7 +83,7 @@ def source_of(
     if real not in REALS:
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
     try:
-        functions_, k = functions(computer), computer.held.sizes
+        functions_, k = functions(computer), computer.robot
     except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
     used = used_numbers(functions_.all)
@@ -114,14 +114,14 @@ def source_of(
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     """Values for the templates about robot, controller, clock and fields."""
-    walker, k = computer.walker, computer.held.sizes
+    walker, k = computer.walker, computer.robot
     joints = walker.plant.description.joints
     units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
     limits = []
     if walker.torque_limit is not None:
         limits.append(f"at most {walker.torque_limit:g} N m")
-    if k.rate > 0:
-        limits.append(f"changes of at most {computer.held.motors.change:g} N m in a period")
+    if (change := computer.held.motors.change) is not None:
+        limits.append(f"changes of at most {change:g} N m in a period")
     read = [f"m->v[{i}]" for i in functions_.rates]
     return {
         "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
@@ -152,14 +152,14 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
 
 def _about(computer: Computer) -> list[str]:
     """Lines for the head of the header: what the controller computes, and what its caller has to do."""
-    walker, k = computer.walker, computer.held.sizes
+    walker, k = computer.walker, computer.held
     lines = [
         f"Controller in sampled time, every {1e3 * computer.timing.period:g} ms: laws, gait and the nominal",
         "model's terms, with their numbers as constants.",
     ]
-    if k.sensors > 0:
+    if k.sensors is not None:
         lines.append("Rates are differences of angles, filtered, and begin anew at a touchdown.")
-    if k.known > 0:
+    if k.known:
         lines.append(f"It knows that torques act {1e3 * computer.timing.delay:g} ms late.")
     if walker.touchdown is not None:
         lines.append("How a touchdown is noticed is left to the caller.")

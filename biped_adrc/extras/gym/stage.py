@@ -38,7 +38,7 @@ from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.compiled_run import STATUS
-from biped_adrc.hardware.sample_hold import motor_torque, read
+from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, nested
@@ -272,15 +272,15 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     """
     (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
     assert k is not None
-    h = read(k.sizes, tail)
+    assert isinstance(tail, Tail)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
         state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
-        line = labelled(loop, b, h.line)
+        line = labelled(loop, b, tail.line)
     else:
-        q_seen, v_seen = k.reading(k.sense(h.w, q, v), q, v)
-        state, line = true._replace(q=q_seen, v=v_seen), h.line
-    r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(h.line)
+        q_seen, v_seen = k.reading(k.sense(tail.sensors, q, v), q, v)
+        state, line = true._replace(q=q_seen, v=v_seen), tail.line
+    r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(tail.line)
     return LearnerView(
         q=state.q,
         v=state.v,

@@ -26,8 +26,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import LONGEST_PERIOD, SAME_INSTANT, SampledTime
 from biped_adrc.core.types import Array, Indices, read_only, relabelled
-from biped_adrc.hardware.sample_hold import motor_torque, read
-from biped_adrc.hardware.touchdown import belief_of
+from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.recording import Walk
 
@@ -240,13 +239,12 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
     assert held is not None
-    h, step, other = read(held.sizes, tail), float(arc.mode.step), 0.0
-    if held.sizes.belief > 0:
-        b = belief_of(h.b)
-        step, other = float(b.step), b.other
-    q, v = held.reading(h.w, *turned(walker, other, q, v))
+    assert isinstance(tail, Tail)
+    step, other = float(arc.mode.step), 0.0
+    if tail.belief is not None:
+        step, other = float(tail.belief.step), tail.belief.other
+    q, v = held.reading(tail.sensors, *turned(walker, other, q, v))
     nodes = slice(k, end + 1)
-    t, tails = arc.t[nodes], (parts(walker, x)[3] for x in arc.x[nodes])
-    acted = np.array([motor_torque(read(held.sizes, x).line) for x in tails])
+    t, acted = arc.t[nodes], motor_torque(parts(walker, arc.x[nodes]).tail.line)
     u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags
     return float(arc.t[k]), step, q, relabelled(u, walker.swap) if other > 0.5 else u, v

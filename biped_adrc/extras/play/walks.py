@@ -189,8 +189,8 @@ class PageWalk:
 
 def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
     """Compile a walker with a hand. Raises NotCompiled."""
-    size, method = walker.controller_size(x), methods_of(s.run, walker)[0]
-    return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)
+    method = methods_of(s.run, walker)[0]
+    return CompiledWalker.of(walker, method, walker.layout_of(x), 0.0, scene.walked.constraint)
 
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:

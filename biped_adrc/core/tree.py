@@ -1,0 +1,131 @@
+"""A state is a tree: a NamedTuple of arrays, of single numbers and of further states, or an array alone.
+
+Laws read and return trees. Integrators, stored runs and machine code know vectors alone: `flatten` joins the
+numbers of a tree in the order of its fields, and its `Layout` makes the tree of a vector again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from numbers import Real
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from biped_adrc.core.checks import line_of, returned, spoken
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
+
+T = TypeVar("T")
+
+
+def flatten(tree: Any) -> Array:
+    """The numbers of a tree as a vector (size,), one leaf after the other; None has no numbers."""
+    if isinstance(tree, tuple):
+        parts = [flatten(x) for x in tree if x is not None]
+        return np.concatenate(parts) if parts else np.zeros(0)
+    if hasattr(tree, "ndim") and tree.ndim > 0:
+        vector: Array = tree.reshape(-1)
+        return vector
+    return np.array([tree])
+
+
+def chosen(which: float, one: Any, other: Any) -> Any:
+    """Choose between two trees of one layout: `one` where `which` is 1, `other` where it is 0."""
+    if isinstance(one, tuple):
+        parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
+        return _like(type(one), parts)
+    return one if one is None else np.where(which > 0.5, one, other)
+
+
+def zeros_like(tree: Any) -> Any:
+    """A tree of the same layout, with zeros."""
+    if isinstance(tree, tuple):
+        return _like(type(tree), [zeros_like(x) for x in tree])
+    return tree if tree is None else np.zeros(np.shape(tree))
+
+
+def _like(kind: Any, parts: list[Any]) -> Any:
+    """A tuple or NamedTuple of these parts."""
+    return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
+
+
+class Layout(NamedTuple):
+    """What a tree is made of, without its numbers."""
+
+    kind: type | None
+    """Class of a tuple or of None; None for an array or a number."""
+    parts: tuple[Any, ...]
+    """Layouts of a tuple's parts; for an array its shape."""
+    size: int
+    """How many numbers it has."""
+
+    @classmethod
+    def of(cls, tree: Any) -> Layout:
+        """The layout of a tree."""
+        if isinstance(tree, tuple):
+            parts = tuple(map(cls.of, tree))
+            return cls(type(tree), parts, sum(x.size for x in parts))
+        if tree is None:
+            return cls(type(None), (), 0)
+        shape = np.shape(tree)
+        return cls(None, shape, math.prod(shape))
+
+    def tree(self, x: Array) -> Any:
+        """The tree of a vector (.., size), its arrays views of it, with the leading axes of x."""
+        if self.kind is None:
+            return x.reshape(x.shape[:-1] + self.parts) if self.parts else x[..., 0]
+        if self.kind is type(None):
+            return None
+        at, parts = 0, []
+        for part in self.parts:
+            parts.append(part.tree(x[..., at : at + part.size]))
+            at += part.size
+        return _like(self.kind, parts)
+
+    def place(self, *path: str) -> slice:
+        """Where the part at a path of names, such as ("tail", "own"), stands in the vector."""
+        at, part = 0, self
+        for name in path:
+            i = part.kind._fields.index(name)  # type: ignore[union-attr]
+            at += sum(x.size for x in part.parts[:i])
+            part = part.parts[i]
+        return slice(at, at + part.size)
+
+    def names(self, name: str = "") -> Iterator[str]:
+        """Iterate over what each number is called, such as line.u[0]."""
+        if self.kind is None:
+            for i in np.ndindex(*self.parts):
+                yield name + (f"[{', '.join(map(str, i))}]" if i else "")
+            return
+        fields = getattr(self.kind, "_fields", None) or map(str, range(len(self.parts)))
+        for field, part in zip(fields, self.parts, strict=True):
+            yield from part.names(f"{name}.{field}" if name else field)
+
+
+def returned_tree(
+    found: Any, layout: Layout | None, part: object, method: str, finite: bool = True
+) -> Any:
+    """Check a state that a method of a user's class returns, and return it with arrays of floats.
+
+    layout: that of the state at the start of the run; None: any. Raises InputError that names class, method and
+    line for another class, shape or type, and, where `finite`, NotFiniteError.
+    """
+    kind = None if layout is None else layout.kind
+    if layout is not None and kind is None:
+        return returned(found, layout.parts, part, method, finite)
+    if layout is None and not isinstance(found, tuple):
+        numeric = isinstance(found, np.ndarray | Real)
+        shape: tuple[int, ...] | None = np.shape(found) if numeric else None
+        return None if found is None else returned(found, shape, part, method, finite)
+    if layout is not None and type(found) is not kind:
+        raise InputError(
+            f"{spoken(part)}.{method}{line_of(part, method)} returned a {type(found).__name__}, expected a "
+            f"{kind.__name__} as at the start"  # type: ignore[union-attr]
+        )
+    if found is None:
+        return None
+    layouts = (None,) * len(found) if layout is None else layout.parts
+    each = zip(found, layouts, strict=True)
+    return _like(type(found), [returned_tree(x, y, part, method, finite) for x, y in each])
