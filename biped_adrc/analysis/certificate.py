@@ -181,10 +181,8 @@ def series(
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
     needed = demands(walker, n, k.window, impacts)
-    which, own = (
-        dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True)),
-        walker.plant.motor_joints[1],
-    )
+    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True))
+    own = walker.plant.motor_joints[1]
 
     def joint(name: str, i: int) -> Joint | None:
         if name not in which or not n.p:
