@@ -260,10 +260,8 @@ def certificates(
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     result = supports(walker, Nodes.of(signals), k, len(arcs), after)
-    return tuple(
-        _certificate(walker, signals.of_step(arc.mode.step), arc, s)
-        for arc, s in zip(arcs, result, strict=False)
-    )
+    pairs = zip(arcs, result, strict=False)
+    return tuple(_certificate(walker, signals.of_step(arc.mode.step), arc, s) for arc, s in pairs)
 
 
 def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:

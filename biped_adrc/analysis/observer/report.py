@@ -300,6 +300,5 @@ def worst_inertia(biped: Biped, gait: Gait) -> float:
     """
     still = np.zeros(biped.n)
     along = ZeroDynamics.of(biped, gait.constraint).q
-    return float(
-        max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
-    )
+    inertias = (biped.reduction(q, still).kappa_inverse for q in along)
+    return float(max(np.max(np.linalg.norm(rows, axis=1)) for rows in inertias))
