@@ -152,9 +152,8 @@ class ReturnMap(Shown):
     def ran(self) -> str:
         """Name of the engine on which P runs: `engine`, or "pinocchio" where a part has no compiled form."""
         q = np.zeros(self.walker.plant.n)
-        return (
-            PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
-        )
+        states = len(self.walker.initial_state(q, q))
+        return PINOCCHIO if self._compiled(states) is None else COMPILED
 
     def _compiled(self, states: int) -> CompiledWalker | None:
         """The compiled walker whose state has `states` numbers, or None where there is no compiled form."""
