@@ -63,15 +63,12 @@ class ADRCController(ObservingController):
         """Input of the observer for the torque u (p,) [N m]: kappa u (p,) [rad/s^2]."""
         return m.terms.kappa @ u
 
+    def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
+        return tracking_torque(self.gains, r, self.joint_estimate(x, m), m, self.solve_theta)
+
     def output_change(self, m: Measurement, a: Array) -> Array:
         """Change of q_b' (p, 2) when the rates change by a (n, 2): its first p rows."""
         return a[: m.terms.kappa.shape[0]]
-
-    def torque(
-        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
-    ) -> Array:
-        x = self.joint_estimate(x, m)
-        return tracking_torque(self.gains, r, x, m.terms, self.solve_theta, a)
 
     def error_system(self) -> ErrorSystem | None:
         return self.observer.error_system()

@@ -56,11 +56,13 @@ class Around(Controller):
         """Whether the controller inside needs `Measurement.body`."""
         return self.inner.needs_body
 
+    @property
+    def reads_impulse(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The methods of the controller inside that read `Measurement.impulse`."""
+        return self.inner.reads_impulse
+
     def output(self, s: Array, m: Measurement) -> Array:
         return self.inner.output(s, m)
-
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a)
 
     def initial_state(self, m: Measurement) -> Array:
         return self.inner.initial_state(m)
@@ -70,9 +72,6 @@ class Around(Controller):
 
     def correct(self, s: Array, m: Measurement) -> Array:
         return self.inner.correct(s, m)
-
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_correct(s, m, a)
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         return self.inner.predict(s, m, u)
@@ -101,9 +100,6 @@ class AddedTorque(Around):
 
     def output(self, s: Array, m: Measurement) -> Array:
         return self.inner.output(s, m) + self.torque
-
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a) + self.torque
 
 
 @dataclass(frozen=True)

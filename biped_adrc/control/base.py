@@ -59,6 +59,9 @@ class Measurement(NamedTuple):
     """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
     """elsewhere(q, v) -> the measurement in another state, at the same time; None outside of a closed loop."""
+    impulse: Array | None = None
+    """Changes of the rates (n, 2) [1/(kg m)] for each N s on the striking foot, which errors leave out; None
+    but for a controller inside `ImpactInvariant`, near a touchdown."""
 
     @property
     def q_b(self) -> Array:
@@ -106,6 +109,8 @@ class Controller(Part):
 
     needs_body: ClassVar[bool] = False
     """Whether `Measurement.body` has to be there."""
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
+    """The methods, of "output" and "correct", that leave the directions of `Measurement.impulse` out."""
 
     def output(self, s: Array, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
@@ -140,21 +145,6 @@ class Controller(Part):
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         """Estimates of the p joints by an observer inside, for plots; None without one."""
         return None
-
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        """u (p,) [N m] as `output`, without the part of the rate error along the change of the rates a (n, 2).
-
-        For `impact_invariant`: an impulse of the striking foot changes the rates along a, and leaves this
-        torque unchanged. Raises InputError for a controller that has no such form.
-        """
-        self._has_no("rate error that could be projected")
-
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        """s (size,) as `correct`, without the part of the innovation along the change of the rates a (n, 2).
-
-        Raises InputError for a controller that has no such form.
-        """
-        self._has_no("innovation that could be projected")
 
     def sampled(self, period: float) -> Controller:
         """The same controller for ticks every `period` [s]; itself where its `predict` needs no other form."""

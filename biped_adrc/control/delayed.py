@@ -43,12 +43,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from math import factorial
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 
 from biped_adrc.control.around import Around
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Measurement
 from biped_adrc.core.checks import PositiveFloat, Range
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
@@ -68,6 +68,8 @@ class Delayed(Around):
     known: whether the observer inside is fed with the torque that acts. torque_limit [N m]: of the command. It
     compiles around whatever compiles in continuous time. Raises InputError for numbers out of range.
     """
+
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     delay: PositiveFloat
     order: OrderInt = 4
@@ -98,8 +100,6 @@ class Delayed(Around):
 
     def output(self, s: Array, m: Measurement) -> Array:
         return self.pade[0] @ self.parts(s, m)[1]
-
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
 
     def initial_state(self, m: Measurement) -> Array:
         """The inner state at the start, with R as if its command had acted for long enough."""
@@ -168,6 +168,8 @@ class Predicted(Around):
     Raises InputError for d that is not positive, or longer than `timing.LONGEST_DELAY` periods.
     """
 
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
+
     prediction: float
     period: float | None = None
 
@@ -209,8 +211,6 @@ class Predicted(Around):
     def output(self, s: Array, m: Measurement) -> Array:
         z, U = self.parts(s, m)
         return self.inner.output(z, self.ahead(U, m))
-
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
 
     def initial_state(self, m: Measurement) -> Array:
         U = np.zeros((len(self.weights[0]), m.terms.kappa.shape[0]))

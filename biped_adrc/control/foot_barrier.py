@@ -155,9 +155,6 @@ class FootBarrier(Around):
     def output(self, s: Array, m: Measurement) -> Array:
         return self.filtered(s, m, self.inner.output(s[:-1], m))
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.filtered(s, m, self.inner.projected_output(s[:-1], m, a))
-
     def initial_state(self, m: Measurement) -> Array:
         return np.append(self.inner.initial_state(m), 0.0)
 
@@ -166,9 +163,6 @@ class FootBarrier(Around):
 
     def correct(self, s: Array, m: Measurement) -> Array:
         return np.append(self.inner.correct(s[:-1], m), s[-1])
-
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        return np.append(self.inner.projected_correct(s[:-1], m, a), s[-1])
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         infeasible = np.where(abs(self.missing(s, m, u)[0]) > ROUND_OFF, 1.0, 0.0)

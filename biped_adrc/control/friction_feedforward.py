@@ -61,9 +61,6 @@ class FrictionFeedforward(Around):
     def output(self, s: Array, m: Measurement) -> Array:
         return self.inner.output(s, m) + self.friction(m)
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.inner.projected_output(s, m, a) + self.friction(m)
-
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
         return self.inner.flow(s, m, u - self.friction(m))
 

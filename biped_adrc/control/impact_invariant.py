@@ -19,6 +19,9 @@ since q_d' of a virtual constraint follows the measured rates and jumps with the
 touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the
 phase: |Theta- - Theta| < T |Theta'|.
 
+This wrapper puts a into `Measurement.impulse`, and the law inside projects; a law says in `reads_impulse` in
+which of its methods it does.
+
 The projection of the rate error is that of Yang and Posa, Impact invariant control with applications to
 bipedal locomotion, IROS 2021 (arXiv 2103.06907), and Autonomous Robots 49(35), 2025 (arXiv 2303.00817), shown
 there on a planar biped of five links: the impulse that explains most of the error is removed from it. In the
@@ -34,7 +37,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.control.around import ContactWindow
-from biped_adrc.control.base import Measurement, nested
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import check_part
@@ -76,10 +79,9 @@ class ImpactInvariant(ContactWindow):
         tracked_constraint(
             self.inner, "a touchdown is expected by the phase of a virtual constraint"
         )
-        inside = list(nested(self.inner))
-        if not all(c._writes("projected_output") for c in inside):
+        if "output" not in self.inner.reads_impulse:
             self.inner._has_no("rate error that could be projected")
-        if self.innovation and not all(c._writes("projected_correct") for c in inside):
+        if self.innovation and "correct" not in self.inner.reads_impulse:
             self.inner._has_no("innovation that could be projected")
 
     @derived
@@ -97,13 +99,13 @@ class ImpactInvariant(ContactWindow):
         u = self.inner.output(s, m)
         if not self.rates:
             return u
-        return self.near(m, self.inner.projected_output(s, m, self.directions(m)), u)
+        return self.near(m, self.inner.output(s, self.with_impulse(m)), u)
 
     def correct(self, s: Array, m: Measurement) -> Array:
         z = self.inner.correct(s, m)
         if not self.innovation:
             return z
-        return self.near(m, self.inner.projected_correct(s, m, self.directions(m)), z)
+        return self.near(m, self.inner.correct(s, self.with_impulse(m)), z)
 
     def landed(self, m: Measurement) -> bool:
         """Whether the last touchdown was less than T ago; 1 or 0 on symbols."""
@@ -115,13 +117,13 @@ class ImpactInvariant(ContactWindow):
         left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
         return abs(left) < self.until * abs(rate)
 
-    def directions(self, m: Measurement) -> Array:
-        """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse on the foot that has
-        just struck, or is about to.
+    def with_impulse(self, m: Measurement) -> Measurement:
+        """The measurement m with its `impulse`: a (n, 2) [1/(kg m)] of the foot that has just struck, or is
+        about to.
         """
         body = body_of(m)
         J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
-        return impulse_response(m.terms.D, body, J)
+        return m._replace(impulse=impulse_response(m.terms.D, body, J))
 
     def near(self, m: Measurement, projected: Array, other: Array) -> Array:
         """`projected` within T of a touchdown, else `other`."""

@@ -76,13 +76,11 @@ class MomentumDOBController(ObservingController):
         beta[:p] += u
         return beta
 
-    def torque(
-        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
-    ) -> Array:
+    def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
         """u (p,) [N m] for an estimated force (n,). Raises SingularError as `tracking_torque`."""
         terms = pushed(m.terms, x.disturbance)
         joints = measured(m)._replace(disturbance=terms.xi)
-        return tracking_torque(self.gains, r, joints, terms, self.solve_theta, a)
+        return tracking_torque(self.gains, r, joints, m._replace(terms=terms), self.solve_theta)
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
         """The measured joints, and the total disturbance (14) of the model with the

@@ -13,6 +13,7 @@ error of the size xi / K_p.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
@@ -32,13 +33,12 @@ class NPDController(Controller):
     1
     """
 
+    reads_impulse: ClassVar[tuple[str, ...]] = ("output",)
+
     reference: Reference
     gains: Gains = TABLE_II
     solve_theta: bool = True
 
     def output(self, s: Array, m: Measurement) -> Array:
-        return self.projected_output(s, m, None)
-
-    def projected_output(self, s: Array, m: Measurement, a: Array | None) -> Array:
         r = self.reference(m.t, m.q, m.v)
-        return tracking_torque(self.gains, r, measured(m), m.terms, self.solve_theta, a)
+        return tracking_torque(self.gains, r, measured(m), m, self.solve_theta)

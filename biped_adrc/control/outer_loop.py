@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -34,6 +34,8 @@ Constraint = VirtualConstraint | CorrectedConstraint
 @dataclass(frozen=True)
 class OuterLoop(Around):
     """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
+
+    reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     def __post_init__(self) -> None:
         tracked_constraint(self.inner)
@@ -81,8 +83,6 @@ class OuterLoop(Around):
     def output(self, s: Array, m: Measurement) -> Array:
         z, w = self.parts(s)
         return self._acting(w).output(z, m)
-
-    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
 
     def initial_state(self, m: Measurement) -> Array:
         z = self.inner.initial_state(m)

@@ -23,9 +23,9 @@ from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
     ObservingController,
-    orthogonal_to,
     output_matrix,
     rate_error_change,
+    unchanged,
 )
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
@@ -59,16 +59,13 @@ class OutputADRCController(ObservingController):
         """Input of the observer for the torque u (p,) [N m]: L u (p,) [rad/s^2]."""
         return output_matrix(self.point(m), m.terms) @ (m.terms.kappa @ u)
 
-    def torque(
-        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
-    ) -> Array:
-        """u (p,) [N m] for estimates x of the output; a (n, 2): changes of the rates that
-        are projected out of y'.
+    def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
+        """u (p,) [N m] for estimates x of the output.
 
         Raises SingularError where M is exactly singular, with a pivot of 0.0; near that u grows
         without bound and without an error.
         """
-        dy = x.velocity if a is None else orthogonal_to(rate_error_change(r, a)) @ x.velocity
+        dy = x.velocity if m.impulse is None else unchanged(r, x.velocity, m.impulse)
         w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
         ddq_b = solve(
             output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"

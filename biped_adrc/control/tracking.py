@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -90,21 +90,24 @@ def tracking_torque(
     gains: Gains,
     r: ReferencePoint,
     x: Estimate,
-    terms: Reduction,
+    m: Measurement,
     solve_theta: bool,
-    a: Array | None = None,
 ) -> Array:
-    """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement.
+    """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement m.
 
-    solve_theta: whether the loop through Theta'' is solved. a (n, 2): changes of the rates that are projected
-    out of the rate error; None: nothing is projected. Raises SingularError as `solved_acceleration`.
+    solve_theta: whether the loop through Theta'' is solved. Raises SingularError as `solved_acceleration`.
     """
     x2 = x.velocity
-    if a is not None:
-        x2 = r.dq_d + orthogonal_to(rate_error_change(r, a)) @ (x2 - r.dq_d)
+    if m.impulse is not None:
+        x2 = r.dq_d + unchanged(r, x2 - r.dq_d, m.impulse)
     f = feedback(gains, r, x.position, x2)
-    ddq_b = solved_acceleration(r, terms, f) if solve_theta else printed_acceleration(r, f)
-    return terms.kappa_inverse @ (ddq_b - x.disturbance)
+    ddq_b = solved_acceleration(r, m.terms, f) if solve_theta else printed_acceleration(r, f)
+    return m.terms.kappa_inverse @ (ddq_b - x.disturbance)
+
+
+def unchanged(r: ReferencePoint, de: Array, a: Array) -> Array:
+    """The part of the rate error de (p,) [rad/s] that no change of the rates along a (n, 2) moves."""
+    return orthogonal_to(rate_error_change(r, a)) @ de
 
 
 def rate_error_change(r: ReferencePoint, a: Array) -> Array:
@@ -185,6 +188,8 @@ class ObservingController(Controller):
     (True, 7)
     """
 
+    reads_impulse: ClassVar[tuple[str, ...]] = ("output", "correct")
+
     reference: Reference
     observer: Observer
     gains: Gains
@@ -199,12 +204,8 @@ class ObservingController(Controller):
         """The observer's input under the torque u (p,) [N m]."""
 
     @abstractmethod
-    def torque(
-        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
-    ) -> Array:
-        """u (p,) [N m] for the estimates x; a (n, 2): changes of the rates that are
-        projected out of the rate error.
-        """
+    def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
+        """u (p,) [N m] for the estimates x."""
 
     @abstractmethod
     def output_change(self, m: Measurement, a: Array) -> Array:
@@ -229,9 +230,6 @@ class ObservingController(Controller):
     def output(self, s: Array, m: Measurement) -> Array:
         return self.torque(self.point(m), self.estimated(s), m)
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.torque(self.point(m), self.estimated(s), m, a)
-
     def initial_state(self, m: Measurement) -> Array:
         return self.observer.initial_state(*self.measured_output(m))
 
@@ -242,12 +240,11 @@ class ObservingController(Controller):
         return self.observer.flow(s, self.measured_output(m).position, self.observer_input(m, u))
 
     def correct(self, s: Array, m: Measurement) -> Array:
-        return self.observer.correct(s, self.measured_output(m).position)
-
-    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        estimate, y = self.observer.estimate(s).position, self.measured_output(m).position
-        P = orthogonal_to(self.output_change(m, a))
-        return self.observer.correct(s, estimate + P @ (y - estimate))
+        y = self.measured_output(m).position
+        if m.impulse is not None:  # the innovation y - y^ without the part that the impulse changes
+            y_hat = self.observer.estimate(s).position
+            y = y_hat + orthogonal_to(self.output_change(m, m.impulse)) @ (y - y_hat)
+        return self.observer.correct(s, y)
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         return self.observer.predict(s, self.observer_input(m, u))

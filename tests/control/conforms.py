@@ -366,11 +366,10 @@ def methods_compile(law, sampled):
         calls |= {"initial_state": (m,), "jump": (s, m, SWAP)}
         if law.estimate(s, m) is not None:
             calls["estimate"] = (s, m)
-        for name in ("projected_output", "projected_correct")[: 1 + sampled]:
-            if unless("be projected", partial(getattr(law, name), s, m, a)) is not None:
-                calls[name] = (s, m, a)
         for name, rest in calls.items():
             agree(getattr(kind, name), law, *rest)
+        for name in law.reads_impulse[: 1 + sampled]:
+            agree(getattr(kind, name), law, s, m._replace(impulse=a))
     return True
 
 
