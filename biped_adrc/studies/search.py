@@ -308,21 +308,14 @@ class _Proposals:
         if self.refining or len(best) < max(SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
-        choices = self.optuna.distributions.CategoricalDistribution
-        space = {
-            name: x
-            for name, x in self.space.items()
-            if name in best[0].values and not isinstance(x, choices)
-        }
+        acting, variables = best[0].values, self.search.variables
+        space = {n: x for n, x in self.space.items() if n in acting and variables[n].range}
         if len(space) < 2 or self.search.generation < 4:
             return
+        create, scores = self.optuna.trial.create_trial, [(c.chosen, self.score(c)) for c in best]
         trials = [
-            self.optuna.trial.create_trial(
-                params={name: c.chosen[name] for name in space},
-                distributions=space,
-                value=self.score(c),
-            )
-            for c in best
+            create(params={n: chosen[n] for n in space}, distributions=space, value=score)
+            for chosen, score in scores
         ]
         self.space, self.fixed = space, {n: x for n, x in best[0].chosen.items() if n not in space}
         sampler = self.optuna.samplers.CmaEsSampler(
