@@ -64,18 +64,15 @@ def _whole(x: Any, least: int) -> bool:
 
 
 FiniteFloat = Annotated[float, Range("a finite number", math.isfinite)]
-PositiveFloat = Annotated[float, Range("a positive number", lambda x: 0.0 < x < math.inf)]
-NonNegativeFloat = Annotated[
-    float, Range("zero or a positive number", lambda x: 0.0 <= x < math.inf)
-]
+_POSITIVE = Range("a positive number", lambda x: 0.0 < x < math.inf)
+_NOT_BELOW = Range("zero or a positive number", lambda x: 0.0 <= x < math.inf)
+PositiveFloat = Annotated[float, _POSITIVE]
+NonNegativeFloat = Annotated[float, _NOT_BELOW]
 PositiveInt = Annotated[int, Range("a whole number, at least 1", lambda x: _whole(x, 1))]
 NonNegativeInt = Annotated[int, Range("a whole number >= 0", lambda x: _whole(x, 0))]
-PositiveFloats = Annotated[
-    tuple[float, ...], each("positive numbers", lambda x: 0.0 < x < math.inf)
-]
-NonNegativeFloats = Annotated[
-    tuple[float, ...], each("finite numbers, none below 0", lambda x: 0.0 <= x < math.inf)
-]
+_ROW = tuple[float, ...]
+PositiveFloats = Annotated[_ROW, each("positive numbers", _POSITIVE.holds)]
+NonNegativeFloats = Annotated[_ROW, each("finite numbers, none below 0", _NOT_BELOW.holds)]
 TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 

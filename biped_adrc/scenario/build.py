@@ -200,13 +200,8 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
                 f"robot '{s.robot.name}' has no motors, so it takes no {name}; leave that out, or take "
                 "a robot with motors ('biped-adrc robot list')"
             )
-    return Walker(
-        scene.biped,
-        Passive(),
-        slope=scene.slope(s),
-        max_step_time=known.max_step_time,
-        runaway_speed=s.run.runaway_speed,
-    )
+    slope, time, speed = scene.slope(s), known.max_step_time, s.run.runaway_speed
+    return Walker(scene.biped, Passive(), slope=slope, max_step_time=time, runaway_speed=speed)
 
 
 def limits(s: Scenario) -> Limits:

@@ -37,13 +37,8 @@ DIFFERENCE = 1e-4
 
 
 NO_MAP = (
-    "run.impacts",
-    "run.first_step",
-    "run.fine",
-    "run.engine",
-    "pushes",
-    "ground.drop",
-    "start",
+    *("run.impacts", "run.first_step", "run.fine", "run.engine"),
+    *("pushes", "ground.drop", "start"),
 )
 """Values and records of a scenario that have no effect on a return map."""
 FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")

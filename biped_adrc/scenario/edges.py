@@ -44,9 +44,7 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     the impact on" is written.
     """
     for part in () if walker.disturbance is None else summands(walker.disturbance):
-        edges = {
-            step: sorted(s for k, s in part.switches if k == step) for step, _ in part.switches
-        }
+        edges = {k: sorted(s for j, s in part.switches if j == k) for k, _ in part.switches}
         found = [x for step, times in edges.items() for x in _of_edges(step, times, trajectory)]
         yield from found
         if not found and not _acted(part, {*edges}, trajectory, walker.plant.n):
@@ -109,11 +107,8 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
         return
     if step == 0 and times[0] > trajectory.t_end:
         yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
-    impacts = [
-        (arc.mode.step, e.t - starts[0])
-        for arc in arcs
-        if (e := arc.event) and e.guard == FOOT_STRIKE
-    ]
+    ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
+    impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= NEAR}
     for s, end in sorted(near):
         yield (

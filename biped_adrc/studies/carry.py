@@ -127,10 +127,8 @@ class _Searched:
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)
-            again = [
-                search.judged(base, c.number, c.chosen, walks)
-                for c, walks in zip(few, walk("choice", few), strict=True)
-            ]
+            pairs = zip(few, walk("choice", few), strict=True)
+            again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
             failure = self.failure(again, case, "choice")
         if not failure:
             return Choice(tuple(result), tuple(search.ranked(again)))

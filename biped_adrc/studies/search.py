@@ -147,11 +147,8 @@ class Search(Part):
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
         """The values of a candidate's scenario: the base, and what was chosen that has an effect."""
         candidate = {**base, **chosen}
-        while idle := [
-            n
-            for n, v in self.variables.items()
-            if n in chosen and n in candidate and not v.acts(candidate)
-        ]:
+        acts = {n: v.acts for n, v in self.variables.items() if n in chosen}
+        while idle := [n for n in acts if n in candidate and not acts[n](candidate)]:
             for name in idle:  # and in the next round those that depend on one of them
                 del candidate[name]
         return candidate
@@ -247,11 +244,11 @@ def searched(
         new: list[Candidate] = []
         for number in itertools.islice(numbers, ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
-            if any(c.missed) and number:
+            if number == 0 or not any(c.missed):
+                batch.append(c)
+            else:
                 new.append(c)
                 proposals.tell(c)
-                continue
-            batch.append(c)
             if len(batch) == min(left, search.generation):
                 break
         if not batch:
