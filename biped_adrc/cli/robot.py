@@ -163,9 +163,8 @@ def _describe(biped: ba.Biped) -> None:
         console.say(f"  q{i} = {joint} ({roles.get(joint, 'absolute pitch')})")
     terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
     console.say(f"Theta = {terms}")
-    console.say(
-        f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}"
-    )
+    feet = f"stance foot {d.stance_foot}, swing foot {d.swing_foot}"
+    console.say(f"{feet}, hip {d.hip}, trunk {d.trunk}")
     console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
     for j in biped.motor_joints[1]:
         rate = f"{j.speed:g} rad/s" if j.speed < math.inf else "not stated"

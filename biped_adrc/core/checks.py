@@ -305,10 +305,8 @@ def sentence_of(error: Exception) -> str:
     name = code.co_qualname.rpartition("<locals>.")[2]
     where = f"{name} ({Path(line.filename).name}:{line.lineno}, `{line.line}`)"
     if isinstance(error, ValueError) and "read-only" in str(error):
-        return (
-            f"{where} writes into an array that it was handed and that others read; write into a copy, such as "
-            "v = m.v_b.copy()"
-        )
+        what = "writes into an array that it was handed and that others read"
+        return f"{where} {what}; write into a copy, such as v = m.v_b.copy()"
     return f"{where} raised {type(error).__name__}: {error}"
 
 
@@ -333,9 +331,8 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...
         hints = get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
         return ()
-    result = (
-        (f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ())
-    )
+    names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
+    result = ((name, *_members(hints[name])) for name in names)
     return tuple(x for x in result if x[2] is not None or all(map(_looked_at, x[1])))
 
 

@@ -372,10 +372,8 @@ def data_folder(kind: str) -> Path:
     for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
         if candidate.is_dir():
             return candidate
-    raise FileNotFoundError(
-        f"the data folder '{kind}' is neither in the installed package nor beside it; "
-        "reinstall with 'pip install .'"
-    )
+    what = f"the data folder '{kind}' is neither in the installed package nor beside it"
+    raise FileNotFoundError(f"{what}; reinstall with 'pip install .'")
 
 
 def data_file(kind: str, *names: str) -> Path:

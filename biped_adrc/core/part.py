@@ -111,8 +111,7 @@ def _as_floats(x: Any) -> Any:
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
     """Make an object of the class of a part, or of `cls`, with these values by name, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
-    for name, value in values.items():
-        object.__setattr__(new, name, value)
+    vars(new).update(values)
     return new
 
 
@@ -121,9 +120,7 @@ def with_fields(part: T, **values: Any) -> T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    new: Any = object.__new__(type(part))
-    vars(new).update(vars(part) | values)
-    return new
+    return with_content(part, vars(part) | values)
 
 
 @lru_cache(maxsize=512)

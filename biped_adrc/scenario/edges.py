@@ -54,9 +54,8 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     yield from _of_steps(walker, trajectory)
     count = 0 if walker.stones is None else len(walker.stones.lengths)
     if 0 < count < trajectory.arcs[-1].mode.step:
-        yield (
-            f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole"
-        )
+        behind = f"behind stone {count}, the last one, from single support {count + 1} on"
+        yield f"{behind}, the ground is whole"
     yield from _of_controller(walker, trajectory)
     yield from () if gait is None else _of_gait(walker, gait)
 
@@ -111,10 +110,8 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
     impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= NEAR}
     for s, end in sorted(near):
-        yield (
-            f"{name} has the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s; move it "
-            "away from there"
-        )
+        edge = f"the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s"
+        yield f"{name} has {edge}; move it away from there"
     own = [end for number, end in impacts if number == step]
     late = [s for end in own for s in times if s > end + NEAR]
     if late and not near:

@@ -72,10 +72,8 @@ def study(
         function = partial(run_trials, aside="rounding" in study_.columns)
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
-        raise InputError(
-            f"study '{study_.name}' names files that workers elsewhere may not have: {files}; run it on this "
-            "machine"
-        )
+        what = f"names files that workers elsewhere may not have: {files}"
+        raise InputError(f"study '{study_.name}' {what}; run it on this machine")
     folder = Path(out)
     with opened(folder, study_) as store, crew:
         fits, total = store.mend(), study_.count_of(undrawn)

@@ -102,9 +102,8 @@ def _variable(name: str, value: Any) -> Variable:
     beside = keys.pop("when", {})
     when = each(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
-        return Variable.model_validate(
-            {**keys, "choices": read_list(name, keys["choices"], 2), "when": when}
-        )
+        choices = read_list(name, keys["choices"], 2)
+        return Variable.model_validate({**keys, "choices": choices, "when": when})
     return Variable(range=read_range(name, keys), when=when)
 
 
@@ -136,9 +135,8 @@ class Search(Part):
 
     def count(self, sets: Mapping[str, int]) -> int:
         """Walks of one case at most. sets: walks of a candidate, by name of the set."""
-        return (
-            self.budget * sets["search"] + (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
-        )
+        again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
+        return self.budget * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
         """The variables that may have an effect beside these values, which no variable changes."""
@@ -315,8 +313,7 @@ class _Proposals:
             for chosen, score in scores
         ]
         self.space, self.fixed = space, {n: x for n, x in best[0].chosen.items() if n not in space}
-        sampler = self.optuna.samplers.CmaEsSampler(
-            seed=self.search.seed, popsize=self.search.generation, source_trials=trials
-        )
+        seed, size = self.search.seed, self.search.generation
+        sampler = self.optuna.samplers.CmaEsSampler(seed=seed, popsize=size, source_trials=trials)
         self.study = self.optuna.create_study(sampler=sampler)
         self.study.add_trials(trials)
