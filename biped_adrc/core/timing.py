@@ -67,10 +67,8 @@ class SampledTime(Checked):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
-            raise InputError(
-                f"the computation delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods of "
-                f"{self.period} s"
-            )
+            found = f"the computation delay is {self.delay} s"
+            raise InputError(f"{found}, expected 0 to {LONGEST_DELAY} periods of {self.period} s")
 
 
 def check_timing(timing: object) -> None:
