@@ -142,23 +142,20 @@ class ZeroOrbits(Shown):
     def zeta_star(self) -> float:
         """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit."""
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
-        for holds, text in (
-            (
-                d2 < 1.0,
-                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster",
-            ),
-            (
-                V < 0.0,
-                f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step",
-            ),
-            (
-                self.existence < 0.0,
+        wrong = ""
+        if not d2 < 1.0:
+            wrong = (
+                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
+            )
+        elif not V < 0.0:
+            wrong = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
+        elif not self.existence < 0.0:
+            wrong = (
                 f"a step would begin {self.existence:.3g} {unit} short of the V_max = {self.v_max:.6g} that it "
-                f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way",
-            ),
-        ):
-            if not holds:
-                raise GaitError(f"the zero dynamics have no stable orbit: {text}")
+                f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way"
+            )
+        if wrong:
+            raise GaitError(f"the zero dynamics have no stable orbit: {wrong}")
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
