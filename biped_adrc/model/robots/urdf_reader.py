@@ -216,16 +216,14 @@ def _numbers(
     return values  # type: ignore[return-value]
 
 
-def _by_joint(
-    joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
-) -> dict[str, float]:
-    """The number <tag key> of each joint that has it, by name of the joint."""
+def _by_joint(joints: list[ET.Element], tag: str, key: str, file: str) -> dict[str, float]:
+    """The number <tag key>, at least 0, of each joint that has it, by name of the joint."""
     values = {}
     for joint in joints:
         element = joint.find(tag)
         if element is not None and key in element.attrib:
             where = f"{_place_of(joint, file)} <{tag}>"
-            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, least)[0]
+            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, 0.0)[0]
     return values
 
 
