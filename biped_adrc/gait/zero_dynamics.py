@@ -115,10 +115,8 @@ class ZeroDynamics(Shown):
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
-        q, dq, ddq = (
-            np.array(rows)
-            for rows in zip(*(configuration(constraint, th) for th in theta), strict=True)
-        )
+        rows = zip(*(configuration(constraint, th) for th in theta), strict=True)
+        q, dq, ddq = map(np.array, rows)
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
         return cls(biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity)

@@ -179,9 +179,9 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
-    torso = name not in biped.description.actuated and inertial is not None
     path = f"{draw.joint_path(biped.tree, joint)}/torque"
-    origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
+    motors = biped.description.actuated
+    origin = (0.0, 0.0, 0.0) if name in motors or inertial is None else inertial.com
     draw.add_ring(robot[path], origin, TORQUE, opacity)
     return path
 
