@@ -49,9 +49,8 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
     x, w = legendre.leggauss(count)
     to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
     to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
-    integral = np.array(
-        [legendre.legval(x, legendre.legint(np.eye(count)[k], lbnd=-1)) for k in range(count)]
-    ).T
+    integrals = (legendre.legint(row, lbnd=-1) for row in np.eye(count))
+    integral = np.array([legendre.legval(x, row) for row in integrals]).T
     return 0.5 * (x + 1.0), 0.5 * w, 0.5 * integral @ to_coefficients
 
 

@@ -56,9 +56,8 @@ def series(zero: ZeroDynamics, values: Array) -> Legendre:
     """The polynomial in Theta [rad] that has the values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
-    coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
-        np.arange(len(x)) + 0.5
-    )
+    products = legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)
+    coefficients = products * (np.arange(len(x)) + 0.5)
     return Legendre(coefficients, domain=[c.theta_plus, c.theta_minus])
 
 

@@ -97,9 +97,8 @@ class StepLimits(Checked, Shown):
         ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
         # a coordinate is the angle of either leg's joint in turn
         for joint, *sides in zip(d.actuated, *biped.motor_joints, strict=True):
-            lows, highs = zip(
-                *(side.range for side in sides), ranges.get(joint, FREELY), strict=True
-            )
+            own_range = ranges.get(joint, FREELY)
+            lows, highs = zip(own_range, *(side.range for side in sides), strict=True)
             if (ends := (max(lows), min(highs))) != FREELY:
                 ranges[joint] = ends
             if (rate := min(side.speed for side in sides)) < math.inf:

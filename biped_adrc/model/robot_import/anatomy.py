@@ -116,9 +116,8 @@ def on_feet(
 def _ends(body: PlanarBase) -> list[str]:
     """Names of the links at the ends of the tree, the trunk among them where one joint hangs on it."""
     tree, trunk = body.tree, body.trunk
-    return [
-        link for link in tree.links_from(trunk) if len(tree.joints_below(link)) <= (link == trunk)
-    ]
+    below = tree.links_from(trunk)
+    return [link for link in below if len(tree.joints_below(link)) <= (link == trunk)]
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:

@@ -132,9 +132,8 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
         for j in tree.joints
     )
     text = f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
-    return PlanarBase(
-        replace(tree, joints=forward), (x, z), pitch.name, pitch.child, (Note("read", text),)
-    )
+    tree, note = replace(tree, joints=forward), Note("read", text)
+    return PlanarBase(tree, (x, z), pitch.name, pitch.child, (note,))
 
 
 def added(

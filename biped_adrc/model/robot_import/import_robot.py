@@ -273,9 +273,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
-    return Derived(
-        biped, tuple(sorted(notes, key=lambda n: order.index(n.kind))), checks(biped), record
-    )
+    ordered = tuple(sorted(notes, key=lambda note: order.index(note.kind)))
+    return Derived(biped, ordered, checks(biped), record)
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:

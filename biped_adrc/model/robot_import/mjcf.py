@@ -58,15 +58,11 @@ def read_mjcf(path: Path) -> Contents:
         """One of the model's arrays over its velocities, by joint."""
         return {name: float(values[m.jnt_dofadr[j]]) for name, j in hinges.items()}
 
-    return Contents(
-        _tree(m, d, names, path),
-        {n: e for n, j in hinges.items() if (e := _torque(m, j)) < math.inf},
-        by_joint(m.dof_damping),
-        by_joint(m.dof_frictionloss),
-        by_joint(m.dof_armature),
-        dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True)),
-        _notes(m, hinges),
-    )
+    torques = {name: e for name, j in hinges.items() if (e := _torque(m, j)) < math.inf}
+    viscous, static, rotor = map(by_joint, (m.dof_damping, m.dof_frictionloss, m.dof_armature))
+    turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
+    tree, notes = _tree(m, d, names, path), _notes(m, hinges)
+    return Contents(tree, torques, viscous, static, rotor, turns, notes)
 
 
 def _name(m: Any, j: int) -> str:

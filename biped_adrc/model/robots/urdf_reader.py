@@ -121,15 +121,11 @@ def read(path: Path | str) -> Contents:
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    return Contents(
-        Tree(_name(robot, file), links, joints, str(path)),
-        _by_joint(turning, "limit", "effort", file),
-        _by_joint(turning, "dynamics", "damping", file),
-        _by_joint(turning, "dynamics", "friction", file),
-        _rotors(robot, file),
-        turns,
-        _notes(robot, links, yaw),
-    )
+    tree = Tree(_name(robot, file), links, joints, str(path))
+    keys = ("limit", "effort"), ("dynamics", "damping"), ("dynamics", "friction")
+    effort, viscous, static = (_by_joint(turning, *key, file) for key in keys)
+    notes = _notes(robot, links, yaw)
+    return Contents(tree, effort, viscous, static, _rotors(robot, file), turns, notes)
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:

@@ -272,13 +272,10 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
     acting = placement.loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
-    return Pose(
-        np.array([at[name] for name in moving]),
-        np.array(rates),
-        np.concatenate((acting.ground_reaction, acting.zeta)),
-        scene.points(i, t, q),
-        np.array([*foothold, *acting.other, acting.slips]),
-    )
+    values, forces = [at[name] for name in moving], (acting.ground_reaction, acting.zeta)
+    contact = np.array([*foothold, *acting.other, acting.slips])
+    points = scene.points(i, t, q)
+    return Pose(np.array(values), np.array(rates), np.concatenate(forces), points, contact)
 
 
 def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
