@@ -107,8 +107,8 @@ class OfTheLeftLeg(ba.ADRCController):
     def observer_input(self, m, u):
         return self.side(m) * super().observer_input(m, u)
 
-    def torque(self, r, x, m, a=None):
-        return super().torque(r, Estimate(*(self.side(m) * y for y in x)), m, a)
+    def torque(self, r, x, m):
+        return super().torque(r, Estimate(*(self.side(m) * y for y in x)), m)
 
     def jump(self, s, after, swap):
         return s

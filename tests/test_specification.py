@@ -139,7 +139,12 @@ def missed(T, **values):
     lasting = {name: x * T for name, x in values.items() if name.endswith(times)}
     walker, gait, loop = loop_of(**{**values, **lasting, "hardware.period": T})
     n, p = walker.plant.n, walker.plant.p
-    point = FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
+    frozen = FrozenGait.of(walker.plant, gait, spread=0.0)
+    point = frozen.points[0]
+    z = walker.plant.hip(point.q)[
+        1
+    ]  # a pendulum upside down: z theta'' = g theta, theta = exp(rate t)
+    assert frozen.falling**2 * z == pytest.approx(9.81, rel=1e-12)
     deviation = 1e-6 * np.array(
         [1.0, -2.0, 0.5, 1.5, -1.0, *np.array([5.0, 9, -3, 7, 4]) * 1e-3 / T]
     )

@@ -181,10 +181,8 @@ def series(
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
     needed = demands(walker, n, k.window, impacts)
-    which, own = (
-        dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True)),
-        walker.plant.motor_joints[1],
-    )
+    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True))
+    own = walker.plant.motor_joints[1]
 
     def joint(name: str, i: int) -> Joint | None:
         if name not in which or not n.p:
@@ -262,10 +260,8 @@ def certificates(
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     result = supports(walker, Nodes.of(signals), k, len(arcs), after)
-    return tuple(
-        _certificate(walker, signals.of_step(arc.mode.step), arc, s)
-        for arc, s in zip(arcs, result, strict=False)
-    )
+    pairs = zip(arcs, result, strict=False)
+    return tuple(_certificate(walker, signals.of_step(arc.mode.step), arc, s) for arc, s in pairs)
 
 
 def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:

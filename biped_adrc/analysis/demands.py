@@ -24,16 +24,6 @@ SHORTEST = 1e-9
 
 
 @inner
-def largest(x: Array, size: int) -> float:
-    """Largest |x_i| of x (size,); NaN where one is."""
-    result = 0.0
-    for i in range(size):
-        if abs(x[i]) > result or x[i] != x[i]:
-            result = abs(x[i])
-    return result
-
-
-@inner
 def loads(row: Array, p: int, joints: Array, out: Array, count: int) -> None:
     """out (6, count): at its first column the largest torque [N m], share of a limit of rates [1] and angle
     beyond a range [rad], 0 for none, and the joints that have them, from 0. joints: as for `demands`."""
@@ -104,9 +94,9 @@ def totals(rows: Array, p: int, count: int, out: Array) -> None:
     for k in range(count):
         row = shift(rows, k * width)
         e, u, q = shift(row, 4), shift(row, 4 + p), shift(row, 4 + 2 * p)
-        error = largest(e, p)
-        if error > out[0] or error != error:
-            out[0] = error
+        for i in range(p):
+            if abs(e[i]) > out[0] or e[i] != e[i]:
+                out[0] = abs(e[i])
         if k + 1 < count and row[width] > row[0]:
             out[1] += 1.0
             for i in range(p):

@@ -194,6 +194,5 @@ def until_infeasible(
     kept = int(np.searchsorted(arc.t, result.t, side="right"))
     cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
     detail = f"single support {arc.mode.step}, {result.t:.4f} s: {result.what}"
-    return replace(
-        trajectory, arcs=(*arcs[: result.support], cut), status=Status.INFEASIBLE, detail=detail
-    )
+    arcs = *arcs[: result.support], cut
+    return replace(trajectory, arcs=arcs, status=Status.INFEASIBLE, detail=detail)

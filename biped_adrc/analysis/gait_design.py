@@ -16,6 +16,7 @@ Along it W, the work of gravity, and J are integrals over Theta (`gait.zero_dyna
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -79,6 +80,7 @@ class DesignedGait(Shown):
         """A table of the results, one line per number."""
         c, o = self.certificate, self.request.objective
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
+        within = f"between the first and the last {100.0 * ENDS:g} % of the step"
         rows = [
             ("speed", f"{self.speed:.6f} m/s"),
             ("step length", f"{c.step_length:.6f} m"),
@@ -88,10 +90,7 @@ class DesignedGait(Shown):
             ("peak torque", f"{c.peak_torque:.2f} N m"),
             ("friction", f"{c.friction:.3f}, of the impulse {c.impulse_ratio:.3f}"),
             ("least F_N", f"{c.least_normal_force:.1f} N"),
-            (
-                "foot clearance",
-                f"{1e3 * c.clearance:.1f} mm, between the first and the last {100.0 * ENDS:g} % of the step",
-            ),
+            ("foot clearance", f"{1e3 * c.clearance:.1f} mm, {within}"),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
             (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
             (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
@@ -128,10 +127,8 @@ def design_gait(
     check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
     point = None if through is None else tuple(float(x) for x in np.concatenate(through))
-    limits = limits or StepLimits()
-    request = GaitRequest(
-        speed, step, slope, Objective(objective), degree, nodes, limits, point, curve
-    )
+    limits, cost = limits or StepLimits(), Objective(objective)
+    request = GaitRequest(speed, step, slope, cost, degree, nodes, limits, point, curve)
     return certify(biped, request, optimise(biped, request))
 
 
@@ -151,11 +148,9 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
     allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
     certificate = certificates(walker, run, signals(walker, run, gait.constraint), allowed)[0]
-    free = {
-        "scuffing": limits.clearance is None,
-        IMPULSE: limits.impulse_friction > limits.friction,
-    }
-    missed = certificate.violations([name for name, is_free in free.items() if is_free])
+    free = ["scuffing"] if limits.clearance is None else []
+    free += [IMPULSE] if limits.impulse_friction > limits.friction else []
+    missed = certificate.violations(free)
     if missed:
         raise GaitError(f"the designed gait does not pass its certificate: {'; '.join(missed)}")
     before = run.before(FOOT_STRIKE)[-1]
@@ -210,15 +205,14 @@ def library(
             f"the family has {len(set(speeds))} speeds and {len(set(lengths))} lengths, expected at least "
             f"{CURVE_DEGREE + 1} of both"
         )
-    for v in speeds:
-        for L in lengths:
-            try:
-                gait = optimise(biped, GaitRequest(v, L, limits=limits)).gait
-            except GaitError as error:
-                done(f"{v:g} m/s, {L:g} m: none, {error}")
-                continue
-            gaits.append((v, L, gait))
-            done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
+    for v, L in itertools.product(speeds, lengths):
+        try:
+            gait = optimise(biped, GaitRequest(v, L, limits=limits)).gait
+        except GaitError as error:
+            done(f"{v:g} m/s, {L:g} m: none, {error}")
+            continue
+        gaits.append((v, L, gait))
+        done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
     if len(gaits) < least:
         raise GaitError(
             f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; "
@@ -268,9 +262,8 @@ def with_steps(
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
-    to_decision = PolynomialMap.fit(
-        np.column_stack((v, before, L, ahead)), steps[:, :-2], STEP_DEGREE
-    )
+    earlier = np.column_stack((v, before, L, ahead))
+    to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
     return replace(family, steps=StepMap(to_impact, to_decision), members=members)
 
 

@@ -199,18 +199,16 @@ def compiled_readings(
     from biped_adrc.engine.program import COMPILED, Program, numbers_of
     from biped_adrc.engine.symbols import NotCompiled
 
-    layout = walker.layout_of(trajectory.arcs[0].x[0])
+    first, point = trajectory.arcs[0], partial(tracked_point, reference)
     try:
+        layout = walker.layout_of(first.x[0])
         program = Program(layout, numbers_of(walker, curve=reference))
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
         code, K = program.reading(signals_at), program.K
     except (NotCompiled, ModelError):
         return None
-    first = trajectory.arcs[0]
-    example = signals_at(
-        walker, first.t[0], first.x[0], first.mode, partial(tracked_point, reference)
-    )
+    example = signals_at(walker, first.t[0], first.x[0], first.mode, point)
     shapes = tuple(np.shape(part) for part in example)
     call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
     out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
@@ -387,9 +385,6 @@ def largest(t: Array, y: Array, dy: Array) -> float:
         result = [np.abs(y).max(initial=0.0)]
         for s in (root / a, c / root):
             inside = np.where((s > 0.0) & (s < 1.0), s, 0.0)
-            result.append(
-                np.abs(y[:-1] + inside * (d0 + inside * (0.5 * b + inside * a / 3.0))).max(
-                    initial=0.0
-                )
-            )
+            between = y[:-1] + inside * (d0 + inside * (0.5 * b + inside * a / 3.0))
+            result.append(np.abs(between).max(initial=0.0))
     return float(max(result))

@@ -81,10 +81,9 @@ def soft_steps(
     a run that is not of this loop.
     """
     plant: Any = loop.plant
-    apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
-    return tuple(
-        step_of(readings(loop, arc, apart), plant.ground.friction, axes) for arc in run.arcs
-    )
+    apart = plant.h if apart is None else apart
+    mu, axes = plant.ground.friction, ground_axes(plant.slope)
+    return tuple(step_of(readings(loop, arc, apart), mu, axes) for arc in run.arcs)
 
 
 def recorded_steps(
@@ -135,12 +134,12 @@ def step_of(r: Readings, friction: float, axes: tuple[Array, Array]) -> SoftStep
     slips = slipping(r.force, r.speed, friction, axes)
     pressed = normal > PRESSED
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
-    feet = carries.sum(axis=1)
+    feet, (stance, other) = carries.sum(axis=1), map(float, w @ (slips * speed))
     return SoftStep(
         duration=float(r.t[-1] - r.t[0]),
         double_support=float(w @ (feet == 2)),
         flight=float(w @ (feet == 0)),
-        slip=_pair(w @ (slips * speed)),
+        slip=(stance, other),
         depth=float(max(0.0, np.max(r.level * out[1] - r.place @ out))),
         friction_used=float(np.max(used)),
     )
@@ -164,12 +163,6 @@ def weights(t: Array) -> Array:
     """Weights (K,) [s] of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
     ways = np.diff(t)
     return 0.5 * (np.append(ways, 0.0) + np.append(0.0, ways))
-
-
-def _pair(numbers: Array) -> tuple[float, float]:
-    """The two numbers of an array (2,) as floats."""
-    one, other = map(float, numbers)
-    return one, other
 
 
 # -- errors ------------------------------------------------------------------------------------------

@@ -123,11 +123,8 @@ class StabilityTable(Shown):
     def text(self, count: int = 9) -> str:
         """The table as lines of text, the `count` largest |lambda| of each method, and the verdict."""
         methods = {VARIATIONAL: self.variational, CENTRAL: self.central}
-        rows = [
-            (name, " ".join(f"{size:.6e}" for size in np.abs(z)[:count]))
-            for name, z in methods.items()
-            if z is not None
-        ]
+        sizes = {name: np.abs(z)[:count] for name, z in methods.items() if z is not None}
+        rows = [(name, " ".join(f"{x:.6e}" for x in size)) for name, size in sizes.items()]
         return "\n".join([*columns(rows, 28, gap=1), self.verdict])
 
 

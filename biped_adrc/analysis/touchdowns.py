@@ -64,10 +64,8 @@ class Noticed(Shown):
         late = decided[decided >= 0.0]
         mean = float(np.mean(late)) if len(late) else None
         most = float(np.max(late)) if len(late) else None
-        early, missed = (
-            float(np.mean(which)) if len(decided) else None
-            for which in (decided < 0.0, np.isnan(decided))
-        )
+        kinds = decided < 0.0, np.isnan(decided)
+        early, missed = (float(np.mean(kind)) if len(decided) else None for kind in kinds)
         return TouchdownRates(mean, most, early, missed, len(self.false))
 
 

@@ -42,10 +42,8 @@ def main() -> None:
     warnings.showwarning = lambda message, *_: errors.say(f"warning: {message}")
     code, lost = _run(), getattr(sys.stdout, "lost", None)
     if lost is not None and not isinstance(lost, BrokenPipeError):
-        errors.say(
-            f"error: what was printed cannot be written: {lost.strerror}; files that were to be written are "
-            "complete"
-        )
+        what = f"what was printed cannot be written: {lost.strerror}"
+        errors.say(f"error: {what}; files that were to be written are complete")
         code = code or OutputError.exit_code
     sys.exit(code)
 

@@ -62,6 +62,13 @@ def _of_every_command(
     """Options of the command itself."""
 
 
+def group(name: str, text: str) -> typer.Typer:
+    """A group of commands under one name, such as `gait`; text: its help."""
+    result = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help=text)
+    app.add_typer(result, name=name)
+    return result
+
+
 class Terminal(Console):
     """rich's console, without markup and emoji: brackets, colons and control characters are text."""
 

@@ -14,10 +14,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 import biped_adrc as ba
-from biped_adrc.cli.app import FIGURES, GAITS, app, command, console, inputs, target
+from biped_adrc.cli.app import FIGURES, GAITS, command, console, group, inputs, target
 from biped_adrc.cli.options import options, pairs, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
@@ -26,10 +24,7 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
     from biped_adrc.gait.design.request import GaitRequest
 
-gait_app = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
-)
-app.add_typer(gait_app, name="gait")
+gait_app = group("gait", "Design, show, import and export gaits.")
 
 
 @gait_app.command("design")

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Collection
+from contextlib import suppress
 from functools import reduce, wraps
 from inspect import Parameter, Signature, signature
 from pathlib import Path
@@ -142,10 +143,8 @@ def pairs(
 def _own(text: str) -> object:
     """A value that only the user's part knows: a number, truth value or list where the text is one."""
     for candidate in (text, f"[{text}]"):
-        try:
+        with suppress(ValueError):
             return json.loads(candidate)
-        except ValueError:
-            continue
     return text
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, FIGURES, app, console, errors, inputs, target
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, FIGURES, console, errors, group, inputs, target
 from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import check_folder
@@ -22,12 +22,7 @@ from biped_adrc.core.files import check_folder
 if TYPE_CHECKING:
     from biped_adrc.model.robot_import.import_robot import Derived
 
-robot_app = typer.Typer(
-    no_args_is_help=True,
-    rich_markup_mode=None,
-    help="Show the robots there are, or bring one's own from a URDF.",
-)
-app.add_typer(robot_app, name="robot")
+robot_app = group("robot", "Show the robots there are, or bring one's own from a URDF.")
 
 
 @robot_app.command("list")
@@ -163,16 +158,13 @@ def _describe(biped: ba.Biped) -> None:
     """Print coordinates and their joints, Theta, feet, section, limits of joints, motors and ground, masses."""
     d = biped.description
     console.say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
-    for i, joint in enumerate(d.joints):
-        role = (
-            "motor" if joint in d.actuated else "free" if joint in d.passive else "absolute pitch"
-        )
-        console.say(f"  q{i + 1} = {joint} ({role})")
+    roles = dict.fromkeys(d.passive, "free") | dict.fromkeys(d.actuated, "motor")
+    for i, joint in enumerate(d.joints, 1):
+        console.say(f"  q{i} = {joint} ({roles.get(joint, 'absolute pitch')})")
     terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
     console.say(f"Theta = {terms}")
-    console.say(
-        f"stance foot {d.stance_foot}, swing foot {d.swing_foot}, hip {d.hip}, trunk {d.trunk}"
-    )
+    feet = f"stance foot {d.stance_foot}, swing foot {d.swing_foot}"
+    console.say(f"{feet}, hip {d.hip}, trunk {d.trunk}")
     console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
     for j in biped.motor_joints[1]:
         rate = f"{j.speed:g} rad/s" if j.speed < math.inf else "not stated"

@@ -122,10 +122,8 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
         each = (walk, half)
         ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
         fall = " up to the fall" if run.status in FALLS else ""
-        about = (
-            f"largest tracking error {error_text(*ends)}{fall}, peak torque {walk.peak_torque:.1f} N m, "
-            f"{run.settings['method']}"
-        )
+        error = f"largest tracking error {error_text(*ends)}{fall}"
+        about = f"{error}, peak torque {walk.peak_torque:.1f} N m, {run.settings['method']}"
     console.print(
         f"{run.status.name}: {run.status.value} {run.detail}".strip()
         + f"\n{walk.impacts_text}, {about}\n{feasibility.text()}"
@@ -198,11 +196,9 @@ def poincare(
     walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
-    console.say(
-        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.ground_slope:g} rad, "
-        f"{cycle.P.method.label}\n"
-        f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]"
-    )
+    about = f"{s.robot.name}, {walker.plant.preset}, {law}"
+    console.say(f"{about}, slope {walker.ground_slope:g} rad, {cycle.P.method.label}")
+    console.say(f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]")
     step = nominal_step(cycle, o, limits(s))
     _print_steps([step], [step])
     console.say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")

@@ -55,19 +55,9 @@ def stepping_loop(
             "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
         )
     motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
-    return kind(
-        _fitted(plant, walker, first_step),
-        walker.controller,
-        walker.disturbance,
-        walker.timing,
-        walker.nominal,
-        walker.torque_limit,
-        walker.sensors,
-        motors,
-        walker.touchdown,
-        walker.runaway_speed,
-        walker.runaway_torque,
-    )
+    values = {f.name: getattr(walker, f.name) for f in fields(SteppingLoop)}
+    values |= {"plant": _fitted(plant, walker, first_step), "model": walker.nominal}
+    return kind(**values | {"motors": motors})
 
 
 def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
@@ -109,12 +99,8 @@ def walk_on(
     assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)
     longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
-    options = RunOptions(
-        mode.start + impacts * longest,
-        mode.start,
-        stop_after=(FOOT_STRIKE, impacts),
-        progress=progress,
-    )
+    end, last = mode.start + impacts * longest, (FOOT_STRIKE, impacts)
+    options = RunOptions(end, mode.start, stop_after=last, progress=progress)
     return as_walked(loop, loop.run(x0, options, mode))
 
 

@@ -313,15 +313,8 @@ def noticed(
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
     w = k.sense(tail.sensors, q_b, v_b)
     q_seen, v_seen = k.reading(w, q_b, v_b)
-    look = Look(
-        t,
-        t - old.start,
-        loop.nominal.swing_foot(q_seen),
-        force,
-        old.other,
-        mode.step,
-        t - mode.start,
-    )
+    foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
+    look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
     d, fires = k.touchdown.notice(old.d, look)
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires

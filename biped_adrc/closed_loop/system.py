@@ -271,9 +271,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         mode = Mode() if mode is None else mode
         # what overflows is refused, or ends the walk
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            m = self.measure(
-                mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode
-            )
+            q, v = (np.asarray(x, dtype=float) for x in (q, v))
+            m = self.measure(mode.start, q, v, mode)
             for part in nested(self.law):
                 _check_tracking(part, m, self.plant.p)
             s = returned_tree(self.law.initial_state(m), None, self.law, "initial_state")

@@ -64,18 +64,15 @@ def _whole(x: Any, least: int) -> bool:
 
 
 FiniteFloat = Annotated[float, Range("a finite number", math.isfinite)]
-PositiveFloat = Annotated[float, Range("a positive number", lambda x: 0.0 < x < math.inf)]
-NonNegativeFloat = Annotated[
-    float, Range("zero or a positive number", lambda x: 0.0 <= x < math.inf)
-]
+_POSITIVE = Range("a positive number", lambda x: 0.0 < x < math.inf)
+_NOT_BELOW = Range("zero or a positive number", lambda x: 0.0 <= x < math.inf)
+PositiveFloat = Annotated[float, _POSITIVE]
+NonNegativeFloat = Annotated[float, _NOT_BELOW]
 PositiveInt = Annotated[int, Range("a whole number, at least 1", lambda x: _whole(x, 1))]
 NonNegativeInt = Annotated[int, Range("a whole number >= 0", lambda x: _whole(x, 0))]
-PositiveFloats = Annotated[
-    tuple[float, ...], each("positive numbers", lambda x: 0.0 < x < math.inf)
-]
-NonNegativeFloats = Annotated[
-    tuple[float, ...], each("finite numbers, none below 0", lambda x: 0.0 <= x < math.inf)
-]
+_ROW = tuple[float, ...]
+PositiveFloats = Annotated[_ROW, each("positive numbers", _POSITIVE.holds)]
+NonNegativeFloats = Annotated[_ROW, each("finite numbers, none below 0", _NOT_BELOW.holds)]
 TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 
@@ -308,10 +305,8 @@ def sentence_of(error: Exception) -> str:
     name = code.co_qualname.rpartition("<locals>.")[2]
     where = f"{name} ({Path(line.filename).name}:{line.lineno}, `{line.line}`)"
     if isinstance(error, ValueError) and "read-only" in str(error):
-        return (
-            f"{where} writes into an array that it was handed and that others read; write into a copy, such as "
-            "v = m.v_b.copy()"
-        )
+        what = "writes into an array that it was handed and that others read"
+        return f"{where} {what}; write into a copy, such as v = m.v_b.copy()"
     return f"{where} raised {type(error).__name__}: {error}"
 
 
@@ -336,9 +331,8 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...
         hints = get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
         return ()
-    result = (
-        (f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ())
-    )
+    names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
+    result = ((name, *_members(hints[name])) for name in names)
     return tuple(x for x in result if x[2] is not None or all(map(_looked_at, x[1])))
 
 

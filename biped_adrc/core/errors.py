@@ -115,10 +115,8 @@ def check_count(count: object, what: str) -> None:
     check_whole(count, what, 1)
 
 
-def check_positive(
-    value: float, what: str, hint: str = "", error: type[BipedError] = InputError
-) -> None:
-    """Raise `error` unless `value` is a finite number above 0: NaN, infinity and text are refused too.
+def check_positive(value: float, what: str, hint: str = "") -> None:
+    """Raise InputError unless `value` is a finite number above 0: NaN, infinity and text are refused too.
 
     what: how the message begins, with the value found. hint: how it ends, such as what to use
     instead.
@@ -128,7 +126,7 @@ def check_positive(
     except TypeError:  # no number
         fits = False
     if not fits:
-        raise error(f"{what}{_if_text(value)}, expected a positive number{hint}")
+        raise InputError(f"{what}{_if_text(value)}, expected a positive number{hint}")
 
 
 def _if_text(value: object) -> str:

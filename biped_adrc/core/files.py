@@ -22,7 +22,7 @@ import stat
 import tempfile
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.resources import files
@@ -212,12 +212,10 @@ class CsvTable(NamedTuple):
 
     def numbers(self, at: int) -> Array:
         """Numbers (K,) of column `at`. Raises InputError for one that is not finite, with line and column."""
-        result = np.empty(len(self.rows))
+        result = np.full(len(self.rows), math.nan)
         for k, (line, row) in enumerate(self.rows):
-            try:
+            with suppress(ValueError):
                 result[k] = float(row[at])
-            except ValueError:
-                result[k] = math.nan
             if not math.isfinite(result[k]):
                 raise InputError(
                     f"line {line}, column '{self.head[at]}': found '{row[at]}', expected a finite number"
@@ -374,10 +372,8 @@ def data_folder(kind: str) -> Path:
     for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
         if candidate.is_dir():
             return candidate
-    raise FileNotFoundError(
-        f"the data folder '{kind}' is neither in the installed package nor beside it; "
-        "reinstall with 'pip install .'"
-    )
+    what = f"the data folder '{kind}' is neither in the installed package nor beside it"
+    raise FileNotFoundError(f"{what}; reinstall with 'pip install .'")
 
 
 def data_file(kind: str, *names: str) -> Path:

@@ -14,7 +14,7 @@ A method that decides by a number (`if x > 0`) cannot be compiled; it runs in Py
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field, fields
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
@@ -92,13 +92,8 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     result: list[tuple[str, Callable[[Any], Any]]] = []
     for f in fields(cls):
         value = _as_floats if "float" in str(f.type).lower() else _itself
-        result.append((f.name, _hidden if f.metadata.get("setup") else value))
+        result.append((f.name, (lambda _: Setup()) if f.metadata.get("setup") else value))
     return (*result, *((name, _itself) for name in derived_names(cls)))
-
-
-def _hidden(x: Any) -> Setup:
-    """A placeholder for a setup field."""
-    return Setup()
 
 
 def _itself(x: Any) -> Any:
@@ -116,8 +111,7 @@ def _as_floats(x: Any) -> Any:
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
     """Make an object of the class of a part, or of `cls`, with these values by name, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
-    for name, value in values.items():
-        object.__setattr__(new, name, value)
+    vars(new).update(values)
     return new
 
 
@@ -126,18 +120,11 @@ def with_fields(part: T, **values: Any) -> T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    new: Any = object.__new__(type(part))
-    vars(new).update(vars(part) | values)
-    return new
+    return with_content(part, vars(part) | values)
 
 
 @lru_cache(maxsize=512)
 def derived_names(cls: type) -> tuple[str, ...]:
     """Names of the derived numbers of a class, those of its bases first."""
-    return tuple(dict.fromkeys(_derived(cls)))
-
-
-def _derived(cls: Any) -> Iterator[str]:
-    """Iterate over the names of derived numbers of a class and its bases, from the most basic on."""
-    for base in reversed(cls.__mro__):
-        yield from (name for name, x in vars(base).items() if isinstance(x, derived))
+    members = (item for base in reversed(cls.__mro__) for item in vars(base).items())
+    return tuple(dict.fromkeys(name for name, x in members if isinstance(x, derived)))

@@ -70,10 +70,8 @@ def processes(count: int | None = None, preload: Sequence[str] = PRELOADED) -> P
     if count is not None and not 1 <= count <= MOST_WORKERS:
         raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise InputError(
-            "worker processes import the script that starts them: put what starts them under "
-            "if __name__ == '__main__':"
-        )
+        why = "worker processes import the script that starts them"
+        raise InputError(f"{why}: put what starts them under if __name__ == '__main__':")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
     with _safe_path():

@@ -75,19 +75,14 @@ def short(x: Any) -> str:
 
 def _fields_of(thing: Any) -> list[tuple[str, Any]]:
     """Names and values of the fields of a dataclass or NamedTuple that are not at their defaults."""
-    if not is_dataclass(thing):
-        names = getattr(thing, "_fields", ())
-        usual = getattr(thing, "_field_defaults", {})
-        return [(key, getattr(thing, key)) for key in names if not _same(thing, key, usual)]
-    shown_fields = [f for f in fields(thing) if f.repr and f.init]
-    kind = type(thing)
-    usual = {
-        f.name: getattr(kind, f.name, f.default) for f in shown_fields if f.default is not MISSING
-    }
-    usual |= {f.name: f.default_factory() for f in shown_fields if f.default_factory is not MISSING}
-    return [
-        (f.name, getattr(thing, f.name)) for f in shown_fields if not _same(thing, f.name, usual)
-    ]
+    names, usual = getattr(thing, "_fields", ()), dict(getattr(thing, "_field_defaults", {}))
+    if is_dataclass(thing):
+        shown = [f for f in fields(thing) if f.repr and f.init]
+        names = [f.name for f in shown]
+        # the class knows a default that a subclass has changed
+        usual |= {f.name: getattr(type(thing), f.name, MISSING) for f in shown}
+        usual |= {f.name: f.default_factory() for f in shown if f.default_factory is not MISSING}
+    return [(key, getattr(thing, key)) for key in names if not _same(thing, key, usual)]
 
 
 def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:

@@ -23,13 +23,9 @@ WHOLE = 1e-9
 """Tolerance, as a fraction of a period, with which a delay counts as a whole number of periods."""
 SAME_INSTANT = 1e-9
 """Times that differ by less are the same instant up to round-off [s], in both engines."""
-PeriodFloat = Annotated[
-    float,
-    Range(
-        f"at least {LEAST_PERIOD} s, at most {LONGEST_PERIOD} s",
-        lambda T: LEAST_PERIOD <= T <= LONGEST_PERIOD,
-    ),
-]
+_WORDS = f"at least {LEAST_PERIOD} s, at most {LONGEST_PERIOD} s"
+_PERIODS = Range(_WORDS, lambda T: LEAST_PERIOD <= T <= LONGEST_PERIOD)
+PeriodFloat = Annotated[float, _PERIODS]
 
 
 @dataclass(frozen=True)
@@ -71,10 +67,8 @@ class SampledTime(Checked):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
-            raise InputError(
-                f"the computation delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods of "
-                f"{self.period} s"
-            )
+            found = f"the computation delay is {self.delay} s"
+            raise InputError(f"{found}, expected 0 to {LONGEST_DELAY} periods of {self.period} s")
 
 
 def check_timing(timing: object) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import platform
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -29,12 +30,10 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
     That of this package is its `__version__`.
     """
-    result = {}
-    for name in names:
-        try:
+    result = dict.fromkeys(names, "none")
+    for name in result:
+        with suppress(PackageNotFoundError):
             result[name] = __version__ if name == "biped-adrc" else version(name)
-        except PackageNotFoundError:
-            result[name] = "none"
     return result
 
 

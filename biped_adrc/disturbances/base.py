@@ -21,12 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.core.checks import (
-    PositiveInt,
-    check_part,
-    numbers,
-    returned,
-)
+from biped_adrc.core.checks import PositiveInt, check_part, numbers, returned
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part, derived, setup
 from biped_adrc.core.types import Array

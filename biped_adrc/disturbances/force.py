@@ -27,15 +27,9 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import SETUP, derived, setup
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.disturbances.base import Disturbance, Windowed
+from biped_adrc.model import planar
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import (
-    LinkPoint,
-    hip_point,
-    jacobian,
-    link_point,
-    turned,
-    wrench_torque,
-)
+from biped_adrc.model.planar import LinkPoint, hip_point, link_point, wrench_torque
 
 COUNT_UP = Range("(first, last) with 1 <= first <= last", lambda x: 1 <= x[0] <= x[1])
 AT_REST = np.zeros(3), np.zeros(3)
@@ -148,7 +142,7 @@ class AddedForce(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         k = self.point
-        zeta: Array = self.force @ jacobian(k, turned(k, q), k.re, k.im)
+        zeta: Array = self.force @ planar.jacobian(k, planar.turned(k, q), k.re, k.im)
         return zeta
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:

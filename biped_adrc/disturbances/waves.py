@@ -36,12 +36,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from biped_adrc.core.checks import (
-    NonNegativeFloat,
-    NonNegativeInt,
-    PositiveFloat,
-    PositiveInt,
-)
+from biped_adrc.core.checks import NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import SETUP, derived
 from biped_adrc.core.types import Array

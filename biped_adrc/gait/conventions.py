@@ -146,17 +146,10 @@ def convention(name: str, knees: bool = True) -> Convention:
     paper = [i for i in range(5) if knees or i not in _KNEES]
     own = [i for i in range(5) if knees or i not in d["knees"]]
     rows = [r for r in d["outputs"] if r in own]
-    to_paper = AngleMap(
-        np.array(d["A"])[np.ix_(paper, own)], np.pi * np.array(d["half_turns"])[paper]
-    )
-    return Convention(
-        name,
-        tuple(d["coordinates"][i] for i in own),
-        to_paper,
-        np.eye(5)[np.ix_(rows, own)],
-        d["sense"],
-        np.array(_PHASE)[paper],
-    )
+    A, b = np.array(d["A"])[np.ix_(paper, own)], np.pi * np.array(d["half_turns"])[paper]
+    H0, coordinates = np.eye(5)[np.ix_(rows, own)], tuple(d["coordinates"][i] for i in own)
+    c = np.array(_PHASE)[paper]
+    return Convention(name, coordinates, AngleMap(A, b), H0, d["sense"], c)
 
 
 _definitions = packaged("biped_adrc.gait", "conventions.toml")

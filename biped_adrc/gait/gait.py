@@ -126,14 +126,10 @@ class Gait(Shown):
         expected = f"robot '{d.name}' has {biped.p} motors and {biped.n} coordinates"
         yield (p, n) == (biped.p, biped.n), f"{p} joints and a phase row of {n}, {expected}"
         yield 0.0 < self.period < math.inf, f"the period is {self.period} s, expected above 0"
-        yield (
-            abs(self.slope) < 0.5 * math.pi,
-            f"the slope is {self.slope} rad, a right angle or more",
-        )
-        for end, theta, pose in (
-            ("end", c.theta_minus, q),
-            ("start", c.theta_plus, biped.relabel(q)),
-        ):
+        below = abs(self.slope) < 0.5 * math.pi
+        yield below, f"the slope is {self.slope} rad, a right angle or more"
+        ends = ("end", c.theta_minus, q), ("start", c.theta_plus, biped.relabel(q))
+        for end, theta, pose in ends:
             angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
             k = int(np.argmax(np.round(np.abs(angles - goals), 9)))  # joints before Theta
             yield (
@@ -169,11 +165,8 @@ class Gait(Shown):
         in .json, and OutputError.
         """
         c, own = self.constraint, ("name", "robot", "preset", "provenance", "period", "slope")
-        record = {
-            "format": FORMAT,
-            "units": "rad, rad/s, s",
-            "curve": type(c.curve).__name__.lower(),
-        }
+        record = {"format": FORMAT, "units": "rad, rad/s, s"}
+        record["curve"] = type(c.curve).__name__.lower()
         record |= {key: plain(getattr(self, key)) for key in (*own, "q_minus", "v_minus")}
         record |= {key: plain(getattr(c, key)) for key in ("phase", "theta_plus", "theta_minus")}
         record["coefficients"] = plain(c.curve.coefficients)

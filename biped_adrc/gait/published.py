@@ -76,12 +76,9 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
         )
     with reading("cycle", path, GaitError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-        return PassiveCycle(
-            float(data["slope"]),
-            float(data["max_step_time"]),
-            finite_vector(data, "q_plus", biped.n),
-            finite_vector(data, "v_plus", biped.n),
-        )
+        slope, longest = float(data["slope"]), float(data["max_step_time"])
+        state = (finite_vector(data, key, biped.n) for key in ("q_plus", "v_plus"))
+        return PassiveCycle(slope, longest, *state)
 
 
 X_STAR = read_only([3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578, 1.370, -0.170])

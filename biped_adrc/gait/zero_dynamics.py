@@ -49,9 +49,8 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
     x, w = legendre.leggauss(count)
     to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
     to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
-    integral = np.array(
-        [legendre.legval(x, legendre.legint(np.eye(count)[k], lbnd=-1)) for k in range(count)]
-    ).T
+    integrals = (legendre.legint(row, lbnd=-1) for row in np.eye(count))
+    integral = np.array([legendre.legval(x, row) for row in integrals]).T
     return 0.5 * (x + 1.0), 0.5 * w, 0.5 * integral @ to_coefficients
 
 
@@ -115,10 +114,8 @@ class ZeroDynamics(Shown):
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
-        q, dq, ddq = (
-            np.array(rows)
-            for rows in zip(*(configuration(constraint, th) for th in theta), strict=True)
-        )
+        rows = zip(*(configuration(constraint, th) for th in theta), strict=True)
+        q, dq, ddq = map(np.array, rows)
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
         return cls(biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity)

@@ -56,9 +56,8 @@ def series(zero: ZeroDynamics, values: Array) -> Legendre:
     """The polynomial in Theta [rad] that has the values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
-    coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
-        np.arange(len(x)) + 0.5
-    )
+    products = legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)
+    coefficients = products * (np.arange(len(x)) + 0.5)
     return Legendre(coefficients, domain=[c.theta_plus, c.theta_minus])
 
 
@@ -142,23 +141,20 @@ class ZeroOrbits(Shown):
     def zeta_star(self) -> float:
         """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit."""
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
-        for holds, text in (
-            (
-                d2 < 1.0,
-                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster",
-            ),
-            (
-                V < 0.0,
-                f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step",
-            ),
-            (
-                self.existence < 0.0,
+        wrong = ""
+        if not d2 < 1.0:
+            wrong = (
+                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster"
+            )
+        elif not V < 0.0:
+            wrong = f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step"
+        elif not self.existence < 0.0:
+            wrong = (
                 f"a step would begin {self.existence:.3g} {unit} short of the V_max = {self.v_max:.6g} that it "
-                f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way",
-            ),
-        ):
-            if not holds:
-                raise GaitError(f"the zero dynamics have no stable orbit: {text}")
+                f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way"
+            )
+        if wrong:
+            raise GaitError(f"the zero dynamics have no stable orbit: {wrong}")
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:

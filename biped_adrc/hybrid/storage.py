@@ -57,16 +57,13 @@ def save(
 
     Raises InputError for a name of another kind or settings that JSON has not, and OutputError.
     """
-    path = run_path(path)
+    path, events = run_path(path), [arc.event for arc in trajectory.arcs]
     meta = {
         "format": FORMAT,
         "status": trajectory.status.name,
         "detail": trajectory.detail,
         "settings": {**trajectory.settings, **(settings or {})},
-        "events": [
-            None if a.event is None else {"guard": a.event.guard, "t": a.event.t}
-            for a in trajectory.arcs
-        ],
+        "events": [a and {"guard": a.guard, "t": a.t} for a in events],
     }
     try:
         text = json.dumps(meta, indent=2)

@@ -77,9 +77,8 @@ class Biped(Shown):
         """
         description = load_description(robot)
         record = description.preset(preset)
-        biped = cls(
-            description, description.tree(record.name), record.name, record.armature, friction
-        )
+        tree = description.tree(record.name)
+        biped = cls(description, tree, record.name, record.armature, friction)
         biped.check()
         return biped
 

@@ -31,7 +31,7 @@ import pinocchio as pin
 from biped_adrc.core.errors import SingularError
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
-from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
+from biped_adrc.model.pinned import WORLD_AXES, XZ, build, frame_index, velocity_index
 from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Tree
 
@@ -105,9 +105,7 @@ class FloatingDynamics:
 
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
         """Jacobian d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
-        J: Array = pin.computeFrameJacobian(
-            self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
-        )
+        J: Array = pin.computeFrameJacobian(self.model, self.data, x, frame, WORLD_AXES)
         return J[XZ]
 
     def extended(self, q: Array) -> tuple[Array, Array]:
@@ -128,11 +126,9 @@ class FloatingDynamics:
         w = Z @ v
         zero = np.zeros(self.model.nv)
         pin.forwardKinematics(self.model, self.data, x, w, zero)
-        drift = pin.getFrameClassicalAcceleration(
-            self.model, self.data, self.stance, pin.LOCAL_WORLD_ALIGNED
-        ).linear[XZ]
+        a = pin.getFrameClassicalAcceleration(self.model, self.data, self.stance, WORLD_AXES)
         Zdot_v = np.zeros(self.model.nv)
-        Zdot_v[self.base] = -drift
+        Zdot_v[self.base] = -a.linear[XZ]
         M = np.array(pin.crba(self.model, self.data, x))
         nle = pin.nonLinearEffects(self.model, self.data, x, w)
         return Z.T @ M @ Z, Z.T @ (nle + M @ Zdot_v)

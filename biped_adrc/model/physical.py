@@ -69,11 +69,9 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
         along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
         off = 1.0 - (abs(along) if kind == "revolute" else along)
         if joint is None or joint.type != kind or not abs(off) <= _ALONG:
-            text = (
-                f"{joint.type} along {text_of(joint.axis)}"
-                if joint
-                else f"missing in {list(joints)}"
-            )
+            text = f"missing in {list(joints)}"
+            if joint is not None:
+                text = f"{joint.type} along {text_of(joint.axis)}"
             raise ModelError(
                 f"'{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
                 f"{kind} along {text_of(axis)}: a planar robot moves in x and z"

@@ -28,6 +28,8 @@ from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
 
 XZ = [0, 2]
 """The plane of motion among Pinocchio's axes x, y, z."""
+WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
+"""Velocities of the origin of a frame along the axes of the world."""
 
 
 def build(tree: Tree, d: RobotDescription, armature: Rotors) -> pin.Model:
@@ -109,9 +111,7 @@ class PinnedDynamics:
 
     def jacobian(self, q: Array, frame: int) -> Array:
         """Jacobian d(x, z)/dq_s of a frame, by its index (2, n) [m]."""
-        J = pin.computeFrameJacobian(
-            self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
-        )
+        J = pin.computeFrameJacobian(self.model, self.data, self.T @ q, frame, WORLD_AXES)
         return J.reshape(6, -1)[XZ] @ self.T  # one coordinate comes without its axis
 
     def centre_of_mass(self, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:

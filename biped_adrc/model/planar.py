@@ -121,8 +121,7 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
     Raises ModelError for a link that the robot does not have, or that does not move with its coordinates.
     """
     f, x_z = biped.floating, at or (0.0, 0.0)
-    tree, trunk = biped.tree, biped.description.trunk
-    known = [name for name in tree.links if tree.path_below(name, trunk) is not None]
+    known = biped.tree.links_from(biped.description.trunk)
     if link not in known:
         raise ModelError(
             f"robot '{biped.description.name}' has no link '{link}' that moves with its coordinates; it has "

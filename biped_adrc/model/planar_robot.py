@@ -120,15 +120,10 @@ class PlanarRobot:
         w, foot, hip = (parts(z) for z in (mass @ com, d[n], d[n + 1]))
         total, gravity = float(np.sum(mass)), biped.description.gravity
         inertia = np.diag(W.real) + inertia
-        return cls(
-            A.astype(int),
-            PlantArrays(*parts(W), inertia, rotor, *w, *foot, *hip, total, gravity),
-            biped.p,
-            biped.R.astype(int),
-            biped.relabel(np.zeros(n)),
-            biped.swap,
-            biped.friction_coefficients if biped.friction else (),
-        ).check(biped)
+        K = PlantArrays(*parts(W), inertia, rotor, *w, *foot, *hip, total, gravity)
+        legs = biped.R.astype(int), biped.relabel(np.zeros(n)), biped.swap
+        friction = biped.friction_coefficients if biped.friction else ()
+        return cls(A.astype(int), K, biped.p, *legs, friction).check(biped)
 
     def check(self, biped: Biped, samples: int = 20) -> PlanarRobot:
         """Compare D_s, Omega and the swing foot with Pinocchio's at random states, and return this robot.

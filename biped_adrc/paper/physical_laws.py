@@ -135,10 +135,8 @@ def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4))
     """
 
     def end(h: float, period: float | None = None) -> Array:
-        run = walk_scenario(
-            scenario("NPD", preset, hardware={"period": period}, run={"impacts": 1, "h": h})
-        )
-        return run.trajectory.before(FOOT_STRIKE)[-1][:10]
+        run = scenario("NPD", preset, hardware={"period": period}, run={"impacts": 1, "h": h})
+        return walk_scenario(run).trajectory.before(FOOT_STRIKE)[-1][:10]
 
     exact = end(2.5e-4)
     gaps = [float(np.linalg.norm(end(min(T, 5e-4), T) - exact)) for T in periods]

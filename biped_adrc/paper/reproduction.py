@@ -204,10 +204,8 @@ def _multipliers(r: Results) -> Table:
     result["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
     for c, head in r.headline.items():
         test = regression_of(head.outcome)
-        result[f"regression (27) on the pushed walk, {c}"] = (
-            test.magnitudes.tolist(),
-            test.warning or NO_MULTIPLIERS,
-        )
+        name, remark = f"regression (27) on the pushed walk, {c}", test.warning or NO_MULTIPLIERS
+        result[name] = test.magnitudes.tolist(), remark
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(
         {"method": method, "magnitudes": z, "remark": remark}

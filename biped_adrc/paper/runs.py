@@ -150,9 +150,8 @@ def jumps(preset: str) -> dict[str, float]:
     xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
     references, by gait [rad/s], 0 for a gait that takes the impact into account.
     """
-    scenes = {
-        gait: RobotAndGait.of(scenarios.loose("NPD", preset, gait=gait)) for gait in scenarios.GAITS
-    }
+    walks = {gait: scenarios.loose("NPD", preset, gait=gait) for gait in scenarios.GAITS}
+    scenes = {name: RobotAndGait.of(run) for name, run in walks.items()}
     biped, gait = scenes["published"].biped, scenes["published"].walked
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))

@@ -224,14 +224,12 @@ def claim_checks(rows: Sequence[Row]) -> list[Check]:
     change its number or verdict at half of the step.
     """
     doubtful = "claims: cases whose number or verdict is another at half the step"
-    shares = (
-        at_least(
-            f"claim, {row.where}: {row.claim}: share of its cases", "reproduced", row.asserted, 1.0
-        )
-        for row in rows
-        if row.asserted is not None
-    )
-    return [at_most(doubtful, "law", sum(row.marginal for row in rows), 0), *shares]
+    result = [at_most(doubtful, "law", sum(row.marginal for row in rows), 0)]
+    for row in rows:
+        if row.asserted is not None:
+            name = f"claim, {row.where}: {row.claim}: share of its cases"
+            result.append(at_least(name, "reproduced", row.asserted, 1.0))
+    return result
 
 
 def tally(rows: Iterable[Row]) -> str:

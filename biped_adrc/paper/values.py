@@ -87,10 +87,8 @@ def of_torso(r: Results) -> dict[str, object]:
         if not adrc.walked:
             stopped.setdefault(preset, torque)
     alike = all(npd.walked == adrc.walked for npd, adrc in every.values())
-    return {
-        "stops": ", ".join(f"{stopped.get(p, 'none')} ({p})" for p in r.plan.presets),
-        "alike": "" if alike else "not ",
-    }
+    stops = ", ".join(f"{stopped.get(p, 'none')} ({p})" for p in r.plan.presets)
+    return {"stops": stops, "alike": "" if alike else "not "}
 
 
 def of_heavier(r: Results) -> dict[str, object]:
@@ -116,9 +114,8 @@ def of_orders(r: Results) -> dict[str, object]:
 
 def of_jumps(r: Results) -> dict[str, object]:
     """What is not smooth at an impact and at an edge."""
-    return {
-        name: Extremes(x[name] for x in r.jumps.values()) for name in next(iter(r.jumps.values()))
-    }
+    every = [*r.jumps.values()]
+    return {name: Extremes(x[name] for x in every) for name in every[0]}
 
 
 def of_cycles(r: Results) -> dict[str, object]:
@@ -161,10 +158,8 @@ def noise_spectrum() -> Array:
     """
     k, n = declared()["noise"], len(X_STAR)
     random = np.random.default_rng(k["seed"])
-    result = [
-        regress_multipliers(random.normal(size=(k["impacts"], n)), np.zeros(n)).magnitudes
-        for _ in range(k["draws"])
-    ]
+    draws = (random.normal(size=(k["impacts"], n)) for _ in range(k["draws"]))
+    result = [regress_multipliers(x, np.zeros(n)).magnitudes for x in draws]
     return np.median(result, axis=0)
 
 

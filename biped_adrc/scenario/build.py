@@ -200,13 +200,8 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
                 f"robot '{s.robot.name}' has no motors, so it takes no {name}; leave that out, or take "
                 "a robot with motors ('biped-adrc robot list')"
             )
-    return Walker(
-        scene.biped,
-        Passive(),
-        slope=scene.slope(s),
-        max_step_time=known.max_step_time,
-        runaway_speed=s.run.runaway_speed,
-    )
+    slope, time, speed = scene.slope(s), known.max_step_time, s.run.runaway_speed
+    return Walker(scene.biped, Passive(), slope=slope, max_step_time=time, runaway_speed=speed)
 
 
 def limits(s: Scenario) -> Limits:
@@ -294,9 +289,8 @@ def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
     `drop`: depth [m], negative for a step up.
     """
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
-    steps = uneven_ground(drawn(s, "ground"), g.rms, last) if g.rms > 0.0 else ()
-    if g.step_height > 0.0:
-        steps += random_steps(drawn(s, "ground"), g.step_height, last)
+    seed = drawn(s, "ground")
+    steps = uneven_ground(seed, g.rms, last) + random_steps(seed, g.step_height, last)
     if g.drop == 0.0:
         return steps
     edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)

@@ -37,13 +37,8 @@ DIFFERENCE = 1e-4
 
 
 NO_MAP = (
-    "run.impacts",
-    "run.first_step",
-    "run.fine",
-    "run.engine",
-    "pushes",
-    "ground.drop",
-    "start",
+    *("run.impacts", "run.first_step", "run.fine", "run.engine"),
+    *("pushes", "ground.drop", "start"),
 )
 """Values and records of a scenario that have no effect on a return map."""
 FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
@@ -135,10 +130,8 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
     plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.ground.plant != RIGID:
-        raise InputError(
-            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations "
-            "it linearises"
-        )
+        what = f"a specification was asked for on plant '{s.ground.plant}'"
+        raise InputError(f"{what}, expected '{RIGID}', whose equations it linearises")
     scene = RobotAndGait.of(s) if scene is None else scene
     return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
 

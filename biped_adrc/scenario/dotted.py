@@ -64,10 +64,8 @@ def unknown(name: str, known: Iterable[str]) -> str:
         parts = whole.split(".")
         for k in range(len(parts)):  # records have names too
             ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
-    near = ends.get(last) or [
-        *get_close_matches(name, known, 2, 0.8),
-        *(ends[end][0] for end in get_close_matches(last, ends, 2)),
-    ]
+    alike = [ends[end][0] for end in get_close_matches(last, ends, 2)]
+    near = ends.get(last) or [*get_close_matches(name, known, 2, 0.8), *alike]
     if last not in ends and beside:
         known, near = beside, [x for x in near if x in beside]
     near = list(dict.fromkeys(near))[:3]

@@ -44,9 +44,7 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     the impact on" is written.
     """
     for part in () if walker.disturbance is None else summands(walker.disturbance):
-        edges = {
-            step: sorted(s for k, s in part.switches if k == step) for step, _ in part.switches
-        }
+        edges = {k: sorted(s for j, s in part.switches if j == k) for k, _ in part.switches}
         found = [x for step, times in edges.items() for x in _of_edges(step, times, trajectory)]
         yield from found
         if not found and not _acted(part, {*edges}, trajectory, walker.plant.n):
@@ -56,9 +54,8 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     yield from _of_steps(walker, trajectory)
     count = 0 if walker.stones is None else len(walker.stones.lengths)
     if 0 < count < trajectory.arcs[-1].mode.step:
-        yield (
-            f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole"
-        )
+        behind = f"behind stone {count}, the last one, from single support {count + 1} on"
+        yield f"{behind}, the ground is whole"
     yield from _of_controller(walker, trajectory)
     yield from () if gait is None else _of_gait(walker, gait)
 
@@ -109,17 +106,12 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
         return
     if step == 0 and times[0] > trajectory.t_end:
         yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
-    impacts = [
-        (arc.mode.step, e.t - starts[0])
-        for arc in arcs
-        if (e := arc.event) and e.guard == FOOT_STRIKE
-    ]
+    ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
+    impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= NEAR}
     for s, end in sorted(near):
-        yield (
-            f"{name} has the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s; move it "
-            "away from there"
-        )
+        edge = f"the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s"
+        yield f"{name} has {edge}; move it away from there"
     own = [end for number, end in impacts if number == step]
     late = [s for end in own for s in times if s > end + NEAR]
     if late and not near:

@@ -199,9 +199,9 @@ class Record(BaseModel):
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
         """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
         what = described(cls, str(info.field_name))
-        return (cls._of_part(what, info.data.get(cls.SHORT)) if isinstance(x, str) else what).read(
-            x
-        )
+        if isinstance(x, str):
+            what = cls._of_part(what, info.data.get(cls.SHORT))
+        return what.read(x)
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:

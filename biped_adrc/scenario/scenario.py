@@ -312,10 +312,8 @@ def scenario_lines(s: Scenario) -> list[str]:
     others = s.record()
     pushes = {"pushes": others.pop("pushes")} if s.pushes else {}
     values = record | flat(others) | pushes
-    return [
-        f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
-        for name, x in values.items()
-    ]
+    keys = {name: ".".join(map(toml_key, name.split("."))) for name in values}
+    return [f"{keys[name]} = {toml_value(x)}" for name, x in values.items()]
 
 
 DRAWN = (

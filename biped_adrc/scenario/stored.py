@@ -124,25 +124,22 @@ def load_walk(path: Path | str) -> Walk:
         record = json.loads(str(beside["walker"]))
         reader = Reader(record["parts"])
         walker = _walker(reader, record["parts"][record["walker"]])
-        arrays = {
-            k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")
-        }
+        names = [k for k in beside if k.startswith("signal.")]
+        arrays = {k.removeprefix("signal."): beside[k] for k in names}
         remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
         gait, scenario = reader.made(record["gait"]), None
         with suppress(KeyError, TypeError, InputError):  # none, or it names what is not at hand
             scenario = Scenario(**trajectory.settings["scenario"])
-        return Walk(
-            walker, gait, trajectory, scenario, _signals(arrays, walker, trajectory), remarks
-        )
+        signals = _signals(arrays, walker, trajectory)
+        return Walk(walker, gait, trajectory, scenario, signals, remarks)
 
 
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
     """The signals of a file. Raises ValueError for an array that is none of this walk."""
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
     wide = dict.fromkeys(OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
-    wide |= dict.fromkeys(
-        (*OF_JOINTS, *(name for name in arrays if name.startswith("xi"))), plant.p
-    )
+    estimates = [name for name in arrays if name.startswith("xi")]
+    wide |= dict.fromkeys((*OF_JOINTS, *estimates), plant.p)
     for name, x in arrays.items():
         shape = (rows, wide[name]) if name in wide else (rows,)
         if x.dtype.kind not in "fi" or x.shape != shape:

@@ -250,9 +250,7 @@ def walk(
 
 
 def walk_scenario(
-    s: Scenario,
-    progress: Progress | None = None,
-    controller: Controller | None = None,
+    s: Scenario, progress: Progress | None = None, controller: Controller | None = None
 ) -> Walk:
     """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
@@ -346,17 +344,12 @@ def runs_in_parts(
         assert progress is not None
         progress(t, done + events)
 
+    report = progress and shown
     for part in parts:
+        t0, count = mode.start, part.impacts
+        end = t0 + count * walker.max_step_time
         run = simulate_by(
-            engine,
-            walker,
-            x,
-            mode,
-            part.method,
-            t0=mode.start,
-            t_end=mode.start + part.impacts * walker.max_step_time,
-            impacts=part.impacts,
-            progress=progress and shown,
+            engine, walker, x, mode, part.method, t0=t0, t_end=end, impacts=count, progress=report
         )
         yield run
         event, done = run.arcs[-1].event, done + len(run.arcs)

@@ -72,10 +72,8 @@ def study(
         function = partial(run_trials, aside="rounding" in study_.columns)
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
-        raise InputError(
-            f"study '{study_.name}' names files that workers elsewhere may not have: {files}; run it on this "
-            "machine"
-        )
+        what = f"names files that workers elsewhere may not have: {files}"
+        raise InputError(f"study '{study_.name}' {what}; run it on this machine")
     folder = Path(out)
     with opened(folder, study_) as store, crew:
         fits, total = store.mend(), study_.count_of(undrawn)
@@ -127,10 +125,8 @@ class _Searched:
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)
-            again = [
-                search.judged(base, c.number, c.chosen, walks)
-                for c, walks in zip(few, walk("choice", few), strict=True)
-            ]
+            pairs = zip(few, walk("choice", few), strict=True)
+            again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
             failure = self.failure(again, case, "choice")
         if not failure:
             return Choice(tuple(result), tuple(search.ranked(again)))

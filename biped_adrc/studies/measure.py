@@ -104,9 +104,8 @@ class Measure(Part):
         if self.column in known:
             x = known[self.column]
             return self.worst if x is None else x
-        numbers: Array = np.array(
-            [self.number(row) for name, row in walks if self.condition in (None, name)]
-        )
+        rows = (row for name, row in walks if self.condition in (None, name))
+        numbers: Array = np.array([self.number(row) for row in rows])
         if self.over in ("mean", "median"):
             return float(getattr(np, self.over)(numbers))
         p = 1.0 if self.over == "worst" else float(self.over)

@@ -28,16 +28,13 @@ PAGE = "study.html"
 def write_page(found: Results) -> Path:
     """Write the page into the folder of the study. Raises OutputError."""
     path = found.folder / PAGE
-    figures = [
-        (question, "", data_uri(render(figure, "svg"))) for question, figure in _figures(found)
-    ]
     text = rendered(
         "study",
         s=found.study,
         statuses={status: n for status, (n, _) in found.statuses().items()},
         columns=headings(found),
         lines=[texts(line) for line in found.table()],
-        figures=figures,
+        figures=[(words, "", data_uri(render(x, "svg"))) for words, x in _figures(found)],
         chosen=chosen(found),
         notes=(*found.failures, *found.notes),
     )
@@ -96,7 +93,7 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
     shares = {key: (round(x.feasible.value * x.walks), x.walks) for key, x in by.items()}
-    if len({condition for _, condition in shares}) > 1:  # the table says one column as well
+    if len({x.condition for x in lines}) > 1:  # the table says one column as well
         yield "Whose walks are feasible?", cells_figure(shares)
     column, counts = _named(measure.column), measure.column in OF_ALL
     better = f"ratio to {lines[0].name} in {measure.column}"  # a ratio has no unit
@@ -107,11 +104,8 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
             yield question, dots_figure(numbers, title, at)
     if found.study.axes:
-        share = "share of feasible walks"
-        yield (
-            "Where are walks feasible?",
-            _map(found, lambda row: float(is_counted(row)), share, False),
-        )
+        shares_of = _map(found, lambda x: float(is_counted(x)), "share of feasible walks", False)
+        yield "Where are walks feasible?", shares_of
         if any(0.0 < measure.number(x.row) < math.inf for g in found.groups for x in g.rows):
             question = f"How large is {measure.column}, and where?"
             yield question, _map(found, measure.number, f"mean {column}", not counts)

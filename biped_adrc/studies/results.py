@@ -16,7 +16,6 @@ count and no interval.
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import math
@@ -30,7 +29,7 @@ from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
 from biped_adrc.core.errors import InputError, OutputError, optional
-from biped_adrc.core.files import check_folder, check_place, output_path, replacing
+from biped_adrc.core.files import check_folder, check_place, output_path, replacing, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.versions import differences
 from biped_adrc.scenario.dotted import flat
@@ -313,18 +312,15 @@ class Results(Shown):
     def export(self, path: Path) -> None:
         """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""
         check_table(path)
-        names = {name: None for row in self.rows() for name in row}
+        rows = list(self.rows())
+        names = dict.fromkeys(name for row in rows for name in row)
+        columns = {name: [row.get(name) for row in rows] for name in names}
         if path.suffix.lower() == ".csv":
-            with replacing(path) as made, open(made, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, names)
-                writer.writeheader()
-                writer.writerows(self.rows())
+            write_csv(columns, path)
             return
         import pyarrow
         from pyarrow import parquet
 
-        rows = list(self.rows())
-        columns = {name: [row.get(name) for row in rows] for name in names}
         for name, x in columns.items():
             if any(isinstance(one, str) for one in x):  # one type in a column
                 columns[name] = [None if one is None else str(one) for one in x]

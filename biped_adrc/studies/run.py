@@ -50,11 +50,8 @@ WalkRow = dict[str, float | int | str | None]
 Function = Callable[[Sequence[Record]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
 OF_FEASIBILITY = (
-    "feasible_impacts",
-    "mean_normal_force",
-    "mean_friction",
-    "scuffing",
-    "peak_torque",
+    *("feasible_impacts", "mean_normal_force", "mean_friction"),
+    *("scuffing", "peak_torque"),
 )
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
@@ -76,10 +73,8 @@ def rows_of(
     """
     FOLDERS.update(folders or {})
     try:
-        return [
-            (json.dumps(dict(row), allow_nan=False), row.get("status"))
-            for row, _ in zip(function(records), records, strict=True)
-        ]
+        rows = zip(function(records), records, strict=True)
+        return [(json.dumps(dict(row), allow_nan=False), row.get("status")) for row, _ in rows]
     except (Exception, SystemExit) as error:
         if len(records) > 1:
             return [one for record in records for one in rows_of(function, [record])]
@@ -103,10 +98,8 @@ def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
             runs = _each(_run_of, some)
         walks = _each(lambda run: run(), runs)
         with _PREPARING:
-            rows += [
-                _row(walk if isinstance(walk, dict) else measured(trial, walk, aside))
-                for trial, walk in zip(some, walks, strict=True)
-            ]
+            pairs = zip(some, walks, strict=True)
+            rows += [_row(x if isinstance(x, dict) else measured(t, x, aside)) for t, x in pairs]
     return rows
 
 

@@ -11,14 +11,8 @@ from __future__ import annotations
 import itertools
 import json
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
-from concurrent.futures import (
-    ALL_COMPLETED,
-    FIRST_COMPLETED,
-    BrokenExecutor,
-    Executor,
-    Future,
-    wait,
-)
+from concurrent import futures
+from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -173,9 +167,9 @@ class Runner:
         while part := tuple(itertools.islice(missing, size)):
             self._again(self._send(part))
             while len(self.pending) >= AHEAD * workers:
-                self._again(self._collect(FIRST_COMPLETED))
+                self._again(self._collect(futures.FIRST_COMPLETED))
         while self.pending:
-            self._again(self._collect(FIRST_COMPLETED))
+            self._again(self._collect(futures.FIRST_COMPLETED))
         self.tell()
 
     def tell(self, note: str = "") -> None:
@@ -204,7 +198,7 @@ class Runner:
     def _collect(self, when: str) -> list[Point]:
         """Wait until `when`, and store finished chunks; the points of those whose worker died."""
         lost: list[Point] = []
-        for future in wait(self.pending, return_when=when).done:
+        for future in futures.wait(self.pending, return_when=when).done:
             chunk, error = self.pending.pop(future), future.exception()
             if error is None:
                 self.crashed = 0
@@ -224,11 +218,11 @@ class Runner:
         """
         if not lost:
             return
-        lost = [*lost, *self._collect(ALL_COMPLETED)]
+        lost = [*lost, *self._collect(futures.ALL_COMPLETED)]
         self.tell("a worker died; what it was walking is walked again, one by one")
         self.crew.renew()
         for point in lost:
-            if not (self._send([point]) or self._collect(ALL_COMPLETED)):
+            if not (self._send([point]) or self._collect(futures.ALL_COMPLETED)):
                 continue
             self.crashed += 1
             self.crew.renew()

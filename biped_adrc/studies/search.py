@@ -102,9 +102,8 @@ def _variable(name: str, value: Any) -> Variable:
     beside = keys.pop("when", {})
     when = each(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
-        return Variable.model_validate(
-            {**keys, "choices": read_list(name, keys["choices"], 2), "when": when}
-        )
+        choices = read_list(name, keys["choices"], 2)
+        return Variable.model_validate({**keys, "choices": choices, "when": when})
     return Variable(range=read_range(name, keys), when=when)
 
 
@@ -136,9 +135,8 @@ class Search(Part):
 
     def count(self, sets: Mapping[str, int]) -> int:
         """Walks of one case at most. sets: walks of a candidate, by name of the set."""
-        return (
-            self.budget * sets["search"] + (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
-        )
+        again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
+        return self.budget * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
         """The variables that may have an effect beside these values, which no variable changes."""
@@ -147,11 +145,8 @@ class Search(Part):
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
         """The values of a candidate's scenario: the base, and what was chosen that has an effect."""
         candidate = {**base, **chosen}
-        while idle := [
-            n
-            for n, v in self.variables.items()
-            if n in chosen and n in candidate and not v.acts(candidate)
-        ]:
+        acts = {n: v.acts for n, v in self.variables.items() if n in chosen}
+        while idle := [n for n in acts if n in candidate and not acts[n](candidate)]:
             for name in idle:  # and in the next round those that depend on one of them
                 del candidate[name]
         return candidate
@@ -247,11 +242,11 @@ def searched(
         new: list[Candidate] = []
         for number in itertools.islice(numbers, ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
-            if any(c.missed) and number:
+            if number == 0 or not any(c.missed):
+                batch.append(c)
+            else:
                 new.append(c)
                 proposals.tell(c)
-                continue
-            batch.append(c)
             if len(batch) == min(left, search.generation):
                 break
         if not batch:
@@ -308,25 +303,17 @@ class _Proposals:
         if self.refining or len(best) < max(SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
-        choices = self.optuna.distributions.CategoricalDistribution
-        space = {
-            name: x
-            for name, x in self.space.items()
-            if name in best[0].values and not isinstance(x, choices)
-        }
+        acting, variables = best[0].values, self.search.variables
+        space = {n: x for n, x in self.space.items() if n in acting and variables[n].range}
         if len(space) < 2 or self.search.generation < 4:
             return
+        create, scores = self.optuna.trial.create_trial, [(c.chosen, self.score(c)) for c in best]
         trials = [
-            self.optuna.trial.create_trial(
-                params={name: c.chosen[name] for name in space},
-                distributions=space,
-                value=self.score(c),
-            )
-            for c in best
+            create(params={n: chosen[n] for n in space}, distributions=space, value=score)
+            for chosen, score in scores
         ]
         self.space, self.fixed = space, {n: x for n, x in best[0].chosen.items() if n not in space}
-        sampler = self.optuna.samplers.CmaEsSampler(
-            seed=self.search.seed, popsize=self.search.generation, source_trials=trials
-        )
+        seed, size = self.search.seed, self.search.generation
+        sampler = self.optuna.samplers.CmaEsSampler(seed=seed, popsize=size, source_trials=trials)
         self.study = self.optuna.create_study(sampler=sampler)
         self.study.add_trials(trials)

@@ -111,9 +111,8 @@ def read_range(name: str, value: object, kind: type[R] = Range) -> R:  # type: i
 
 def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     """At least so many different values of one field. Raises ValueError."""
-    result = (
-        tuple(Scenario.value_of(name, x) for x in value) if isinstance(value, list | tuple) else ()
-    )
+    row = value if isinstance(value, list | tuple) else ()
+    result = tuple(Scenario.value_of(name, x) for x in row)
     if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(
             f"found {value!r}, expected a list of different values or {{from, to, ..}}"
@@ -180,8 +179,6 @@ class Draw(Part):
             from scipy.stats import qmc
 
             w = qmc.Sobol(n, seed=random).random_base2(math.ceil(math.log2(self.count)))
-        pairs = self.ranges.items()
-        return [
-            {name: r.at(x) for (name, r), x in zip(pairs, row, strict=True)}
-            for row in w[: self.count].tolist()
-        ]
+        ranges = self.ranges.items()
+        rows = (zip(ranges, row, strict=True) for row in w[: self.count].tolist())
+        return [{name: r.at(x) for (name, r), x in row} for row in rows]

@@ -120,10 +120,8 @@ class Study(Part):
             yield f"cases: their files would be {files}, expected different, shorter names"
         for (a, x), (b, y) in itertools.combinations(search.walks, 2):
             if both := sorted({*x.seeds} & {*y.seeds}):
-                yield (
-                    f"search.walks: {a} and {b} share the seeds {both[:5]}, expected others: a choice made on "
-                    "walks makes them look better than they are"
-                )
+                why = "a choice made on walks makes them look better than they are"
+                yield f"search.walks: {a} and {b} share the seeds {both[:5]}, expected others: {why}"
         for kind, walks in search.walks:
             for name in {*walks.conditions} - self.conditions.keys():
                 yield f"search.walks.{kind}: there is no condition '{name}'"
@@ -250,10 +248,8 @@ class Study(Part):
                 except ReachError:  # of this walk alone, whose row says so
                     result.discard(place_of(names))
                 except BipedError as error:
-                    where = ", ".join(f"{k} = {x}" for k, x in (names | at).items())
-                    raise InputError(
-                        f"study '{self.name}', at {where or 'base'}: {error}"
-                    ) from error
+                    where = ", ".join(f"{k} = {x}" for k, x in (names | at).items()) or "base"
+                    raise InputError(f"study '{self.name}', at {where}: {error}") from error
         return frozenset(result)
 
     def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
@@ -299,10 +295,8 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         study = study.model_copy(update={"base": kept | study.base})
     except ValidationError as error:
         lines = [_problem(one) for one in error.errors()]
-        many = [f"{where} has {len(lines)} problems:", *lines]
-        raise InputError(
-            f"{where}, {lines[0]}" if len(lines) == 1 else "\n  ".join(many)
-        ) from error
+        head = f"{where}, " if len(lines) == 1 else f"{where} has {len(lines)} problems:\n  "
+        raise InputError(head + "\n  ".join(lines)) from error
     for name, x in study.values():
         if Scenario.field_of(name).kind and is_own(str(x)):
             FOLDERS[top_of(str(x))] = str(here)

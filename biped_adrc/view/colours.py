@@ -18,12 +18,12 @@ METRES_PER_NEWTON_METRE = 0.004
 """Radius of the ring that shows an external torque, per torque [m / N m]; the same for all robots."""
 
 
-def bent_arrow(radius: float, points: int = 30) -> Array:
-    """Outline (2 points + 3, 2) [m] of an arrow bent around 0, counter-clockwise for a positive radius [m].
+def bent_arrow(radius: float) -> Array:
+    """Outline (63, 2) [m] of an arrow bent around 0, counter-clockwise for a positive radius [m].
 
     Outer rim, head and inner rim, from -60 to 240 degrees: the opening below leaves a joint visible.
     """
-    angle, tip = np.radians(np.linspace(-60.0, 200.0, points)), np.radians(240.0)
+    angle, tip = np.radians(np.linspace(-60.0, 200.0, 30)), np.radians(240.0)
     rim = np.column_stack((np.cos(angle), np.sin(angle)))
     head = 1.3 * rim[-1], (np.cos(tip), np.sin(tip)), 0.7 * rim[-1]
     return np.vstack((1.12 * rim, head, 0.88 * rim[::-1])) * [radius, abs(radius)]

@@ -150,15 +150,10 @@ def with_viewer(
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     text = json.dumps(settings)
-    return rendered(
-        template,
-        package,
-        s=settings,
-        viewer=Markup(viewer),
-        data=Markup(text.replace("<", "\\u003c")),
-        packed=base64.b64encode(zlib.compress(text.encode(), 9)).decode("ascii"),
-        **values,
-    )
+    values |= {"s": settings, "viewer": Markup(viewer)}
+    values["data"] = Markup(text.replace("<", "\\u003c"))
+    values["packed"] = base64.b64encode(zlib.compress(text.encode(), 9)).decode("ascii")
+    return rendered(template, package, **values)
 
 
 def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:

@@ -83,13 +83,8 @@ class Surface:
         """
         inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
         cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
-        return [
-            (
-                np.array([(a, self.height(a)), (b, self.height(b, True))]),
-                math.floor(a / TILE) % 2 == 0,
-            )
-            for a, b in pairwise(cuts)
-        ]
+        tops = [((a, self.height(a)), (b, self.height(b, True))) for a, b in pairwise(cuts)]
+        return [(np.array(top), math.floor(top[0][0] / TILE) % 2 == 0) for top in tops]
 
 
 def turn(axis: tuple[float, float, float], angle: float) -> Array:

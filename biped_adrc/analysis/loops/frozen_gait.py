@@ -157,13 +157,8 @@ def linear_twin(walker: Walker) -> Walker:
             f"the sampled loop of a walker was asked for, found {walker.timing} and touchdown="
             f"{walker.touchdown}; expected SampledTime(period), and None, since to notice is no linear part"
         )
-    return replace(
-        walker,
-        sensors=None if walker.sensors is None else walker.sensors.smooth(),
-        torque_limit=None,
-        motors=None,
-        disturbance=None,
-    )
+    smooth = None if walker.sensors is None else walker.sensors.smooth()
+    return replace(walker, sensors=smooth, torque_limit=None, motors=None, disturbance=None)
 
 
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
@@ -176,10 +171,8 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     n, T, mode = twin.plant.n, twin.timing.period, Mode()
     result, ticked = [], None
     for point in points:
-        x, J = (
-            twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode),
-            np.zeros((0, 0)),
-        )
+        x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
+        J = np.zeros((0, 0))
         layout = twin.layout_of(x)
         ticked = ticked or tick_derivative(twin, layout)
         for before in range(TICKS_BEFORE, -1, -1):

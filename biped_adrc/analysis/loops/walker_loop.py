@@ -204,11 +204,8 @@ class WalkerLoops:
         own = own[..., : int(np.max(np.sum(inside, axis=-1)))]
         grid = np.geomspace(self.slow, nyquist, FREQUENCIES)
         grid = grid.reshape(*(1 for _ in own.shape[:-1]), -1)
-        (j, f), (Z, Y, C, E), p = (
-            whole_and_part(self.delay, self.period),
-            self.tick,
-            self.B.shape[-1],
-        )
+        (j, f), p = whole_and_part(self.delay, self.period), self.B.shape[-1]
+        Z, Y, C, E = self.tick
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         G, of_plant = np.concatenate((G_2, G_1), axis=-1), np.eye(Y.shape[-1], Phi.shape[-1])
         result = []

@@ -92,10 +92,8 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
 
 def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy) -> Array:
     """The error e(0+) (order, p) in scaled states under a reset policy: true states minus estimates."""
-    before, after = (
-        x / observer.scale ** np.arange(observer.order)[:, np.newaxis]
-        for x in (impact.before, impact.after)
-    )
+    units = observer.scale ** np.arange(observer.order)[:, np.newaxis]
+    before, after = impact.before / units, impact.after / units
     y, dy, *xi = impact.after
     xi_0 = xi[0] if xi else np.zeros_like(y)
     estimate = observer.reset(before, policy, impact.swap, y, dy, xi_0)

@@ -42,6 +42,8 @@ COUNTS = 8192.0
 """Counts of RABBIT's encoders per revolution."""
 PERIOD = 1.5e-3
 """Sampling period of RABBIT's controller [s]."""
+ALLOWED = "m", "bandwidth", "limited by", "rms torque", "delay margin", "|e / xi| at 5 Hz [s^2]"
+"""Columns of the table of allowed bandwidths."""
 
 
 class Section(NamedTuple):
@@ -217,12 +219,9 @@ class ObserverReport(OnHardware):
         rows = []
         for policy in ResetPolicy:
             p = impact_peak(self.observer, self.impact, policy, self.gains)
-            states = (
-                f"{p.position:.3g} rad",
-                f"{p.velocity:.3g} rad/s",
-                f"{p.disturbance:.4g} rad/s^2",
-            )
-            rows.append((policy.value, *states, f"{p.torque:.4g} N m"))
+            y, dy = f"{p.position:.3g} rad", f"{p.velocity:.3g} rad/s"
+            xi, torque = f"{p.disturbance:.4g} rad/s^2", f"{p.torque:.4g} N m"
+            rows.append((policy.value, y, dy, xi, torque))
         title = "Peak after the gait's impact: error of the estimates, and the torque it costs"
         return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
 
@@ -241,18 +240,7 @@ class ObserverReport(OnHardware):
             f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of "
             f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"
         )
-        return Section(
-            title,
-            (
-                "m",
-                "bandwidth",
-                "limited by",
-                "rms torque",
-                "delay margin",
-                "|e / xi| at 5 Hz [s^2]",
-            ),
-            tuple(rows),
-        )
+        return Section(title, ALLOWED, tuple(rows))
 
 
 def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
@@ -312,6 +300,5 @@ def worst_inertia(biped: Biped, gait: Gait) -> float:
     """
     still = np.zeros(biped.n)
     along = ZeroDynamics.of(biped, gait.constraint).q
-    return float(
-        max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
-    )
+    inertias = (biped.reduction(q, still).kappa_inverse for q in along)
+    return float(max(np.max(np.linalg.norm(rows, axis=1)) for rows in inertias))

@@ -33,8 +33,11 @@ from biped_adrc.engine.tracer import run
 from biped_adrc.extras.export.c_text import CFunction, Entry
 from biped_adrc.extras.export.computer import Computer, Noticed
 
-HEAD = 4
-"""Number of inputs before q: t, time of the previous sample instant, number and start of the single support."""
+FIRST = {"m->t": True, "x->last": True, "next->step": False, "next->start": True}
+"""Names in C of the inputs before q -> whether they are doubles always: t, time of the previous sample instant,
+number and start of the single support."""
+HEAD = len(FIRST)
+"""Number of these inputs."""
 
 
 @dataclass(frozen=True)
@@ -127,16 +130,10 @@ class Functions:
 
     fields: tuple[Field, ...]
     """Fields of the struct that hold x_c."""
-    init: CFunction
-    step: CFunction
-    touchdown: CFunction
+    all: tuple[CFunction, ...]
+    """init, step and touchdown."""
     rates: tuple[int, ...]
     """Indices of the rates that `step` or `touchdown` read; `init` reads all."""
-
-    @property
-    def all(self) -> tuple[CFunction, CFunction, CFunction]:
-        """The three functions of the exported controller: init, step, touchdown."""
-        return self.init, self.step, self.touchdown
 
 
 def functions(computer: Computer) -> Functions:
@@ -158,7 +155,7 @@ def functions(computer: Computer) -> Functions:
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     read = _read(functions[1].function) | _read(functions[2].function)
     rates = tuple(i for i in range(n) if HEAD + n + i in read)
-    return Functions(tuple(kept), functions[0], functions[1], functions[2], rates)
+    return Functions(tuple(kept), tuple(functions), rates)
 
 
 def fields_of(computer: Computer) -> tuple[Field, ...]:
@@ -214,12 +211,7 @@ def _named(
     """A function with the names of its inputs and `outputs` in C; an output with an empty name is dropped."""
     kept = [i for i, name in enumerate(outputs) if name]
     inputs = [
-        *(
-            Entry("m->t", True),
-            Entry("x->last", True),
-            Entry("next->step"),
-            Entry("next->start", True),
-        ),
+        *(Entry(name, double) for name, double in FIRST.items()),
         *(Entry(f"m->q[{i}]", True) for i in range(n)),
         *(Entry(f"m->v[{i}]") for i in range(n)),
         *(Entry(f"x->{name}", field.double) for field in fields for name in field),

@@ -91,10 +91,8 @@ def source_of(
     bad = [names[i] for i in used if values[i] != values[i]]
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
-    written = {
-        name: c_text(f, used)
-        for name, f in zip(("init", "step", "touchdown"), functions_.all, strict=True)
-    }
+    traced = zip(ARGUMENTS, functions_.all, strict=True)
+    written = {name: c_text(f, used) for name, f in traced}
     given = {
         **_of_robot(computer, functions_),
         "prefix": prefix,
@@ -117,6 +115,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     walker, k = computer.walker, computer.robot
     joints = walker.plant.description.joints
     units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
+    numbered = enumerate(zip(joints, units, strict=True))
     limits = []
     if walker.torque_limit is not None:
         limits.append(f"at most {walker.torque_limit:g} N m")
@@ -126,10 +125,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     return {
         "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
         "about": _about(computer),
-        "joints": [
-            f"q[{i}] {joint}, {unit}"
-            for i, (joint, unit) in enumerate(zip(joints, units, strict=True))
-        ],
+        "joints": [f"q[{i}] {joint}, {unit}" for i, (joint, unit) in numbered],
         "joint_names": joints,
         "n": k.n,
         "p": k.p,

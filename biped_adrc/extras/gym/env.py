@@ -117,9 +117,8 @@ class WalkEnv(gymnasium.Env[Any, Any]):
 
     def _info(self) -> dict[str, Any]:
         """The entries of `Stage.infos` of this walk, as plain numbers."""
-        return {
-            name: x[0] if name == "status" else x.item() for name, x in self.stage.infos().items()
-        }
+        infos = self.stage.infos().items()
+        return {name: x[0] if name == "status" else x.item() for name, x in infos}
 
     def render(self) -> Any:
         """Draw the robot as pixels (height, width, 3), uint8; None without a render_mode."""

@@ -128,9 +128,7 @@ class LearnerTask(Checked, Shown):
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
-NAMES = np.array(
-    ["walks", *(status.name.lower().replace("_", " ") for status in STATUS[1:])], dtype=object
-)
+NAMES = np.array(["walks", *(x.name.lower().replace("_", " ") for x in STATUS[1:])], dtype=object)
 """Text of each status, by its code."""
 
 Flags = NDArray[np.bool_]
@@ -155,20 +153,14 @@ class Stage:
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
         self.cost = task.effort / (p * self.limits.torque**2)
-        self.highest = np.concatenate(
-            (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
-        )
+        v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
+        measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
+        self.highest = np.concatenate((*measured, np.full(p, self.limits.torque), [2.0 * TURNS]))
         self.lowest, self.needs = -self.highest, np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
         self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
-
-    def _fastest(self) -> Array:
-        """Bounds (2 n + 2 p,) of the measured q, q', e and e', one after the other."""
-        n, p = self.plant.n, self.plant.p
-        v = np.full(n, self.task.scenario.run.runaway_speed * RUNAWAY_RATE)
-        return np.concatenate((np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]))
 
     def begin(self, i: int, seed: int) -> None:
         """Begin walk i anew with this seed of its scenario."""

@@ -97,11 +97,8 @@ def exchanged(
     """
     other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
-    return (
-        np.where(other, turned, q),
-        np.where(other, v @ biped.R.T, v),
-        np.where(other, relabelled(u, biped.swap), u),
-    )
+    q, v = np.where(other, turned, q), np.where(other, v @ biped.R.T, v)
+    return q, v, np.where(other, relabelled(u, biped.swap), u)
 
 
 def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
@@ -135,10 +132,7 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
         result[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
     missing = [x for x in known if x[0] in "tqu" and x not in result]
     if missing or (CONTACT in result) == (STEP in result):
-        asked = [
-            *(f"{x} [{UNITS[x[0]]}]" for x in missing),
-            *([] if missing else [f"one of {CONTACT}, {STEP}"]),
-        ]
+        asked = [f"{x} [{UNITS[x[0]]}]" for x in missing] or [f"one of {CONTACT}, {STEP}"]
         raise InputError(
             f"its columns are {head}, expected {', '.join(asked)} too; rates v1 .. may be left out"
         )

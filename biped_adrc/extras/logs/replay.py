@@ -124,9 +124,8 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         residual = m.q_b - expected.position if expected is not None else np.full(len(xi), np.nan)
         rows.append((m.t_step, m.v, u, residual, xi, terms.xi, beyond))
         s = calls.predict(s, m, log.u[k])
-    t_step, v, torque, residual, xi, nominal, beyond = (
-        np.array(x) for x in zip(*rows, strict=True)
-    )
+    arrays = (np.array(x) for x in zip(*rows, strict=True))
+    t_step, v, torque, residual, xi, nominal, beyond = arrays
     late = (log.step > log.step[0]) & (t_step < window)
     inputs = log.t, log.step, t_step, log.q, v, log.u
     return ReplaySignals(*inputs, torque, residual, xi, nominal, beyond, late.astype(float))

@@ -157,9 +157,7 @@ def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[
 def _check_steps(step: Array, names: list[str]) -> None:
     """Raise InputError for numbers of single supports (K,) that are not whole, or do not grow one by one."""
     change = np.diff(step, prepend=step[:1])
-    bad = np.flatnonzero(
-        (step != np.round(step)) | (step < 1.0) | ((change != 0.0) & (change != 1.0))
-    )
+    bad = np.flatnonzero((step != np.round(step)) | (step < 1.0) | ~np.isin(change, (0.0, 1.0)))
     if len(bad):
         raise InputError(
             f"{names[bad[0]]} of the log is of single support {step[bad[0]]:g}, expected whole numbers from 1 "
@@ -208,12 +206,8 @@ def logged(walk: Walk) -> RobotLog:
             "the walk is in continuous time and has no sample instants to log; give a period, as period=1e-3"
         )
     run = walk.trajectory
-    rows = [
-        row
-        for arc in run.arcs
-        for k, end in _ticks(arc, time, run.t_start)
-        for row in [_row(walk.walker, arc, k, end)]
-    ]
+    ticks = ((arc, *tick) for arc in run.arcs for tick in _ticks(arc, time, run.t_start))
+    rows = [_row(walk.walker, *tick) for tick in ticks]
     if not rows:
         raise InputError(
             f"the walk ended at t = {run.t_end:g} s, before a second sample instant, and has nothing to log"

@@ -66,9 +66,8 @@ def _shape(visual: Visual) -> ET.Element:
         "sphere": np.array(visual.size),
     }[visual.shape]
     place = {"pos": text(visual.origin), "size": text(size), "rgba": text(visual.rgba)}
-    return ET.Element(
-        "geom", {"type": visual.shape, "mass": "0", "group": "1"} | place | NO_CONTACT
-    )
+    alone = {"type": visual.shape, "mass": "0", "group": "1"}
+    return ET.Element("geom", alone | place | NO_CONTACT)
 
 
 def _start(plant: MuJoCoPlant, gait: Gait) -> dict[str, str]:
@@ -83,9 +82,7 @@ def _comment(plant: MuJoCoPlant) -> str:
     biped = plant.biped
     preset = biped.description.preset(biped.preset)
     result = packages(("biped-adrc", "mujoco-core", "mujoco"))
-    versions = ", ".join(
-        f"{name} {version}" for name, version in result.items() if version != "none"
-    )
+    versions = ", ".join(f"{name} {x}" for name, x in result.items() if x != "none")
     ground = ", ".join(f"{name} {x}" for name, x in vars(plant.ground).items())
     surface, deep = plant.stiffness
     lines = (

@@ -97,10 +97,8 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     for name, parameter in takes(find("controller", c.name).load()).items():
         x = c.own.get(name, parameter.default)
         if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
-            ends = (
-                (0.1 * x, 10.0 * x) if x > 0.0 else (-1.0, 1.0) if x == 0.0 else (10.0 * x, 0.1 * x)
-            )
-            yield Slider(f"controller.{name}", *ends, x > 0.0, value=x)
+            low, high = sorted((0.1 * x, 10.0 * x)) if x else (-1.0, 1.0)
+            yield Slider(f"controller.{name}", low, high, x > 0.0, value=x)
 
 
 def sliders(

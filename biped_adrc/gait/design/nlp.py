@@ -309,11 +309,8 @@ def relaxed(
             rows.append(Bounded(row.name, row.value - give, -np.inf, row.high))
     weight = np.array([ASKED_WEIGHT if name in ASKED else 1.0 for name in names])
     count = len(names)
-    softened = NonlinearProgram(
-        ca.vertcat(programme.x, slack),
-        ca.dot(weight, slack) + 1e-6 * programme.objective,
-        tuple(rows),
-    )
+    cost = ca.dot(weight, slack) + 1e-6 * programme.objective
+    softened = NonlinearProgram(ca.vertcat(programme.x, slack), cost, tuple(rows))
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
     result = solve(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")

@@ -183,21 +183,15 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     reserve to them. F_N, clearance and lift-off have no such reserve, so they may fall short by that share.
     """
     limits, c = request.limits.of(biped), gait.constraint
-    left = 1.0 - limits.reserve
-    loose = replace(
-        limits,
-        reserve=0.0,
-        normal_force=left * limits.normal_force,
-        clearance=limits.clearance and left * limits.clearance,
-        lift_off=left * limits.lift_off,
-        slowest=left * limits.slowest,
-    )
+    names = ("normal_force", "clearance", "lift_off", "slowest")
+    whole = {name: x for name in names if (x := getattr(limits, name)) is not None}
+    left = {name: (1.0 - limits.reserve) * x for name, x in whole.items()}
+    loose = replace(limits, reserve=0.0, **left)
     rate = float(c.phase @ gait.v_minus)
     rates = np.abs(orbit.v @ c.phase)
     x = at_gait(biped, c, gait.q_minus, gait.v_minus / rate, abs(rate), rates, 1.0)
-    programme, _ = transcribe(
-        biped, replace(request, nodes=len(rates)), loose, float(np.sign(rate))
-    )
+    finer = replace(request, nodes=len(rates))
+    programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
     allowed = dict.fromkeys(ASKED, SPEED)
     # the foot may scuff, and is kept up in the second half at the nodes alone
     allowed[LATE] = np.inf

@@ -19,6 +19,7 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown
 from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.urdf import FREELY
 
 MOST_NODES = 100
 """Largest number of nodes in a request; twice as many are tried where limits are violated between them."""
@@ -28,7 +29,6 @@ DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4
 NodesInt = Annotated[
     int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
 ]
-FREE = -math.inf, math.inf
 LOW_FIRST = each("low < high [rad] by joint", lambda ends: ends[0] < ends[1])
 
 
@@ -97,8 +97,9 @@ class StepLimits(Checked, Shown):
         ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
         # a coordinate is the angle of either leg's joint in turn
         for joint, *sides in zip(d.actuated, *biped.motor_joints, strict=True):
-            lows, highs = zip(*(side.range for side in sides), ranges.get(joint, FREE), strict=True)
-            if (ends := (max(lows), min(highs))) != FREE:
+            own_range = ranges.get(joint, FREELY)
+            lows, highs = zip(own_range, *(side.range for side in sides), strict=True)
+            if (ends := (max(lows), min(highs))) != FREELY:
                 ranges[joint] = ends
             if (rate := min(side.speed for side in sides)) < math.inf:
                 rates[joint] = rate

@@ -23,6 +23,7 @@ from biped_adrc.gait.conventions import Convention
 from biped_adrc.gait.exchange.samples import Samples, fit, poses
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.urdf import vector
 
 EXPLAINS = 5e-3
 """Largest distance of samples from the orbit of the robot that explains them [rad]."""
@@ -70,13 +71,11 @@ def with_legs(biped: Biped, k: float) -> Biped:
     tree, d = biped.tree, biped.description
     legs = {j.child for foot in d.feet for j in tree.path_below(foot, d.trunk) or ()}
     com = {link: k for link in legs if tree.links[link].inertial is not None}
-    joints = (
-        replace(j, origin=(k * j.origin[0], k * j.origin[1], k * j.origin[2]))
-        if j.parent in legs
-        else j
+    joints = tuple(
+        replace(j, origin=vector(k * np.array(j.origin))) if j.parent in legs else j
         for j in tree.joints
     )
-    return replace(biped, tree=replace(biped.scaled({"com": com}), joints=tuple(joints)))
+    return replace(biped, tree=replace(biped.scaled({"com": com}), joints=joints))
 
 
 def _heavier(biped: Biped, body: str, k: float) -> Biped:

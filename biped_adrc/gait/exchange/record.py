@@ -200,11 +200,8 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
     if outputs is None:
         outputs = np.eye(n) if rows == n else layout.outputs
     half = (record.q_minus is None) != (record.v_minus is None)
-    if (
-        half
-        or outputs.shape != (rows, n)
-        or any(x is not None and x.shape != (n,) for x in (c, record.q_minus, record.v_minus))
-    ):
+    shapes = {x.shape for x in (c, record.q_minus, record.v_minus) if x is not None}
+    if half or outputs.shape != (rows, n) or shapes != {(n,)}:
         raise record.error(
             f"{rows} rows of coefficients and outputs of shape {outputs.shape}, expected {len(layout.outputs)} "
             f"rows or one per coordinate, which are {', '.join(layout.coordinates)}; phase, q_minus and "

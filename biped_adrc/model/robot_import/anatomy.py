@@ -116,7 +116,7 @@ def on_feet(
 def _ends(body: PlanarBase) -> list[str]:
     """Names of the links at the ends of the tree, the trunk among them where one joint hangs on it."""
     tree, trunk = body.tree, body.trunk
-    below = (link for link in tree.links if tree.path_below(link, trunk) is not None)
+    below = tree.links_from(trunk)
     return [link for link in below if len(tree.joints_below(link)) <= (link == trunk)]
 
 
@@ -224,8 +224,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
 def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
     """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
     tree = body.tree
-    below = [link for link in tree.links if tree.path_below(link, body.trunk) is not None]
-    fits = [link for link in below if _keeps_its_origin(tree, link, foot)]
+    fits = [link for link in tree.links_from(body.trunk) if _keeps_its_origin(tree, link, foot)]
     if hip not in fits:
         raise ModelError(
             f"'{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "

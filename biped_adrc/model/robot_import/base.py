@@ -96,7 +96,7 @@ def _top(tree: Tree, root: str) -> Joint | None:
 
 def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
     """The tree below `top` on a base added in its place; an axis of `top` is that of the pitch."""
-    names = [link for link in tree.links if link == top.child or tree.path_below(link, top.child)]
+    names = tree.links_from(top.child)
     joints = tuple(joint for joint in tree.joints if joint.parent in names)
     rest = replace(tree, links={link: tree.links[link] for link in names}, joints=joints)
     turns = top.type in ("planar", "revolute")
@@ -132,9 +132,8 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
         for j in tree.joints
     )
     text = f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
-    return PlanarBase(
-        replace(tree, joints=forward), (x, z), pitch.name, pitch.child, (Note("read", text),)
-    )
+    tree, note = replace(tree, joints=forward), Note("read", text)
+    return PlanarBase(tree, (x, z), pitch.name, pitch.child, (note,))
 
 
 def added(
@@ -174,16 +173,10 @@ def _check_below(on_base: PlanarBase) -> None:
         )
     for joint in sorted(below, key=lambda joint: joint.parent == on_base.trunk):
         wrong = ""
-        if joint.type == "revolute" and not _mass(tree, joint.child) > 0:
+        carried = tree.links_from(joint.child)
+        if joint.type == "revolute" and not any(tree.links[x].inertial for x in carried):
             wrong = f"it moves no mass; give link '{joint.child}' an <inertial>, or make it 'fixed'"
         elif joint.child == "ground" or joint.name == PIN_JOINT:
             wrong = f"link 'ground' and joint '{PIN_JOINT}' are of the stance contact; rename it"
         if wrong:
             raise ModelError(f"{where}, joint '{joint.name}': {wrong}")
-
-
-def _mass(tree: Tree, link: str) -> float:
-    """Mass of `link` and all links below it [kg]."""
-    inertial = tree.links[link].inertial
-    below = sum(_mass(tree, joint.child) for joint in tree.joints_below(link))
-    return below + (0.0 if inertial is None else inertial.mass)

@@ -49,18 +49,9 @@ from biped_adrc.model.physical import checks
 from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
 from biped_adrc.model.robot_import.mjcf import read_mjcf
+from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
-from biped_adrc.model.robots.urdf import (
-    Joint,
-    Link,
-    Note,
-    Tree,
-    Visual,
-    pairs,
-    to_xml,
-    vector,
-    with_tip,
-)
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, vector
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Colour = tuple[float, float, float, float]
@@ -190,7 +181,7 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
 
     A name that is empty or occupied without its side is replaced by that of the first link.
     """
-    twins = dict(pairs(tree, feet))
+    twins = dict(urdf.pairs(tree, feet))
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
     for link in heavy:
@@ -231,11 +222,11 @@ class Derived:
         Raises OutputError where one of them exists already or cannot be written.
         """
         folder = Path(folder)
-        urdf, record = folder / "floating.urdf", folder / "robot.toml"
-        if there := [str(path) for path in (urdf, record) if path.exists()]:
+        model, record = folder / "floating.urdf", folder / "robot.toml"
+        if there := [str(path) for path in (model, record) if path.exists()]:
             raise OutputError(f"{there} exist already; give a new folder, or remove them first")
-        write_text(urdf, to_xml(self.biped.tree))
-        write_text(record, to_toml({**self.record, "urdf": urdf.name}))
+        write_text(model, urdf.to_xml(self.biped.tree))
+        write_text(record, to_toml({**self.record, "urdf": model.name}))
         return record
 
 
@@ -282,9 +273,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
-    return Derived(
-        biped, tuple(sorted(notes, key=lambda n: order.index(n.kind))), checks(biped), record
-    )
+    ordered = tuple(sorted(notes, key=lambda note: order.index(note.kind)))
+    return Derived(biped, ordered, checks(biped), record)
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:
@@ -301,7 +291,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
         )
     tree, tips = contents.tree, []
     for foot in feet:
-        tree, tip = with_tip(tree, foot, vector(contents.turns[foot] @ np.array(hints.tip)))
+        tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ np.array(hints.tip)))
         tips.append(tip)
     return replace(contents, tree=tree), tuple(tips)
 

@@ -22,14 +22,13 @@ from biped_adrc.core.errors import ModelError, optional
 from biped_adrc.core.files import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.model.robot_import.anatomy import FOOT_NAMES
+from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.robot_toml import GRAVITY
-from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Note, Tree, check_inertial, vector
+from biped_adrc.model.robots.urdf import FREELY, Joint, Link, Note, Tree, vector
 from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
 """Types of joints, in MuJoCo's order."""
-FREELY = (-math.inf, math.inf)
-"""Range of a joint without one [rad]."""
 
 
 def read_mjcf(path: Path) -> Contents:
@@ -59,15 +58,11 @@ def read_mjcf(path: Path) -> Contents:
         """One of the model's arrays over its velocities, by joint."""
         return {name: float(values[m.jnt_dofadr[j]]) for name, j in hinges.items()}
 
-    return Contents(
-        _tree(m, d, names, path),
-        {n: e for n, j in hinges.items() if (e := _torque(m, j)) < math.inf},
-        by_joint(m.dof_damping),
-        by_joint(m.dof_frictionloss),
-        by_joint(m.dof_armature),
-        dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True)),
-        _notes(m, hinges),
-    )
+    torques = {name: e for name, j in hinges.items() if (e := _torque(m, j)) < math.inf}
+    viscous, static, rotor = map(by_joint, (m.dof_damping, m.dof_frictionloss, m.dof_armature))
+    turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
+    tree, notes = _tree(m, d, names, path), _notes(m, hinges)
+    return Contents(tree, torques, viscous, static, rotor, turns, notes)
 
 
 def _name(m: Any, j: int) -> str:
@@ -100,26 +95,19 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             R = d.ximat[b].reshape(3, 3)
             moments = (R * m.body_inertia[b]) @ R.T
             upper = tuple(moments[np.triu_indices(3)].tolist())
-            body = Inertial(float(m.body_mass[b]), vector(d.xipos[b] - above), upper)
-            check_inertial(body, f"'{path}', body '{names[b]}'")
+            body = urdf.Inertial(float(m.body_mass[b]), vector(d.xipos[b] - above), upper)
+            urdf.check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
-    for owners, at, item in (
-        (m.geom_bodyid, d.geom_xpos, m.geom),
-        (m.site_bodyid, d.site_xpos, m.site),
-    ):
-        for i, b in enumerate(owners.tolist()):
-            foot = one_line(item(i).name)
-            if (
-                b
-                and FOOT_NAMES.search(foot)
-                and not FOOT_NAMES.search(names[b])
-                and foot not in links
-            ):
-                links[foot] = Link(foot, None, ())
-                place, axis = vector(at[i] - places[b]), (1.0, 0.0, 0.0)
-                joints.append(Joint(f"{foot}_mount", "fixed", names[b], foot, place, axis))
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
-    return Tree(model or path.stem, links, tuple(joints), str(path))
+    tree = Tree(model or path.stem, links, tuple(joints), str(path))
+    owners, at = (*m.geom_bodyid, *m.site_bodyid), (*d.geom_xpos, *d.site_xpos)
+    shapes = [*map(m.geom, range(m.ngeom)), *map(m.site, range(m.nsite))]
+    for b, place, shape in zip(owners, at, shapes, strict=True):
+        foot = one_line(shape.name)
+        sole = FOOT_NAMES.search(foot) and not FOOT_NAMES.search(names[b])
+        if b and sole and foot not in tree.links:
+            tree, _ = urdf.with_tip(tree, names[b], vector(place - places[b]), foot)
+    return tree
 
 
 def _range(m: Any, j: int) -> tuple[float, float]:

@@ -52,6 +52,8 @@ SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
 FREE = 1000.0
 """Number that stands for no limit in <limit>, where one is compulsory."""
+FREELY = (-math.inf, math.inf)
+"""Range [rad] of a joint that turns all the way round, or slides."""
 
 
 class Note(NamedTuple):
@@ -123,7 +125,7 @@ class Joint:
     """Unit vector, the same in both frames; without meaning for a fixed joint."""
     speed: float = math.inf
     """<limit velocity> [rad/s] or [m/s]; infinite where there is none, or one that is 0 or at least FREE."""
-    range: tuple[float, float] = (-math.inf, math.inf)
+    range: tuple[float, float] = FREELY
     """<limit lower upper> [rad]; infinite for a joint that turns all the way round, or slides."""
 
     @property
@@ -171,6 +173,10 @@ class Tree(Shown):
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None
 
+    def links_from(self, top: str) -> list[str]:
+        """Names of link `top` and all links below it that a joint carries, in the order of the file."""
+        return [link for link in self.links if self.path_below(link, top) is not None]
+
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
         """The same tree with the inertials of some links replaced. Raises ModelError for
         impossible mass properties.
@@ -182,9 +188,11 @@ class Tree(Shown):
         return replace(self, links=links)
 
 
-def with_tip(tree: Tree, link: str, place: Vector) -> tuple[Tree, str]:
-    """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name."""
-    tip = free_name(tree, f"{link}_tip")
+def with_tip(tree: Tree, link: str, place: Vector, name: str = "") -> tuple[Tree, str]:
+    """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name,
+    `name` or that of the link with "_tip" where no other has it.
+    """
+    tip = free_name(tree, name or f"{link}_tip")
     mount = free_name(tree, f"{tip}_mount")
     joint = Joint(mount, "fixed", link, tip, place, (1.0, 0.0, 0.0))
     links = {**tree.links, tip: Link(tip, None, ())}

@@ -33,22 +33,8 @@ import pinocchio as pin
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
-from biped_adrc.model.robots.urdf import (
-    FREE,
-    GEOMETRY_SIZES,
-    JOINT_TYPES,
-    MOMENTS,
-    SYMMETRIC,
-    Inertial,
-    Joint,
-    Link,
-    Note,
-    Tree,
-    Vector,
-    Visual,
-    check_inertial,
-    vector,
-)
+from biped_adrc.model.robots import urdf
+from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Note, Tree, Vector, Visual, vector
 
 MOST_LINKS = 200
 """Largest number of links of a robot."""
@@ -135,15 +121,11 @@ def read(path: Path | str) -> Contents:
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    return Contents(
-        Tree(_name(robot, file), links, joints, str(path)),
-        _by_joint(turning, "limit", "effort", file),
-        _by_joint(turning, "dynamics", "damping", file),
-        _by_joint(turning, "dynamics", "friction", file),
-        _rotors(robot, file),
-        turns,
-        _notes(robot, links, yaw),
-    )
+    tree = Tree(_name(robot, file), links, joints, str(path))
+    keys = ("limit", "effort"), ("dynamics", "damping"), ("dynamics", "friction")
+    effort, viscous, static = (_by_joint(turning, *key, file) for key in keys)
+    notes = _notes(robot, links, yaw)
+    return Contents(tree, effort, viscous, static, _rotors(robot, file), turns, notes)
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
@@ -230,16 +212,14 @@ def _numbers(
     return values  # type: ignore[return-value]
 
 
-def _by_joint(
-    joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
-) -> dict[str, float]:
-    """The number <tag key> of each joint that has it, by name of the joint."""
+def _by_joint(joints: list[ET.Element], tag: str, key: str, file: str) -> dict[str, float]:
+    """The number <tag key>, at least 0, of each joint that has it, by name of the joint."""
     values = {}
     for joint in joints:
         element = joint.find(tag)
         if element is not None and key in element.attrib:
             where = f"{_place_of(joint, file)} <{tag}>"
-            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, least)[0]
+            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, 0.0)[0]
     return values
 
 
@@ -326,7 +306,7 @@ def _link(element: ET.Element, file: str, turns: Mapping[str, Array], moved: set
         if inertial.mass == 0.0 and not (any(inertial.inertia) and element.get("name") in moved):
             inertial = None
         else:
-            check_inertial(inertial, where)
+            urdf.check_inertial(inertial, where)
     return Link(element.get("name", ""), inertial, visuals)
 
 
@@ -339,8 +319,8 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, turn = _origin(element, f"{where} <inertial>", R)
     inertia, where = element.find("inertia"), f"{where} <inertia>"
-    moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
-    turned = turn @ moments[SYMMETRIC] @ turn.T
+    moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in urdf.MOMENTS])
+    turned = turn @ moments[urdf.SYMMETRIC] @ turn.T
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
     flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
@@ -349,7 +329,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     """The shape of an element in axes turned by R; None where it is no upright primitive then."""
-    shape = next((g for g in element.iterfind("geometry/*") if g.tag in GEOMETRY_SIZES), None)
+    shape = next((g for g in element.iterfind("geometry/*") if g.tag in urdf.GEOMETRY_SIZES), None)
     if shape is None:
         return None
     place, turn = _origin(element, f"{where} <visual>", R)
@@ -358,7 +338,7 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
-    count, keys = 3 if box else 1, GEOMETRY_SIZES[shape.tag]
+    count, keys = 3 if box else 1, urdf.GEOMETRY_SIZES[shape.tag]
     size = sum((_numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
     rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = vector(axes @ size) if box else size
@@ -374,10 +354,10 @@ def _joint(
     not of unit length.
     """
     where, kind = _place_of(element, file), element.get("type", "")
-    if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
+    if kind not in (*urdf.JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
-            f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
-            "joints are not supported"
+            f"{where}: type '{kind}', expected one of {['continuous', *urdf.JOINT_TYPES]}, without <mimic>; "
+            "coupled joints are not supported"
         )
     axis_element = None if kind in ("fixed", "floating") else element.find("axis")
     axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
@@ -391,9 +371,8 @@ def _joint(
         for key in ("velocity", "lower", "upper")
     )
     place = _origin(element, where, turns[parent])[0]
-    speed = speed if 0.0 < speed < FREE else math.inf
+    speed = speed if 0.0 < speed < urdf.FREE else math.inf
     stated = limit is not None and {"lower", "upper"} <= limit.attrib.keys() and kind == "revolute"
-    stated = stated and 0.0 < high - low < 2.0 * math.pi
-    ends = (low, high) if stated else (-math.inf, math.inf)
+    ends = (low, high) if stated and 0.0 < high - low < 2.0 * math.pi else urdf.FREELY
     kind = "revolute" if kind == "continuous" else kind
     return Joint(element.get("name", ""), kind, parent, child, place, vector(axis), speed, ends)

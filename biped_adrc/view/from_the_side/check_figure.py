@@ -33,12 +33,9 @@ def check_figure(biped: Biped) -> Figure:
     with new_figure(8.0, 7.0) as figure:
         axes = figure.subplots()
         axes.axhline(0.0, color="black", lw=1.0, zorder=0)
-        for name, link in tree.links.items():
-            if tree.path_below(name, d.trunk) is None:
-                continue
-            side, colour = (
-                (-1, STANCE) if name in stance else (1, SWING if name in swing else TRUNK)
-            )
+        for name in tree.links_from(d.trunk):
+            link, side = tree.links[name], -1 if name in stance else 1
+            colour = STANCE if name in stance else SWING if name in swing else TRUNK
             ends = [_at(places[joint.child]) for joint in tree.joints_below(name)]
             if link.inertial is not None:
                 mass, com = link.inertial.mass, _at(places[name], link.inertial.com)
@@ -79,8 +76,7 @@ def _senses(axes: Axes, biped: Biped, places: dict[str, Array], radius: float) -
 
 def _at(M: Array, point: tuple[float, ...] = (0.0, 0.0, 0.0)) -> Array:
     """x and z (2,) [m] of a point in a frame of placement M (4, 4)."""
-    place: Array = (M @ [*point, 1.0])[[0, 2]]
-    return place
+    return np.asarray((M @ [*point, 1.0])[[0, 2]])
 
 
 def _write(

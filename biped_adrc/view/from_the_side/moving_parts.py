@@ -20,16 +20,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrow
 
 from biped_adrc.core.types import Array
-from biped_adrc.view.colours import (
-    LONGEST,
-    METRES_PER_NEWTON_METRE,
-    REACTION,
-    STANCE,
-    SWING,
-    TORQUE,
-    TRUNK,
-    bent_arrow,
-)
+from biped_adrc.view import colours
+from biped_adrc.view.colours import LONGEST, REACTION, STANCE, SWING, TORQUE, TRUNK, bent_arrow
 from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads
 
@@ -153,7 +145,7 @@ class DrawnWalk:
         self.text.set_horizontalalignment("right" if right else "left")
         beside = foot[0] + (-0.05 if right else 0.05)
         self.text.set_position((beside, foot[1] + max(0.5 * drawn[1], 0.05)))
-        radii = METRES_PER_NEWTON_METRE * acting.zeta
+        radii = colours.METRES_PER_NEWTON_METRE * acting.zeta
         torque = dict(zip(scene.biped.description.joints, radii.tolist(), strict=True))
         pushed = [joint for joint in scene.biped.tree.joints if torque.get(joint.name)]
         self.torques.set_verts(

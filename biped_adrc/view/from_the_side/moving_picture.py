@@ -145,15 +145,8 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     hundredths = np.diff(np.rint(100.0 * np.arange(len(frames) + 1) / fps))
     hundredths[-1] += round(100.0 * rest)
     buffer, durations = io.BytesIO(), [10 * int(x) for x in hundredths]
-    first.save(
-        buffer,
-        "GIF",
-        save_all=True,
-        append_images=others,
-        duration=durations,
-        loop=0,
-        optimize=False,
-    )
+    repeated = {"duration": durations, "loop": 0, "optimize": False}
+    first.save(buffer, "GIF", save_all=True, append_images=others, **repeated)
     return buffer.getvalue()
 
 
@@ -323,16 +316,9 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
         mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
-        lines = LineCollection(
-            mine,
-            colors=colour,
-            linewidths=width,
-            linestyles=dash,
-            alpha=0.25 + 0.75 * darkness,
-            label=(name or view.scene.biped.description.trunk) if named and mine else "_",
-            capstyle="round",
-            zorder=3,
-        )
+        text = (name or view.scene.biped.description.trunk) if named and mine else "_"
+        lines = LineCollection(mine, colors=colour, linewidths=width, linestyles=dash, label=text)
+        lines.set(alpha=0.25 + 0.75 * darkness, capstyle="round", zorder=3)
         axes.add_collection(lines)
 
 

@@ -85,13 +85,9 @@ def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
     centre = (R @ np.array(visual.origin) + p)[[0, 2]]
     if visual.shape == "sphere":
         return Circle((centre[0], centre[1]), visual.size[0])
-    if visual.shape == "cylinder":
-        width, height = 2.0 * visual.size[0], visual.size[1]
-    else:
-        width, height = visual.size[0], visual.size[2]
-    corners = 0.5 * np.array(
-        [[-width, -height], [width, -height], [width, height], [-width, height]]
-    )
+    first, second, *_ = size = visual.size
+    sides = (2.0 * first, second) if visual.shape == "cylinder" else size[::2]
+    corners = 0.5 * np.array(sides) * [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
     return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
 
 

@@ -132,13 +132,10 @@ class SideView:
     def _about_foot(self) -> Array:
         """x and z [m] of the ends of all lines, relative to the stance foot, at 50 times of the walk (K, 2)."""
         scene = self.scene
-        times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
-        return np.concatenate(
-            [
-                self.segments(float(t)).reshape(-1, 2) - scene.foothold(scene.arc_at(float(t)))
-                for t in times
-            ]
-        )
+        times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50).tolist()
+        feet = [scene.foothold(scene.arc_at(t)) for t in times]
+        shown = zip(times, feet, strict=True)
+        return np.concatenate([self.segments(t).reshape(-1, 2) - foot for t, foot in shown])
 
     @cached_property
     def height(self) -> float:

@@ -23,32 +23,12 @@ import numpy as np
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
-from biped_adrc.view.colours import (
-    LONGEST,
-    METRES_PER_NEWTON_METRE,
-    REACTION,
-    STANCE,
-    SWING,
-    TORQUE,
-    WEIGHT_LENGTH,
-)
+from biped_adrc.view import colours, placement
+from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import player
-from biped_adrc.view.placement import (
-    VIEWS,
-    Clip,
-    Recorded,
-    WalkScene,
-    check_frames,
-    contact_changes,
-    ending,
-    exchanged,
-    is_wheel,
-    joint_values,
-    loads,
-    placed,
-)
+from biped_adrc.view.placement import Clip, Recorded, WalkScene, ending, exchanged, joint_values
 
 GHOST = 0.35
 """Opacity of a ghost (1 is solid)."""
@@ -111,7 +91,7 @@ def scene_settings(
         opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
-        robot.set_transform(placed((0.0, LANE * lane, 0.0)))
+        robot.set_transform(placement.placed((0.0, LANE * lane, 0.0)))
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
         data = {} if sampled is None else {"data": _packed(sampled)}
         described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
@@ -129,7 +109,7 @@ def scene_settings(
         "start": min(scene.trajectory.t_start for scene in scenes.values()),
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": clip.view,
-        "views": {kind: draw.camera(kind, scale) for kind in VIEWS},
+        "views": {kind: draw.camera(kind, scale) for kind in placement.VIEWS},
         "commands": window.packed,
     }
 
@@ -186,9 +166,9 @@ def _add_walk(
         "fall": math.tan(scene.walker.ground_slope),
         "ground": -depth,
         "head": draw.HEAD,
-        "metres_per_newton": WEIGHT_LENGTH / biped.weight,
-        "longest": LONGEST,
-        "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
+        "metres_per_newton": colours.WEIGHT_LENGTH / biped.weight,
+        "longest": colours.LONGEST,
+        "metres_per_newton_metre": colours.METRES_PER_NEWTON_METRE,
     }
 
 
@@ -199,9 +179,9 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
-    torso = name not in biped.description.actuated and inertial is not None
     path = f"{draw.joint_path(biped.tree, joint)}/torque"
-    origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
+    motors = biped.description.actuated
+    origin = (0.0, 0.0, 0.0) if name in motors or inertial is None else inertial.com
     draw.add_ring(robot[path], origin, TORQUE, opacity)
     return path
 
@@ -210,15 +190,13 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     """The legend of a page as pairs (colour, text); the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
-    newtons = 0.1 * biped.weight / WEIGHT_LENGTH
+    newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
+    torque = 0.1 / colours.METRES_PER_NEWTON_METRE
     walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
     entries = [
-        *([] if is_wheel(biped) else walking),
+        *([] if placement.is_wheel(biped) else walking),
         (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
-        (
-            TORQUE.lower(),
-            f"torque from outside, radius 0.1 m = {0.1 / METRES_PER_NEWTON_METRE:.0f} N m",
-        ),
+        (TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
     ]
     if ghosts:
         text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
@@ -267,7 +245,7 @@ class Frames:
         """Sample a walk at `fps` [1/s] or finer, and at all its nodes. Raises InputError for too many
         frames.
         """
-        check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
+        placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
             nodes = _nodes(scene, arc, fps)
@@ -293,14 +271,11 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
         joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
-    acting = loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
-    return Pose(
-        np.array([at[name] for name in moving]),
-        np.array(rates),
-        np.concatenate((acting.ground_reaction, acting.zeta)),
-        scene.points(i, t, q),
-        np.array([*foothold, *acting.other, acting.slips]),
-    )
+    acting = placement.loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
+    values, forces = [at[name] for name in moving], (acting.ground_reaction, acting.zeta)
+    contact = np.array([*foothold, *acting.other, acting.slips])
+    points = scene.points(i, t, q)
+    return Pose(np.array(values), np.array(rates), np.concatenate(forces), points, contact)
 
 
 def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
@@ -310,8 +285,8 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
-    edges = scene.walker.switching_times(arc.mode)
-    inside = [t for t in (*frames, *edges, *contact_changes(scene, arc)) if start < t < end]
+    edges = *scene.walker.switching_times(arc.mode), *placement.contact_changes(scene, arc)
+    inside = [t for t in (*frames, *edges) if start < t < end]
     nodes = np.unique([start, *inside, end])
     for _ in range(HALVINGS):
         q, v = _states(arc, nodes, scene.biped.n)

@@ -67,15 +67,8 @@ def finished(axes: Axes, unit: str, push: Window | None = None) -> Axes:
 def legend(axes: Axes) -> Axes:
     """Put the legend in a line above the axes, where it covers nothing and takes no width; returns the axes."""
     count = len(axes.get_legend_handles_labels()[1])
-    axes.legend(
-        ncols=count,
-        frameon=False,
-        columnspacing=1.2,
-        handlelength=1.6,
-        loc="lower left",
-        bbox_to_anchor=(-0.01, 1.0),
-        borderaxespad=0.0,
-    )
+    spaces = {"columnspacing": 1.2, "handlelength": 1.6, "borderaxespad": 0.0}
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=count, frameon=False, **spaces)
     return axes
 
 

@@ -74,16 +74,10 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
                 if of == name and math.isfinite(x[0])
             ]
             y, x, low, high = np.array(here).reshape(-1, 4).T
-            axes.errorbar(
-                x,
-                y,
-                xerr=np.nan_to_num([x - low, high - x], posinf=0.0, neginf=0.0).clip(0.0),
-                fmt=MARKERS[i % len(MARKERS)],
-                color=PALETTE[i % len(PALETTE)],
-                ms=4,
-                lw=1.0,
-                label=literal(name) or None,
-            )
+            ends = np.nan_to_num([x - low, high - x], posinf=0.0, neginf=0.0).clip(0.0)
+            mark, colour = MARKERS[i % len(MARKERS)], PALETTE[i % len(PALETTE)]
+            text = literal(name) or None
+            axes.errorbar(x, y, xerr=ends, fmt=mark, color=colour, ms=4, lw=1.0, label=text)
         axes.set_yticks(range(len(rows)), [literal(row) for row in rows])
         axes.set_ylim(len(rows) - 0.5, -0.5)
         label(axes, title, "")
@@ -155,9 +149,8 @@ def path_figure(
                 axes.plot(*np.array(x).reshape(-1, 2).T, mark, color=color, ms=2.5, ls="none")
             numbers = [x if kept else math.inf if less else -math.inf for _, x, kept in path]
             best = (np.minimum if less else np.maximum).accumulate(numbers)
-            axes.step(
-                [n for n, *_ in path], best, where="post", color=color, label=literal(name) or None
-            )
+            numbered = [n for n, *_ in path]
+            axes.step(numbered, best, where="post", color=color, label=literal(name) or None)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         label(axes, "candidate", literal(title))
         if len(paths) > 1:
@@ -271,9 +264,8 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
             for word, (t, c, h) in FATES.items()
             if word in shown
         ]
-        figure.legend(
-            handles=handles, loc="outside lower center", ncols=1 if len(limits) < 2 else 2
-        )
+        columns = 1 if len(limits) < 2 else 2
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns)
         return figure
 
 

@@ -50,12 +50,8 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     o = report.orbits
     theta = grid(o.zero)
     axes.plot(theta, o.potential(theta), color=PALETTE[0], label=r"$V_{zero}$")
-    axes.axhline(
-        o.delta**2 * report.zeta_star,
-        color=PALETTE[1],
-        ls=DASHES[1],
-        label=r"$\sigma_+^2/2$ of the orbit",
-    )
+    begin, name = o.delta**2 * report.zeta_star, r"$\sigma_+^2/2$ of the orbit"
+    axes.axhline(begin, color=PALETTE[1], ls=DASHES[1], label=name)
     axes.plot(o.theta_max, o.v_max, "o", color="black", ms=4, label=r"$V_{max}$")
     label(axes, r"$\Theta$ [rad]", r"$V_{zero}$ [kg$^2$m$^4$/s$^2$]", "potential")
     axes.legend(loc="best")
