@@ -154,11 +154,9 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
         ds = loop.calls.flow(i.s, i.measurement, loop.bounded(i.u))
         return np.concatenate((i.measurement.v, i.a, flatten(ds)))
     (q, v, _, tail), n, dx = parts(loop, x), loop.plant.n, np.zeros(len(x))
-    line = tail.line
-    dx[:n], dx[n : 2 * n] = (
-        v,
-        loop.plant.acceleration(q, v, applied(motor_torque(line), loop.external(t, q, v, mode))),
-    )
+    line, zeta = tail.line, loop.external(t, q, v, mode)
+    dx[:n] = v
+    dx[n : 2 * n] = loop.plant.acceleration(q, v, applied(motor_torque(line), zeta))
     if line.u_m is not None:  # tau u_m' = u - u_m
         dx[loop.layout_of(x).place("tail", "line", "u_m")] = k.motors.speed * (line.u - line.u_m)
     return dx

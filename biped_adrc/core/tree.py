@@ -75,7 +75,10 @@ class Layout(NamedTuple):
     def tree(self, x: Array) -> Any:
         """The tree of a vector (.., size), its arrays views of it, with the leading axes of x."""
         if self.kind is None:
-            return x.reshape(x.shape[:-1] + self.parts) if self.parts else x[..., 0]
+            if self.parts:
+                return x.reshape(x.shape[:-1] + self.parts)
+            # of a vector of symbols x[..., 0] were an array without axes, which no operation takes
+            return x[0] if x.ndim == 1 else x[..., 0]
         if self.kind is type(None):
             return None
         at, parts = 0, []

@@ -26,9 +26,9 @@ def decisions(biped, walk):
     """sigma^2 where each step decides, from the full simulation."""
     law, found = walk.walker.law, []
     for arc in walk.trajectory.arcs:
-        w = arc.x[-1][2 * biped.n : 2 * biped.n + law.own_size]
-        minus = law.family.curve(np.array((w[0], w[2])))[2]
-        s = (arc.x[:, : biped.n] @ law.family.phase - w[6]) / (minus - w[6])
+        w = walk.walker.split_state(arc.x[-1])[2].own
+        minus = law.family.curve(np.array((w.begin, w.L)))[2]
+        s = (arc.x[:, : biped.n] @ law.family.phase - w.plus) / (minus - w.plus)
         x = arc.x[int(np.searchsorted(s, DECISION))]
         found.append(biped.angular_momentum(x[:5], x[5:10]) ** 2)
     return np.array(found)
