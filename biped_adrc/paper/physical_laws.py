@@ -91,12 +91,12 @@ class HeldJoint(HybridSystem):
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
-        q, v, s = x[:1], x[1:2], x[2:]
+        q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
         D = np.array([[self.J]])
         m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
         u = self.controller.output(s, m)
         a = u / self.J + np.sin(self.w * t)
-        return np.concatenate((v, a, self.controller.flow(s, m, u)))
+        return np.concatenate((v, a, self.controller.flow(s, m, u)[:, 0]))
 
 
 HELD_STEP = 1e-3
@@ -116,7 +116,7 @@ def held_joint(
     zero = np.zeros(1)
     controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
     w = 2.0 * math.pi * frequency
-    start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)))
+    start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)[:, 0]))
     run = simulate(HeldJoint(controller, w), start, None, RK4(h), t_end=t_end)
     t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
     last = t >= t_end - 2.0 / frequency - 1e-9  # two periods

@@ -145,7 +145,7 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
     x = walker.initial_state(*gait.start(biped))
     arc = ba.simulate(walker, x, ba.Mode(), ba.RK4(1e-4), t_end=0.2).arcs[0]
     t, x, ddq = arc.t[-1], arc.x[-1], arc.dx[-1][5:10]
-    m, s = walker.measure(t, x[:5], x[5:10], ba.Mode()), x[10:]
+    m, s = walker.measure(t, x[:5], x[5:10], ba.Mode()), walker.split_state(x)[2]
     u = law.output(s, m)
     G = law.error(m).G
     by_model, by_observer = (

@@ -25,7 +25,7 @@ class Luenberger(ba.Observer):
         return np.poly([-self.bandwidth] * 3)[1:]
 
     def initial_state(self, y, dy, xi):
-        return np.concatenate((y, dy, xi))
+        return np.array((y, dy, xi))
 
     def estimate(self, z):
         return Estimate(*z)

@@ -39,8 +39,8 @@ class DoubleIntegrator(HybridSystem):
 
     def flow(self, t, x, mode):
         u = np.array([np.cos(3 * t)])
-        dz = self.observer.flow(x[2:], x[:1], u)
-        return np.concatenate((x[1:2], u + self.xi(t), dz))
+        dz = self.observer.flow(x[2:, np.newaxis], x[:1], u)
+        return np.concatenate((x[1:2], u + self.xi(t), dz[:, 0]))
 
 
 @pytest.mark.parametrize("m", [0, 1, 3])
@@ -52,10 +52,10 @@ def test_polynomial_disturbances_up_to_degree_m_minus_one_are_found_exactly(m):
         return float(sum(c * t**k for k, c in enumerate(coefficients)))
 
     z = observer.initial_state(np.array([0.1]), np.array([0.2]), np.array([0.0]))
-    start = np.concatenate(([0.5, -0.3], z))
+    start = np.concatenate(([0.5, -0.3], z[:, 0]))
     run = simulate(DoubleIntegrator(observer, xi), start, None, RK4(1e-3), t_end=3.0)
     x, t = run.final_state, 3.0
-    found = observer.estimate(x[2:])
+    found = observer.estimate(x[2:, np.newaxis])
     assert found.position[0] == pytest.approx(x[0], abs=1e-6)
     assert found.velocity[0] == pytest.approx(x[1], abs=1e-5)
     if m > 0:

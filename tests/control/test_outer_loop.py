@@ -64,9 +64,9 @@ def test_a_constraint_that_the_impact_leaves_is_tracked_all_the_same(bare, recip
 
 def test_on_a_hybrid_invariant_constraint_there_is_nothing_to_correct(bare, published):
     law = ReferenceReset(ba.NPDController(published.constraint))
-    run = ba.walk(ba.Walker(bare, law), published, 2, ba.RK4(5e-4)).trajectory
-    for arc in run.arcs:
-        c = law.correction(arc.x[0][10:])
+    walk = ba.walk(ba.Walker(bare, law), published, 2, ba.RK4(5e-4))
+    for arc in walk.trajectory.arcs:
+        c = law.correction(walk.walker.split_state(arc.x[0])[2].own)
         phases = np.linspace(published.constraint.theta_plus, law.range[0], 9)
         assert max(np.max(np.abs(c(theta)[0])) for theta in phases) < 1e-8
 
@@ -121,9 +121,9 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
     assert held.signals.peak_error == pytest.approx(largest_error(held), rel=1e-3), (
         "of what is in force"
     )
-    own = held.trajectory.final_state[10:]
-    assert own[2] == -law.gains.limit, "beta at its bound"
-    assert law.gains.K_I * own[1] == pytest.approx(-law.gains.limit), "and the integral at its own"
+    own = held.walker.split_state(held.trajectory.final_state)[2].own
+    assert own.beta == -law.gains.limit, "beta at its bound"
+    assert pytest.approx(-law.gains.limit) == law.gains.K_I * own.I, "and the integral at its own"
 
 
 # -- both, in every setting ------------------------------------------------------------------------
