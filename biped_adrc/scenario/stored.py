@@ -8,7 +8,7 @@ Entries of the file, beside the trajectory that `hybrid.storage` writes:
     walker      JSON: {"parts": records of all objects, "walker": number of the walker's record in this list,
                 from 0, "gait": the gait as a value, see below}
     signal.*    the arrays of `analysis.signals.Signals`, one row for each stored time
-    settings    versions, the scenario's record, remarks, and what the caller adds
+    settings    versions, the scenario's record, remarks, names of the states, and what the caller adds
 
 `Writer` turns an object into a record: its class as `module:Class` and the values that its constructor takes,
 with inner objects in records of their own, each once, referred to by number. `Reader` makes the objects again.
@@ -96,6 +96,7 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | Non
     walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker, "gait": gait}
     about: dict[str, object] = {"versions": versions(), "remarks": list(walk.remarks)}
+    about["states"] = list(walk.walker.layout_of(walk.trajectory.arcs[0].x[0]).names())
     if walk.scenario is not None:
         about["scenario"] = walk.scenario.record()
     arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}

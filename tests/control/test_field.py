@@ -110,7 +110,9 @@ def test_a_known_force_is_rejected_whatever_it_acts_on(biped, gait, seed):
     m = walker.measure(0.0, q, v, Mode())
     i = walker.instant(0.0, x, Mode())
     true_xi = i.a[:4] - m.terms.kappa @ i.u
-    assert walker.law.estimate(walker.split_state(x)[2], m).disturbance == pytest.approx(true_xi, rel=1e-9)
+    assert walker.law.estimate(walker.split_state(x)[2], m).disturbance == pytest.approx(
+        true_xi, rel=1e-9
+    )
 
 
 def test_estimates_of_outputs_in_words_of_the_joints(biped, gait):

@@ -1,0 +1,145 @@
+"""A controller of one's own with a NamedTuple as its state, beside one with the same numbers in a row."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.core.errors import InputError
+from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.source import source_of
+from tests.export.test_agreement import TOLERANCE, difference
+
+K_I, LEAST = 1e5, 1e-4
+CLOCKS = {"continuous": ba.ContinuousTime(), "sampled": ba.SampledTime(1e-3)}
+
+
+class Integral(NamedTuple):
+    """State of `WithNames`."""
+
+    e: np.ndarray  # integral of the tracking error (p,) [rad s]
+    waits: float  # 1 while no integral is taken: before the first large error
+
+
+@dataclass(frozen=True)
+class WithNames(ba.Controller):
+    """(28) with an integral of the error, which begins with the first error beyond LEAST."""
+
+    reference: ba.VirtualConstraint
+    period: float = 0.0
+
+    def error(self, m):
+        return m.q_b - self.reference(m.t, m.q, m.v).q_d
+
+    def output(self, s, m):
+        r = self.reference(m.t, m.q, m.v)
+        f = ba.feedback(ba.TABLE_II, r, m.q_b, m.v_b) - K_I * s.e
+        return m.terms.kappa_inverse @ (ba.solved_acceleration(r, m.terms, f) - m.terms.xi)
+
+    def initial_state(self, m):
+        return Integral(np.zeros(len(m.q_b)), 1.0)
+
+    def flow(self, s, m, u):
+        return Integral((1.0 - s.waits) * self.error(m), 0.0)
+
+    def correct(self, s, m):
+        small = np.sum(self.error(m) ** 2) < LEAST**2
+        return s._replace(waits=np.where(small, s.waits, 0.0))
+
+    def predict(self, s, m, u):
+        return s._replace(e=s.e + self.period * (1.0 - s.waits) * self.error(m))
+
+    def sampled(self, period):
+        return replace(self, period=period)
+
+    def jump(self, s, after, swap):
+        return Integral(s.e[swap], 0.0)
+
+
+@dataclass(frozen=True)
+class InARow(WithNames):
+    """The same law with the state (e, waits) (p + 1,)."""
+
+    def tree(self, s):
+        return Integral(s[:-1], s[-1])
+
+    def output(self, s, m):
+        return super().output(self.tree(s), m)
+
+    def initial_state(self, m):
+        return np.concatenate((np.zeros(len(m.q_b)), np.ones(1)))
+
+    def flow(self, s, m, u):
+        d = super().flow(self.tree(s), m, u)
+        return np.append(d.e, d.waits)
+
+    def correct(self, s, m):
+        d = super().correct(self.tree(s), m)
+        return np.append(d.e, d.waits)
+
+    def predict(self, s, m, u):
+        d = super().predict(self.tree(s), m, u)
+        return np.append(d.e, d.waits)
+
+    def jump(self, s, after, swap):
+        d = super().jump(self.tree(s), after, swap)
+        return np.append(d.e, d.waits)
+
+
+def walked(biped, gait, law, clock, engine):
+    push = ba.TorqueStep([10.0, 0.0, -5.0, 5.0, 0.0], start=0.05)
+    walker = ba.Walker(biped, law(gait.constraint), push, timing=CLOCKS[clock])
+    return ba.walk(walker, gait, 2, ba.RK4(1e-3), engine=engine)
+
+
+@pytest.mark.parametrize("clock", CLOCKS)
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
+    one, other = (walked(biped, gait, law, clock, engine) for law in (WithNames, InARow))
+    assert one.trajectory.settings["engine"] == other.trajectory.settings["engine"] == engine
+    for x, y in zip(one.trajectory.arcs, other.trajectory.arcs, strict=True):
+        assert np.array_equal(x.x, y.x)
+    s = one.walker.split_state(one.trajectory.final_state)[2]
+    assert isinstance(s, Integral)
+    assert s.waits == 0.0
+    assert np.max(np.abs(s.e)) > 1e-5
+
+
+def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
+    walk = ba.load_walk(walked(biped, gait, WithNames, "sampled", "compiled").save(tmp_path / "x"))
+    names = walk.trajectory.settings["states"]
+    assert len(names) == len(walk.trajectory.final_state)
+    assert names[8:16] == [
+        "v[3]",
+        "v[4]",
+        "s.e[0]",
+        "s.e[1]",
+        "s.e[2]",
+        "s.e[3]",
+        "s.waits",
+        names[15],
+    ]
+    assert names[15:] == [f"tail.line.u[{i}]" for i in range(4)]
+
+
+def test_the_exported_c_walks_as_python(biped, gait):
+    """Over a touchdown, as in tests/export: the last place of an angle times the gains."""
+    walker = walked(biped, gait, WithNames, "sampled", "compiled").walker
+    assert difference(walker, source_of(Computer(walker))) < TOLERANCE
+
+
+def test_another_state_than_at_the_start_is_refused_by_method(biped, gait):
+    def walked_by(**methods):
+        law = type("WithNames", (WithNames,), methods)(gait.constraint)
+        return ba.walk(ba.Walker(biped, law, timing=CLOCKS["sampled"]), gait, 2)
+
+    with pytest.raises(
+        InputError, match=r"WithNames\.predict .* returned a ndarray, expected a Integral"
+    ):
+        walked_by(predict=lambda self, s, m, u: s.e)
+    walk = walked_by(jump=lambda self, s, m, swap: Integral(s.e[:2], 0.0))
+    assert walk.trajectory.status is ba.Status.RAISED
+    assert "WithNames.jump" in walk.trajectory.detail
+    assert "(2,)" in walk.trajectory.detail
