@@ -34,7 +34,7 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
     momentum = cumulative_trapezoid(newton, t, axis=0, initial=0.0)
     height = zero + 0.05 if height is None else height
     parts = (t, zero + 1.0, zero, zero, none, none if u is None else u, none, none, momentum)
-    return Nodes(np.column_stack((*parts, zero, height)))
+    return Nodes(np.column_stack((*parts, zero, height)), 4)
 
 
 def judged(walker, t, F_N, finished=True, **more):
@@ -361,7 +361,7 @@ def test_none_is_none_and_a_number_that_is_none_is_one(walker):
     feasible = beginning(walker)
     assert first_in(walker, feasible) is None
     feasible.rows[7, 9] = np.nan  # a torque
-    assert first_in(walker, feasible).t == feasible.t[7]
+    assert first_in(walker, feasible).t == feasible.at.t[7]
 
 
 def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
@@ -425,7 +425,7 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
         )
         none, mass = np.zeros(p), np.array([0.0, 0.0, 0.0, 0.1])
         row = np.concatenate(([0.0, step, 0.0, 0.0], none, none, q[:p], v[:p], mass))
-        (found,) = supports(walker, Nodes(row[np.newaxis]), KNOWN, 0)
+        (found,) = supports(walker, Nodes(row[np.newaxis], p), KNOWN, 0)
         assert found.rate_share == pytest.approx(np.max(shares), rel=1e-6)
         assert found.beyond_range == pytest.approx(max(np.max(beyond), 0.0), abs=1e-12)
         texts = found.infeasible()

@@ -188,7 +188,7 @@ def series(
         if name not in which or not n.p:
             return None
         k = int(which[name][i])
-        return own[k if n.rows[i, 1] % 2.0 else walker.plant.swap[k] % n.p]
+        return own[k if n.at.step[i] % 2.0 else walker.plant.swap[k] % n.p]
 
     return dict(zip(AT_NODES, needed, strict=False)) | at_ends, joint
 
@@ -207,7 +207,7 @@ def supports(
     of the friction cone; None on the rigid plant.
     """
     k = k if slips is None else k._replace(friction=math.inf)
-    first, t = n.edges[:-1], n.t
+    first, t = n.edges[:-1], n.at.t
     worst, joint = series(walker, n, k, impacts, after)
     joints = [
         {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in OF_JOINTS}
@@ -229,7 +229,7 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
     """By how much each single support (S,) lands off its stone [m]; 0 where it did not end in an impact."""
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
-        lengths = n.rows[n.last, -2] / math.cos(walker.ground_slope)
+        lengths = n.at.reading.swing_foot[n.last, 0] / math.cos(walker.ground_slope)
         for k, step in enumerate(n.steps[:impacts]):
             missed[k] = walker.stones.missed(step, float(lengths[k]))
     return missed

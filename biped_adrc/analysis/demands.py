@@ -1,6 +1,6 @@
 """What the nodes of a walk demand of ground, motors and joints, and what is summed over them.
 
-Rows (K, 8 + 4 p) are those of `engine.batch.BatchWalk.table`. The mean force of the ground follows by Newton's
+A row has the numbers of a `NodeRow`. The mean force of the ground follows by Newton's
 law from the momentum of the robot at the nodes,
 
     F = (P(t) - P(t - w) - int f dt) / w + m g e_z        P = m v_com, f the force from outside
@@ -21,17 +21,21 @@ from biped_adrc.engine.kernels.record import Ints
 
 SHORTEST = 1e-9
 """Shortest single support with a mean force [s]."""
+T, STEP, OUTSIDE, ERROR, U, Q, V, MOMENTUM, FOOT = range(9)
+"""Columns in the order of `NodeRow`; `at` says where in a row each begins."""
+WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8, 9
+"""Where each part of `ground_force.Known` begins; its joints stand behind the S numbers of FALLS."""
 
 
 @inner
-def loads(row: Array, p: int, joints: Array, out: Array, count: int) -> None:
+def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -> None:
     """out (6, count): at its first column the largest torque [N m], share of a limit of rates [1] and angle
-    beyond a range [rad], 0 for none, and the joints that have them, from 0. joints: as for `demands`."""
+    beyond a range [rad], 0 for none, and the joints that have them, from 0. joints: as in `Known`."""
     for j in range(6):
         out[j * count] = 0.0
     for i in range(p):
-        limit = shift(joints, 3 * (p * (int(row[1]) % 2) + i))
-        u, q, v = row[4 + p + i], row[4 + 2 * p + i], row[4 + 3 * p + i]
+        limit = shift(joints, 3 * (p * (int(row[at[STEP]]) % 2) + i))
+        u, q, v = row[at[U] + i], row[at[Q] + i], row[at[V] + i]
         beyond = max(limit[1] - q, q - limit[2])
         for j, x in enumerate((abs(u), abs(v) / limit[0], beyond)):
             if x > out[j * count] or x != x:
@@ -40,20 +44,27 @@ def loads(row: Array, p: int, joints: Array, out: Array, count: int) -> None:
 
 @unit
 def demands(
-    rows: Array, p: int, first: Ints, supports: int, impacts: int, known: Array, out: Array
+    rows: Array,
+    width: int,
+    at: Ints,
+    p: int,
+    first: Ints,
+    supports: int,
+    impacts: int,
+    known: Array,
+    out: Array,
 ) -> None:
     """out (11, K): what `analysis.ground_force.demands` gives at each of K nodes, then P - int f dt (2,) [N s].
 
-    first (S + 1,): first node of each single support, and K; the first `impacts` of them ended in an impact.
-    known: window w [s], weight [N], tangent of the slope, share of a step that is near its ends, axes (2,)
-    along the ground and out of it; by how much two times of one instant may differ [s]; then for each single
-    support by how much its ground falls [m]; then joints (2, p, 3), in even and in odd ones: largest rate
-    [rad/s], lower and upper end of the range [rad].
+    rows (K, width). first (S + 1,): first node of each single support, and K; the first `impacts` of them ended
+    in an impact. known: the numbers of `ground_force.Known`.
     """
-    width, count, before = 8 + 4 * p, first[supports], rows
+    count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]
     F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
     P_x, P_z, pushed_x, pushed_z = shift(out, 9 * count), shift(out, 10 * count), 0.0, 0.0
-    window, weight, tangent, ends, same = known[0], known[1], known[2], known[3], known[8]
+    window, weight, tangent = known[WINDOW], known[WEIGHT], known[TANGENT]
+    ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
+    joints = shift(known, FALLS + supports)
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
@@ -61,13 +72,13 @@ def demands(
         far = (1.0 - ends) * duration - same if s < impacts else math.inf
         for k in range(first[s], last + 1):
             row = shift(rows, k * width)
-            t, since, half = row[0], row[0] - start, 0.5 * (row[0] - before[0])
-            pushed_x += half * (row[2] + before[2])
-            pushed_z += half * (row[3] + before[3])
+            t, since, half = row[T], row[T] - start, 0.5 * (row[T] - before[T])
+            pushed_x += half * (row[OUTSIDE] + before[OUTSIDE])
+            pushed_z += half * (row[OUTSIDE + 1] + before[OUTSIDE + 1])
             before = row
-            P_x[k], P_z[k] = row[width - 4] - pushed_x, row[width - 3] - pushed_z
+            P_x[k], P_z[k] = row[P] - pushed_x, row[P + 1] - pushed_z
             F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0
-            loads(row, p, shift(known, 9 + supports), shift(out, 3 * count + k), count)
+            loads(row, at, p, joints, shift(out, 3 * count + k), count)
             # t - start falls short of w by round-off where a window begins at the touchdown
             if w > SHORTEST and since >= w - same:
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
@@ -76,10 +87,10 @@ def demands(
                 share = min(max(behind / h, 0.0), 1.0) if h > 0.0 else 0.0
                 F_x = (P_x[k] - P_x[i] - share * (P_x[i + 1] - P_x[i])) / w
                 F_z = (P_z[k] - P_z[i] - share * (P_z[i + 1] - P_z[i])) / w + weight
-                F_N[k] = F_x * known[6] + F_z * known[7]
+                F_N[k] = F_x * normal[0] + F_z * normal[1]
                 if not F_N[k] <= 0.0:
-                    ratio[k] = abs(F_x * known[4] + F_z * known[5]) / F_N[k]
-            height = row[width - 1] + tangent * row[width - 2] + known[9 + s]
+                    ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
+            height = row[foot + 1] + tangent * row[foot] + known[FALLS + s]
             if height > 0.0:
                 above = True
             elif above and near < since < far:
@@ -87,13 +98,12 @@ def demands(
 
 
 @unit
-def totals(rows: Array, p: int, count: int, out: Array) -> None:
+def totals(rows: Array, width: int, at: Ints, p: int, count: int, out: Array) -> None:
     """out (6,): largest |e_i| [rad]; number of nodes that a later time follows; over these nodes the sums of
     |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i [J], dq_i the change to the next node."""
-    width = 8 + 4 * p
     for k in range(count):
         row = shift(rows, k * width)
-        e, u, q = shift(row, 4), shift(row, 4 + p), shift(row, 4 + 2 * p)
+        e, u, q = shift(row, at[ERROR]), shift(row, at[U]), shift(row, at[Q])
         for i in range(p):
             if abs(e[i]) > out[0] or e[i] != e[i]:
                 out[0] = abs(e[i])

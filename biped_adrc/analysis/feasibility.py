@@ -163,7 +163,7 @@ def first_violation(
             at = i if name in AT_NODES else n.last[i]
             support = int(np.searchsorted(n.last, at))
             text = violation(name, x[i], k, joint(name, at))
-            result.append(Violation(float(n.t[at]), support, text))
+            result.append(Violation(float(n.at.t[at]), support, text))
     return min(result, default=None, key=lambda one: one.t)
 
 

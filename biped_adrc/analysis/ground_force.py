@@ -8,13 +8,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.closed_loop.instant_signals import NodeRow, StepReading, node_layout
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.load import compiled
 from biped_adrc.model.ground import ground_axes
@@ -26,40 +28,73 @@ class Nodes:
     """The signals of a walk that feasibility depends on, at its K nodes; forces and points are (x, z)."""
 
     rows: Array
-    """(K, 8 + 4 p), as `engine.batch.BatchWalk.table`: t, step, resultant external force (2,) [N], and what
-    `StepReading` has, last m v_com (2,) [N s] and place of the swing foot (2,) [m]."""
+    """(K, width), a `NodeRow` in each, as in `engine.batch.BatchWalk.table`."""
+    p: int
+    """Number of joints."""
 
     @classmethod
     def of(cls, s: Signals) -> Nodes:
         """Take the nodes from the signals of a walk."""
-        joints = [x[:, : s.u.shape[1]] for x in (s.q, s.v)]
-        parts = (s.t, s.step, s.outside, joints[0] - s.q_d, s.u, *joints, s.momentum, s.swing_foot)
-        return cls(np.ascontiguousarray(np.column_stack(parts)))
+        p = s.u.shape[1]
+        q, v = s.q[:, :p], s.v[:, :p]
+        reading = StepReading(q - s.q_d, s.u, q, v, s.momentum, s.swing_foot)
+        parts = np.column_stack((s.t, s.step, s.outside, *reading))
+        return cls(np.ascontiguousarray(parts), p)
+
+    @cached_property
+    def at(self) -> NodeRow:
+        """The columns by name, with a leading axis of K; a repeated time is a jump."""
+        columns: NodeRow = node_layout(self.p).tree(self.rows)
+        return columns
+
+    @cached_property
+    def _starts(self) -> Indices:
+        """Where in a row each column begins."""
+        return np.array(node_layout(self.p).starts())
 
     @property
-    def t(self) -> Array:
-        """(K,) [s]; a repeated time is a jump."""
-        return self.rows[:, 0]
-
-    @property
-    def p(self) -> int:
-        """Number of joints."""
-        return (self.rows.shape[1] - 8) // 4
+    def pointers(self) -> tuple[int, int, int, int]:
+        """The first arguments of the compiled loops."""
+        return self.rows.ctypes.data, self.rows.shape[1], self._starts.ctypes.data, self.p
 
     @property
     def steps(self) -> range:
         """Numbers of the S single supports."""
-        return range(int(self.rows[0, 1]), int(self.rows[-1, 1]) + 1)
+        return range(int(self.at.step[0]), int(self.at.step[-1]) + 1)
 
     @cached_property
     def edges(self) -> Indices:
         """First node of each single support, and K: (S + 1,)."""
-        return np.searchsorted(self.rows[:, 1], [*self.steps, self.steps.stop])
+        return np.searchsorted(self.at.step, [*self.steps, self.steps.stop])
 
     @property
     def last(self) -> Indices:
         """Last node of each single support (S,)."""
         return self.edges[1:] - 1
+
+
+class Known(NamedTuple):
+    """What the loop over nodes knows beside them, in the order of `analysis.demands`."""
+
+    window: float
+    """Length of the window w [s]."""
+    weight: float
+    """m g [N]."""
+    tangent: float
+    """Of the ground's slope."""
+    ends: float
+    """Share of a step that is near its ends."""
+    along: Array
+    """Unit vector along the ground (2,)."""
+    normal: Array
+    """Unit vector out of it (2,)."""
+    same: float
+    """By how much two times of one instant may differ [s]."""
+    falls: Array
+    """By how much the ground of each single support falls (S,) [m]."""
+    joints: Array
+    """In even and in odd single supports (2, p, 3): largest rate [rad/s], lower and upper end of the range
+    [rad]."""
 
 
 LOOPS = (
@@ -70,7 +105,7 @@ LOOPS = (
 
 def loops() -> Any:
     """The compiled loops over nodes."""
-    return compiled(LOOPS, demands=7, totals=4)
+    return compiled(LOOPS, demands=9, totals=6)
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
@@ -84,12 +119,15 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     ground, and not near the ends of a single support, but at the end of one behind the first `impacts`.
     """
     slope, plant = walker.ground_slope, walker.plant
-    falls = [max(walker.drop(step), 0.0) for step in n.steps]
-    known = [window, plant.weight, math.tan(slope), ENDS, *np.ravel(ground_axes(slope))]
+    along, normal = np.array(ground_axes(slope))
+    falls = np.array([max(walker.drop(step), 0.0) for step in n.steps])
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
-    result, numbers = np.empty((11, len(n.rows))), np.array([*known, SAME_INSTANT, *falls, *joints])
-    rows, first, numbers_at, out = (x.ctypes.data for x in (n.rows, n.edges, numbers, result))
-    loops().demands(rows, n.p, first, len(falls), impacts, numbers_at, out)
+    known = Known(
+        window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
+    )
+    result, numbers = np.empty((11, len(n.rows))), flatten(known)
+    first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
+    loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
     return result[:9]
 
 
@@ -98,7 +136,7 @@ def totals(n: Nodes) -> list[float]:
     nothing; int |u_i| |dq_i| and int u_i dq_i [J], summed over motors.
     """
     out = np.zeros(6)
-    loops().totals(n.rows.ctypes.data, n.p, len(n.rows), out.ctypes.data)
+    loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
     out[2:4] = np.sqrt(out[2:4] / max(out[1] * n.p, 1.0))
     return [out[0], *out[2:]]
 
@@ -109,7 +147,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     Infinite where the ground would have had to pull, 0 for those behind the first `impacts`, which end in
     none. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
     """
-    result, P = np.zeros(len(n.steps)), n.rows[:, -4:-2]
+    result, P = np.zeros(len(n.steps)), n.at.reading.momentum
     plus = P[n.edges[1:-1]]
     if after is not None:
         plus = np.vstack((plus, after))

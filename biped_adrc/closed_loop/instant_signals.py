@@ -14,6 +14,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import estimated, instant, parts, unknown
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import disturbance_parts
@@ -103,7 +104,10 @@ def controller_inputs(
 
 
 class StepReading(NamedTuple):
-    """What judging a single support reads at one instant."""
+    """What verdicts and studies read of the closed loop at one instant.
+
+    Another signal is a line here, with its size in `node_layout`, and a line in `step_reading`.
+    """
 
     error: Array
     """q_b - q_d (p,) [rad]."""
@@ -117,6 +121,25 @@ class StepReading(NamedTuple):
     """m v_com (2,) [N s]."""
     swing_foot: Array
     """(x, z) from the stance foot (2,) [m]."""
+
+
+class NodeRow(NamedTuple):
+    """What a node of a walk leaves: a row of numbers, or K rows with a leading axis of K."""
+
+    t: Array
+    """Time [s]."""
+    step: Array
+    """Number of the single support."""
+    outside: Array
+    """Resultant external force (2,) [N]."""
+    reading: StepReading
+    """Of the closed loop."""
+
+
+def node_layout(p: int) -> Layout:
+    """The layout of a `NodeRow` of p joints."""
+    reading = StepReading(*(np.zeros(size) for size in (p, p, p, p, 2, 2)))
+    return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import accumulate
 from numbers import Real
 from typing import Any, NamedTuple, TypeVar
 
@@ -95,6 +96,13 @@ class Layout(NamedTuple):
             at += sum(x.size for x in part.parts[:i])
             part = part.parts[i]
         return slice(at, at + part.size)
+
+    def starts(self) -> list[int]:
+        """Where in the vector each array or number begins."""
+        if self.kind is None or self.kind is type(None):
+            return [0]
+        ends = accumulate((x.size for x in self.parts), initial=0)
+        return [at + start for at, x in zip(ends, self.parts, strict=False) for start in x.starts()]
 
     def names(self, name: str = "") -> Iterator[str]:
         """Iterate over what each number is called, such as line.u[0]."""

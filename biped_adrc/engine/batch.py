@@ -100,7 +100,7 @@ class BatchWalk(Shown):
     t_start: float = 0.0
     """Start of the walk [s]."""
     table: Array | None = None
-    """Of the compiled walk of a case with a curve, in rows: t, step, force from outside (2,), `StepReading`;
+    """Of the compiled walk of a case with a curve: rows (K, width), a `NodeRow` in each;
     one at each step of integration, after the sample instant there, and at the end of each single support."""
     trajectory: Trajectory | None = None
     """All nodes, of a case with a curve whose walk has no table."""

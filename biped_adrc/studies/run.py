@@ -149,7 +149,7 @@ def measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
-        n, k, after = Nodes(walked.table), limits(s).of(plant.description), None
+        n, k, after = Nodes(walked.table, plant.p), limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.closed_loop.instant_signals import node_layout
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PLACES, ROWS, TABLES, Ints
@@ -84,16 +85,17 @@ class CompiledRun:
     def keep(self, longest: float, arcs: int = 1, look: int = 0) -> None:
         """Keep nodes, with room for so many arcs, none of them longer than `longest` [s].
 
-        look: address of the function of a `StepReading`, 4 p + 4 numbers, which rows hold in place of states,
-        behind (t, step, force). An arc has stretches between sample instants, switching times and its ends; the
-        last step of each may be short, and a step longer than RESOLUTION has nodes inside. Memory is taken by
-        the rows that are written alone.
+        look: address of the function of a `StepReading`; rows are a `NodeRow` each then, in place of states. An
+        arc has stretches between sample instants, switching times and its ends; the last step of each may be
+        short, and a step longer than RESOLUTION has nodes inside. Memory is taken by the rows that are written
+        alone.
         """
         h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
         time = longest + T + h
         stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
         rows = 1 + (time / h + 2.0 * stretches) * math.ceil(h / RESOLUTION)
-        self["look"], self["width"] = look, 8 + 4 * self["p"] if look else 1 + 2 * self.nx
+        self["look"] = look
+        self["width"] = node_layout(int(self["p"])).size if look else 1 + 2 * self.nx
         self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
 
     def _keep_in(self, nodes: Array) -> None:
