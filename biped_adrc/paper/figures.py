@@ -19,7 +19,7 @@ from biped_adrc.core.files import write_bytes
 from biped_adrc.core.processes import Task, run_tasks
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import PRELOADED, Results
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
@@ -75,7 +75,7 @@ def draw_all(
     walks: the pushed ones, by controller.
     """
     named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
-    drawn = run_tasks(list(named.values()), workers)
+    drawn = run_tasks(list(named.values()), workers, PRELOADED)
     result = {}
     for name, picture in zip(named, drawn, strict=True):
         png, svg = picture.value

@@ -31,7 +31,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.poincare import regression_of
 from biped_adrc.paper.pushes import WORDS, PushCell, word_of
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import PRELOADED, Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.table import checks, findings, rows, tally, texts
@@ -60,7 +60,7 @@ def reproduce(
     started = time.perf_counter()
     probe(out)
     named = planned_tasks(plan)
-    done = run_tasks(list(named.values()), workers, progress)
+    done = run_tasks(list(named.values()), workers, PRELOADED, progress)
     r = Results.of(plan, {name: one.value for name, one in zip(named, done, strict=True)})
     summary = judgement(r)
     seconds = {name: one.seconds for name, one in zip(named, done, strict=True)}

@@ -35,6 +35,8 @@ from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.KINDS), "torso")
 """Walks that are held against one another under both controllers: pushed, sampled, heavier than the model."""
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
+"""Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
 

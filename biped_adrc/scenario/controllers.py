@@ -22,14 +22,14 @@ import numpy as np
 from biped_adrc.control.around import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.errors import unknown
+from biped_adrc.core.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.records import Misfit, named_part
-from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
 Values = dict[str, Any]

@@ -34,11 +34,11 @@ from pydantic import (
     model_validator,
 )
 
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, unknown
 from biped_adrc.core.files import plain as as_json
+from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
 from biped_adrc.core.shown import call_text
-from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
-from biped_adrc.scenario.registry import construct, find, known_name, portable, takes, unit_in
+from biped_adrc.scenario.dotted import NAME, flat, merged, nested
 from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")

@@ -43,6 +43,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import takes
 from biped_adrc.core.types import Array
 from biped_adrc.core.versions import versions
 from biped_adrc.disturbances.base import Disturbance
@@ -50,7 +51,6 @@ from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.registry import takes
 from biped_adrc.scenario.scenario import Scenario
 
 

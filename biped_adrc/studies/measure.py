@@ -19,10 +19,9 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from biped_adrc.analysis.loops.specification import Specification
-from biped_adrc.core.errors import BipedError
+from biped_adrc.core.errors import BipedError, unknown
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.cycle import specification_of
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.scenario import GroundRecord
 from biped_adrc.studies.build import Values, scenario_of, scene_of
 from biped_adrc.studies.run import COLUMNS, WORDS

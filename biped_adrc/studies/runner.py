@@ -19,9 +19,9 @@ from typing import Any, NamedTuple
 
 from biped_adrc.core.errors import InputError, SimulationError, optional
 from biped_adrc.core.processes import cores, processes, stop
+from biped_adrc.core.registry import FOLDERS
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
-from biped_adrc.scenario.registry import FOLDERS
 from biped_adrc.studies.build import CRASHED
 from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of

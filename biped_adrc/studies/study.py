@@ -28,11 +28,10 @@ from typing import Any, NamedTuple
 
 from pydantic import Field, ValidationError, model_validator
 
-from biped_adrc.core.errors import BipedError, InputError, ReachError
+from biped_adrc.core.errors import BipedError, InputError, ReachError, unknown
 from biped_adrc.core.files import beside, reading
+from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
-from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.registry import FOLDERS, is_own, top_of
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 from biped_adrc.studies.build import SEED, Record, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
