@@ -13,13 +13,10 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
-import ast
 import operator
-import sys
 from collections.abc import Collection, Mapping
+from dataclasses import asdict
 from functools import lru_cache
-from inspect import getsource
-from itertools import pairwise
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
@@ -62,8 +59,7 @@ def field(default: Any, unit: str = "", kind: str = "", **limits: Any) -> Any:
 
     The docstring below the field is its help text.
     """
-    extra: Any = {"unit": unit, "kind": kind, "limits": tuple(limits.items())}
-    return Field(default, json_schema_extra=extra)
+    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
 
 
 class Misfit(InputError):
@@ -155,7 +151,13 @@ class Described(NamedTuple):
 class Record(BaseModel):
     """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        defer_build=True,
+        use_attribute_docstrings=True,
+    )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
     APART: ClassVar[tuple[tuple[str, str], ...]] = ()
@@ -234,10 +236,8 @@ class Record(BaseModel):
                 raise Misfit(name, unknown(name, cls.names()))
             inner = record_in(at, part)
             if inner is None:
-                text = texts(at)[part]
-                if inside:  # of a table
-                    return Described(name, (float,), text=text)
-                return described(at, part, name)._replace(text=text)
+                what = described(at, part, name)
+                return Described(name, (float,), text=what.text) if inside else what  # of a table
             at = inner
         if at.SHORT in at.model_fields:
             return at.field_of(at.SHORT)._replace(name=name)
@@ -362,7 +362,7 @@ def by_default(cls: type[Record]) -> Record:
 
 @lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
-    """One field of a record, but for its text."""
+    """One field of a record."""
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
@@ -370,25 +370,9 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     if record_in(cls, name):
         types = (object, *types)
     more: Any = info.json_schema_extra
-    default = info.get_default(call_default_factory=True)
-    return Described(place or name, types, default=default, choices=choices, **more)
-
-
-@lru_cache
-def texts(cls: type[Record]) -> Mapping[str, str]:
-    """The docstrings below the fields of a record, by name; pydantic would read all at every import."""
-    return {
-        ast.unparse(field.target): ast.literal_eval(below.value)
-        for field, below in pairwise(_bodies(cls.__module__)[cls.__name__])
-        if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr)
-    }
-
-
-@lru_cache
-def _bodies(module: str) -> Mapping[str, list[ast.stmt]]:
-    """What stands in the classes of a module, by their names."""
-    tree = ast.parse(getsource(sys.modules[module]))
-    return {x.name: x.body for x in tree.body if isinstance(x, ast.ClassDef)}
+    limits = tuple(pair for x in info.metadata for pair in asdict(x).items())
+    default, text = info.get_default(call_default_factory=True), info.description or ""
+    return Described(place or name, types, limits, default, text, choices, **more)
 
 
 def _members(hint: Any) -> tuple[Any, ...]:
