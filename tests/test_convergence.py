@@ -20,14 +20,8 @@ from biped_adrc.paper.two_steps import (
     largest_gap,
     order_of_error,
 )
-from biped_adrc.scenario.walk import (
-    FINE_STEP,
-    Part,
-    execute_twice,
-    in_parts,
-    refined,
-    walk_scenario,
-)
+from biped_adrc.scenario.integration import FINE_STEP, Part, in_parts, refined
+from biped_adrc.scenario.walk import execute_twice, walk_scenario
 
 from .made_up_results import outcome
 

@@ -72,7 +72,8 @@ def _walk(
     A walk with motors is carried out again at half the step, and from a start aside; only the first one is
     stored, before the others begin.
     """
-    from biped_adrc.scenario.walk import ASIDE, DECIDES, halved
+    from biped_adrc.scenario.integration import ASIDE, DECIDES
+    from biped_adrc.scenario.walk import halved
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with console.bar(name) as shown:

@@ -40,9 +40,10 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.integration import Part, methods_of, runs_in_parts
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import Part, execute_twice, methods_of, runs_in_parts
+from biped_adrc.scenario.walk import execute_twice
 
 
 class Track(NamedTuple):

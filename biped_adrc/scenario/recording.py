@@ -20,6 +20,7 @@ reproduction of the paper read it.
 
 from __future__ import annotations
 
+import json
 import tempfile
 import webbrowser
 from collections.abc import Mapping
@@ -29,6 +30,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
@@ -41,19 +43,21 @@ from biped_adrc.core.errors import InputError, optional
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.versions import versions
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
+from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import remarks
+from biped_adrc.scenario.integration import Part, rounding
+from biped_adrc.scenario.plain_parts import Writer
+from biped_adrc.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
-
-    from biped_adrc.scenario.scenario import Scenario
-    from biped_adrc.scenario.walk import Part
 
 OF_JOINTS = {
     "q": "q{} [rad]",
@@ -287,9 +291,7 @@ class Walk(Shown):
         """How far [rad, s] a walk from 1e-12 aside ends: above 1e-7 rounding decides. Raises InputError without
         `parts`.
         """
-        from biped_adrc.scenario.walk import rounding
-
-        return rounding(self)
+        return rounding(self.walker, self.trajectory, self.parts)
 
     @property
     def controller_name(self) -> str:
@@ -333,9 +335,15 @@ class Walk(Shown):
 
         settings: more plain values beside them. Raises InputError and OutputError.
         """
-        from biped_adrc.scenario.stored import save_walk
-
-        return save_walk(self, path, settings)
+        writer = Writer()
+        walker, gait = writer.part(self.walker), writer.plain(self.gait)
+        record = {"parts": writer.records, "walker": walker, "gait": gait}
+        about: dict[str, object] = {"versions": versions(), "remarks": list(self.remarks)}
+        if self.scenario is not None:
+            about["scenario"] = self.scenario.record()
+        arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}
+        arrays |= {f"signal.{k}": x for k, x in vars(self.signals).items()}
+        return storage.save(self.trajectory, path, {**about, **(settings or {})}, arrays)
 
     def _columns(self) -> dict[str, Any]:
         """Columns (K,) by name with unit: floats, `step` of int, `event` of text, empty elsewhere."""

@@ -29,8 +29,8 @@ from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
+from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
-from biped_adrc.scenario.walk import methods_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""

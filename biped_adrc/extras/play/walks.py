@@ -38,8 +38,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.urdf import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
+from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
-from biped_adrc.scenario.walk import methods_of
 from biped_adrc.studies.build import scene_of
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values

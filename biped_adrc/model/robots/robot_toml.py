@@ -34,11 +34,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError, check_positive
 from biped_adrc.core.files import beside, data_folder, reading
 from biped_adrc.core.shown import Shown
-from biped_adrc.model.robots.urdf import Inertial, Tree
+from biped_adrc.model.robots.urdf import Inertial, Tree, Vector, text_of
 from biped_adrc.model.robots.urdf_reader import read
 
 Rotors = float | tuple[float, ...]
@@ -57,6 +59,8 @@ class BodyParameters:
     """Moment of inertia about the COM and the axis y [kg m^2]."""
 
 
+ALONG = 1e-6
+"""How far an axis may be from y, x or z [1]."""
 GRAVITY = 9.81
 """Gravity [m/s^2] of a record that gives no other value."""
 
@@ -244,6 +248,29 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             },
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
         )
+
+
+def check_planar(tree: Tree, d: RobotDescription) -> None:
+    """Check that joints turn about y and that the base slides along x and z.
+
+    Raises ModelError that names the joint, its axis and the expected one.
+    """
+    x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    axes: dict[str, Vector] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
+    joints = {joint.name: joint for joint in tree.joints}
+    for name, axis in axes.items():
+        kind = "revolute" if axis == y else "prismatic"
+        joint = joints.get(name)
+        along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
+        off = 1.0 - (abs(along) if kind == "revolute" else along)
+        if joint is None or joint.type != kind or not abs(off) <= ALONG:
+            text = f"missing in {list(joints)}"
+            if joint is not None:
+                text = f"{joint.type} along {text_of(joint.axis)}"
+            raise ModelError(
+                f"'{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
+                f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
+            )
 
 
 def _name(key: str, value: object) -> str:
