@@ -73,6 +73,20 @@ def test_numbers_are_no_structure(make):
     assert len({structure(x) for x in (1, True, "1", None, 1.0)}) == 5
 
 
+Gain = float
+
+
+@dataclass(frozen=True)
+class Slope:
+    by_alias: Gain
+    in_text: "Gain"
+    count: int
+
+
+def test_a_type_of_another_name_is_the_type():
+    assert structure(Slope(2, 3, 4)) == structure(Slope(5, 6, 4)) != structure(Slope(2, 3, 5))
+
+
 def test_the_same_structure_is_compiled_once():
     made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
