@@ -19,10 +19,9 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 import typer
 from pydantic import TypeAdapter, ValidationError
 
-from biped_adrc.core.errors import InputError, unknown
+from biped_adrc.core.errors import InputError, complaint, unknown
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
-from biped_adrc.scenario.records import complaint
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")

@@ -11,10 +11,11 @@ the sentence, which names the value and says what was found; the function adds w
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from difflib import get_close_matches
 from numbers import Integral
+from typing import Any
 
 
 class BipedError(Exception):
@@ -158,3 +159,29 @@ def unknown(name: str, known: Iterable[str]) -> str:
     if len(known) > MANY:
         known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
     return f"unknown name; choose from {known}" if known else "unknown name; leave it out"
+
+
+def complaint(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's as what was found and what was expected."""
+    text: str = error["msg"].removeprefix("Value error, ").replace("tuple", "list")
+    if text.startswith("Input should"):
+        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return text
+
+
+LABELS = ("float", "constrained-float", "int", "bool", "str")
+"""What pydantic names the members of a union in the place of an error."""
+
+
+def place_of(error: Mapping[str, Any]) -> str:
+    """The dotted name of the value that an error of pydantic's is about."""
+    parts = map(str, error["loc"])
+    return ".".join(part for part in parts if part not in LABELS and "[" not in part)
+
+
+def problem(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's in words: its place, what was found and what was expected."""
+    place = place_of(error)
+    if error["type"] == "missing":
+        return f"the key '{place}' is missing"
+    return ": ".join(filter(None, (place, complaint(error))))

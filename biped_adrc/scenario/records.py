@@ -31,7 +31,7 @@ from pydantic import (
     model_validator,
 )
 
-from biped_adrc.core.errors import InputError, unknown
+from biped_adrc.core.errors import InputError, complaint, place_of, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
 from biped_adrc.core.shown import call_text
@@ -391,8 +391,7 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
     result = error.errors()[0]
-    parts = map(str, result["loc"])
-    place = ".".join(part for part in parts if part not in _LABELS and "[" not in part)
+    place = place_of(result)
     inner = result.get("ctx", {}).get("error")
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)
@@ -401,15 +400,3 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, cls.names()), known=False)
     return Misfit(place, complaint(result))
-
-
-def complaint(error: Mapping[str, Any]) -> str:
-    """One error of pydantic's as what was found and what was expected."""
-    text: str = error["msg"].removeprefix("Value error, ")
-    if text.startswith("Input should"):
-        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
-    return text
-
-
-_LABELS = ("float", "int", "bool", "str")
-"""What pydantic names the members of a union in the place of an error."""

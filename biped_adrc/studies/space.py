@@ -12,8 +12,9 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from biped_adrc.core.errors import problem
 from biped_adrc.scenario.dotted import flat
-from biped_adrc.scenario.records import Misfit, complaint
+from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
 MOST = 1_000_000
@@ -26,11 +27,6 @@ class Part(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True
     )
-
-
-def problem(error: Any) -> str:
-    """One error of pydantic's in words: its place, what was found and what was expected."""
-    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), complaint(error)])
 
 
 def table(value: object) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from typing import Any, NamedTuple
 
 from pydantic import Field, ValidationError, model_validator
 
-from biped_adrc.core.errors import BipedError, InputError, ReachError, unknown
+from biped_adrc.core.errors import BipedError, InputError, ReachError, problem, unknown
 from biped_adrc.core.files import beside, reading
 from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
@@ -36,7 +36,7 @@ from biped_adrc.scenario.scenario import Scenario, read_scenario
 from biped_adrc.studies.build import SEED, Record, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
 from biped_adrc.studies.search import Search, Variable, WalkSets
-from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
+from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values
 
 Undrawn = frozenset[tuple[str, str]]
 """Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
