@@ -28,7 +28,7 @@ from biped_adrc.core.processes import TaskProgress, run_tasks
 from biped_adrc.core.versions import versions
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.figures import draw_all, push_window
+from biped_adrc.paper.figures import draw_all
 from biped_adrc.paper.poincare import regression_of
 from biped_adrc.paper.pushes import WORDS, PushCell, word_of
 from biped_adrc.paper.runs import PRELOADED, Results
@@ -39,6 +39,7 @@ from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.pages import report_html
+from biped_adrc.view.plots.figures import push_window
 
 WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 """Kinds of the files that a reproduction writes."""

@@ -35,8 +35,9 @@ from numpy.typing import ArrayLike
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.analysis.signals import PLACE, Signals, integrate, recorded, signals
+from biped_adrc.analysis.signals import PLACE, Signals, recorded, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
+from biped_adrc.analysis.statistics import rms
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.errors import InputError, optional
@@ -247,9 +248,6 @@ class Walk(Shown):
             )
         run, s = self.trajectory, self.signals.before_fall
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
-        squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
-        duration = s.t[-1] - s.t[0]
-        mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
         return Outcome(
             self.scenario,
             run.status.name,
@@ -257,7 +255,7 @@ class Walk(Shown):
             run.before(FOOT_STRIKE),
             np.diff(times),
             s.peak_error,
-            float(np.sqrt(max(mean, 0.0))),
+            rms(s.t, s.error),
             self.peak_torque,
             self.certificates,
             self.feasibility,
@@ -307,11 +305,9 @@ class Walk(Shown):
 
         Of a robot without motors: angles, energies and the phase portrait.
         """
-        from biped_adrc.view.plots.figures import passive_figure, tracking_figure
+        from biped_adrc.view.plots.figures import walk_figure
 
-        if self.walker.plant.p == 0:
-            return passive_figure(self.signals, title, push)
-        return tracking_figure(self.signals, title, push, self.walker.torque_limit)
+        return walk_figure(self, title, push)
 
     def animate(self, path: Path | str, view: str = "side") -> None:
         """Write the walk by the suffix of `path`: an offline page (.html), a picture (.gif) or a strip (.png).

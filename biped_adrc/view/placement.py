@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -230,6 +230,14 @@ class Recorded(Protocol):
     def trajectory(self) -> Trajectory: ...
     @property
     def recorded(self) -> Signals | None: ...
+
+
+@runtime_checkable
+class Tracked(Recorded, Protocol):
+    """A walk with its signals at hand, the tracking error among them."""
+
+    @property
+    def signals(self) -> Signals: ...
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,8 @@ from biped_adrc.core.files import write_bytes
 from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
-from biped_adrc.view.from_the_side.side_view import SideView, Tracked
-from biped_adrc.view.placement import Clip, Recorded, WalkScene, check_frames, ending
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.placement import Clip, Recorded, Tracked, WalkScene, check_frames, ending
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, label, literal, new_figure, style, write_figure
 
