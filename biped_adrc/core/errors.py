@@ -173,7 +173,7 @@ LABELS = ("float", "constrained-float", "int", "bool", "str")
 """What pydantic names the members of a union in the place of an error."""
 
 
-def place_of(error: Mapping[str, Any]) -> str:
+def dotted_place(error: Mapping[str, Any]) -> str:
     """The dotted name of the value that an error of pydantic's is about."""
     parts = map(str, error["loc"])
     return ".".join(part for part in parts if part not in LABELS and "[" not in part)
@@ -181,7 +181,7 @@ def place_of(error: Mapping[str, Any]) -> str:
 
 def problem(error: Mapping[str, Any]) -> str:
     """One error of pydantic's in words: its place, what was found and what was expected."""
-    place = place_of(error)
+    place = dotted_place(error)
     if error["type"] == "missing":
         return f"the key '{place}' is missing"
     return ": ".join(filter(None, (place, complaint(error))))

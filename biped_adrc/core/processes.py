@@ -78,7 +78,7 @@ def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(count or cores(), context, initializer=_begin)
 
 
-def stop(executor: Executor) -> None:
+def end_all(executor: Executor) -> None:
     """End an executor at once, including processes in the middle of their work."""
     for process in list((getattr(executor, "_processes", None) or {}).values()):
         process.terminate()
@@ -112,7 +112,7 @@ def run_tasks(
             report(done, len(tasks), futures[future])
         return [future.result() for future in futures]
     finally:
-        stop(executor)
+        end_all(executor)
 
 
 def _timed(task: Task[T]) -> Timed[T]:

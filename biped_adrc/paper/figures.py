@@ -15,7 +15,7 @@ from biped_adrc.core.files import write_bytes
 from biped_adrc.core.processes import Task, run_tasks
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.runs import PRELOADED, Results
+from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
@@ -26,7 +26,7 @@ from biped_adrc.view.style import render
 
 
 def draw_all(
-    r: Results, walks: Mapping[str, Walk], out: Path, workers: int | None = None
+    r: Runs, walks: Mapping[str, Walk], out: Path, workers: int | None = None
 ) -> dict[str, bytes]:
     """Write every figure to `out` as .png and .svg; returns the SVG by name, for the report.
 
@@ -43,7 +43,7 @@ def draw_all(
     return result
 
 
-def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
+def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it

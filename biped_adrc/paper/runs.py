@@ -2,7 +2,7 @@
 
 The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
 are kept that a figure of merit needs. Tasks have names such as "multipliers/ADRC" or
-"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Results`.
+"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Runs`.
 """
 
 from __future__ import annotations
@@ -253,7 +253,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
 
 @dataclass(frozen=True)
-class Results:
+class Runs:
     """By kind of task, the results by name."""
 
     plan: Plan
@@ -290,7 +290,7 @@ class Results:
     """By "map": Theta' before an impact and before the next one [rad/s], both (K,)."""
 
     @classmethod
-    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Results:
+    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Runs:
         """Sort what the tasks of a plan returned, by their names."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():

@@ -1,8 +1,8 @@
 """Which method integrates a walk, with which step, and the run of its parts one after the other.
 
 ADRC's observer answers the edge of a push by a transient of 1 to 2 ms, far shorter than the step that suffices
-elsewhere. A walk is therefore cut at impacts into parts (`Part`), with a fine step in the single supports in
-which the disturbance switches and a usual one in the others; the trajectories are joined.
+elsewhere. A walk is therefore cut at impacts into parts (`WalkPart`), with a fine step in the single supports
+in which the disturbance switches and a usual one in the others; the trajectories are joined.
 
     refined(walker, 8, 1, RK4(), 5e-5)               # parts: usual, fine where the push switches, usual
 """
@@ -31,7 +31,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.scenario import FREE, RunRecord
 
 
-class Part(NamedTuple):
+class WalkPart(NamedTuple):
     """Consecutive single supports of a walk that are integrated by one method."""
 
     impacts: int
@@ -132,27 +132,27 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
 
 def refined(
     walker: Walker, impacts: int, first_step: int, usual: OneStepMethod, fine: float | None
-) -> tuple[Part, ...]:
+) -> tuple[WalkPart, ...]:
     """Parts with steps of `fine` [s] in the single supports in which the disturbance switches and those after.
 
     Where it switches at times of the walk rather than of a single support, all of the walk is fine, since it is
     not known beforehand in which single support that will be.
     """
     if fine is None:
-        return (Part(impacts, usual),)
+        return (WalkPart(impacts, usual),)
     steps = range(first_step, first_step + impacts)
     times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
     late, short = walker.max_step_time, replace(usual, h=fine)  # type: ignore[type-var]
     switched = {k for k in steps if any(map(math.isfinite, times(k, k * late)))}
     methods = (short if {k, k - 1} & switched else usual for k in steps)
-    return tuple(Part(len(list(group)), method) for method, group in groupby(methods))
+    return tuple(WalkPart(len(list(group)), method) for method, group in groupby(methods))
 
 
 def in_parts(
     walker: Walker,
     start: tuple[Array, Array],
     mode: Mode,
-    parts: Sequence[Part],
+    parts: Sequence[WalkPart],
     engine: str,
     progress: Progress | None = None,
 ) -> Trajectory:
@@ -177,7 +177,7 @@ def runs_in_parts(
     walker: Walker,
     x: Array,
     mode: Mode,
-    parts: Sequence[Part],
+    parts: Sequence[WalkPart],
     progress: Progress | None = None,
     engine: str = COMPILED,
 ) -> Iterator[Trajectory]:
@@ -231,7 +231,7 @@ def _joined(runs: Sequence[Trajectory]) -> Trajectory:
     return replace(last, arcs=arcs, settings={**last.settings, "method": "; ".join(labels)})
 
 
-def rounding(walker: Walker, run: Trajectory, parts: Sequence[Part]) -> float:
+def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> float:
     """How far apart a run in these parts and one from a start ASIDE are, at impacts and the end.
 
     max |dq| [rad], |dt| [s]; infinite where one makes more impacts. Where a comparison decides, as in an

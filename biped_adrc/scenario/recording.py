@@ -52,7 +52,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import remarks
-from biped_adrc.scenario.integration import Part, rounding
+from biped_adrc.scenario.integration import WalkPart, rounding
 from biped_adrc.scenario.plain_parts import Writer
 from biped_adrc.scenario.scenario import Scenario
 
@@ -136,7 +136,7 @@ class Walk(Shown):
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[WalkPart, ...] = ()
     """How it was integrated, on the rigid plant; empty for a walk from a file, and for one that is cut."""
 
     def __repr__(self) -> str:

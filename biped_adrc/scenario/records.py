@@ -31,7 +31,7 @@ from pydantic import (
     model_validator,
 )
 
-from biped_adrc.core.errors import InputError, complaint, place_of, unknown
+from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
 from biped_adrc.core.shown import call_text
@@ -121,7 +121,7 @@ class Described(NamedTuple):
 
     def read(self, x: Any) -> Any:
         """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
-        x = converted(self, plain(x))
+        x = converted(self, as_python(x))
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
@@ -320,7 +320,7 @@ class OpenRecord(Record):
     model_config = ConfigDict(extra="allow")
 
 
-def plain(x: Any) -> Any:
+def as_python(x: Any) -> Any:
     """A value without NumPy's types, and lists of numbers and texts as tuples."""
     if isinstance(x, np.generic | np.ndarray):
         x = x.tolist()
@@ -391,7 +391,7 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
     result = error.errors()[0]
-    place = place_of(result)
+    place = dotted_place(result)
     inner = result.get("ctx", {}).get("error")
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)

@@ -123,7 +123,7 @@ def _walker(reader: Reader, record: PartRecord) -> Walker:
     return Walker(**values)
 
 
-def replay(s: Scenario, trajectory: Trajectory) -> Walk:
+def rebuilt_walk(s: Scenario, trajectory: Trajectory) -> Walk:
     """The walk of a trajectory that another process simulated: its walker is built again from the scenario."""
     scene = RobotAndGait.of(s)
     return Walk(build(s, scene), scene.gait, trajectory, s)

@@ -33,7 +33,7 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_around, soft_loop
 from biped_adrc.scenario.integration import (
-    Part,
+    WalkPart,
     check_start,
     in_parts,
     methods_of,
@@ -105,7 +105,7 @@ def walk(
                 "load_gait(name, biped) or design_gait(biped, speed)"
             )
         start = gait.start(walker.nominal)
-    parts = tuple[Part, ...]()
+    parts = tuple[WalkPart, ...]()
     if walker.slope is None:
         walker = replace(walker, slope=getattr(plant, "slope", gait.slope))
     if plant is not None:
@@ -146,7 +146,7 @@ def walk_scenario(
     walker = build(s, scene)
     if controller is not None:
         walker = replace(walker, controller=controller)
-    begin, parts = scene.start(s), tuple[Part, ...]()
+    begin, parts = scene.start(s), tuple[WalkPart, ...]()
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:

@@ -95,7 +95,7 @@ class PageWalk:
             raise InputError(f"the walk '{name}' has a push of its own; leave it out")
         x = walker.initial_state(*scene.start(s), Mode(s.run.first_step))
         try:
-            code = compiled(s, scene, with_hand(walker), x)
+            code = walk_code(s, scene, with_hand(walker), x)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
@@ -134,7 +134,7 @@ class PageWalk:
         Raises InputError for a scenario with another structure.
         """
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
-        code = compiled(s, self.scene, walker, self.x)
+        code = walk_code(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
             raise InputError("another structure")
         return self._block(code)
@@ -187,7 +187,7 @@ class PageWalk:
         return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
 
 
-def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
+def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
     """Compile a walker with a hand. Raises NotCompiled."""
     size, method = walker.controller_size(x), methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
-from biped_adrc.view.placement import Tracked
+from biped_adrc.view.placement import Drawable
 from biped_adrc.view.plots import over_time, stability
 from biped_adrc.view.plots.over_time import Window
 from biped_adrc.view.style import DASHES, GREY, PALETTE, label, literal, new_figure
@@ -35,7 +35,7 @@ EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
 EDGES = ("push begins", "push ends")
 """Titles of the columns of the two edges."""
 
-Draw = Callable[[Axes], object]
+Panel = Callable[[Axes], object]
 """A function that draws one panel on the axes it is given."""
 
 
@@ -52,7 +52,7 @@ def tracking_figure(
     p = signals.q_d.shape[1]
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
     angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
-    below: list[Draw] = [
+    below: list[Panel] = [
         partial(over_time.torques, s=signals, limit=torque_limit, push=push),
         partial(over_time.tracking_errors, s=signals, push=push),
     ]
@@ -87,7 +87,9 @@ def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
     return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
-def _column(figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Draw]) -> list[Axes]:
+def _column(
+    figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Panel]
+) -> list[Axes]:
     """Draw panels one above the other that share one time axis, labelled below the lowest; returns
     their axes.
     """
@@ -105,7 +107,7 @@ def _around_and_edges(
     figure: FigureBase,
     spec: Any,
     rows: Sequence[int],
-    draws: Sequence[Draw],
+    draws: Sequence[Panel],
     s: Signals,
     push: Window | None,
 ) -> list[list[Axes]]:
@@ -320,14 +322,14 @@ NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 """Figures that can be asked for."""
 
 
-def walk_figure(walk: Tracked, title: str = "", push: Window | None = None) -> Figure:
+def walk_figure(walk: Drawable, title: str = "", push: Window | None = None) -> Figure:
     """Draw a walk as `tracking_figure` does, and one of a robot without motors as `passive_figure`."""
     if walk.walker.plant.p == 0:
         return passive_figure(walk.signals, title, push)
     return tracking_figure(walk.signals, title, push, walk.walker.torque_limit)
 
 
-def draw(name: str, walks: Mapping[str, Tracked]) -> Figure:
+def draw(name: str, walks: Mapping[str, Drawable]) -> Figure:
     """One figure: of the first walk, or of all walks for "phase" and "comparison".
 
     Raises InputError for an unknown name, or a robot without motors where the figure shows motors.

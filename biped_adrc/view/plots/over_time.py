@@ -25,7 +25,7 @@ Window = tuple[float, float]
 """Start and stop of a push [s]."""
 
 
-class Rows(Protocol):
+class OverTime(Protocol):
     """What lines over time need of signals: t (K,) [s], and the number of the single support (K,)."""
 
     @property
@@ -34,7 +34,7 @@ class Rows(Protocol):
     def step(self) -> Array: ...
 
 
-def broken(s: Rows, y: Array) -> Array:
+def broken(s: OverTime, y: Array) -> Array:
     """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
 
     matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
@@ -42,12 +42,12 @@ def broken(s: Rows, y: Array) -> Array:
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
 
-def line(axes: Axes, s: Rows, y: Array, i: int, name: str) -> None:
+def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
     """Draw y (K,) over time [s] in the i-th colour and dash."""
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
-def curves(axes: Axes, s: Rows, values: Array, symbol: str) -> None:
+def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
     """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ..."""
     for i, column in enumerate(values.T):
         line(axes, s, column, i, f"${symbol}_{i + 1}$")
@@ -182,13 +182,13 @@ def _pair(
     t = broken(s, s.t)
     axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
-        without_observer(axes)
+        say_no_observer(axes)
         return
     y, dash = broken(s, estimate), (0, (4, 2))
     axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
 
 
-def without_observer(axes: Axes) -> None:
+def say_no_observer(axes: Axes) -> None:
     """Write on the axes, in place of a curve, that the controller has no observer."""
     axes.text(0.5, 0.9, "no observer: nothing is estimated", ha="center", transform=axes.transAxes)
 
