@@ -83,7 +83,7 @@ def _replaced() -> bool:
             own = isinstance(x, type) and x.__module__ == name
             for member in vars(x).values() if own else (x,):
                 home = member.__globals__ if type(member) is types.FunctionType else vars(module)
-                if home is not vars(module) and changes(home["__name__"], home.get("__file__")):
+                if home is not vars(module) and is_users(home.get("__file__") or ""):
                     return True
     return False
 
@@ -92,10 +92,3 @@ def is_library(module: types.ModuleType) -> bool:
     """Whether a module is neither the user's nor of this package, which may be installed among libraries."""
     file = getattr(module, "__file__", None)
     return file is None or (file.startswith(LIBRARIES) and not file.startswith(PACKAGE))
-
-
-def changes(module: str | None, file: str | None) -> bool:
-    """Whether a module is one of the user's, and no library's or this package's."""
-    if module is None or module.partition(".")[0] == "biped_adrc":
-        return False
-    return file is None or is_users(file)

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
 from biped_adrc.core.types import frozen
-from biped_adrc.engine.structure import changes, is_library
+from biped_adrc.engine.structure import is_library
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
     HIDDEN,
@@ -148,7 +148,7 @@ class Tracer:
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
-            if changes(f.__module__, f.__globals__.get("__file__")) and catches(f.__code__):
+            if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
             for name in names_of(f.__code__):
