@@ -77,10 +77,10 @@ REGISTRY: dict[str, dict[str, Entry]] = {
 
 def names(kind: str) -> tuple[str, ...]:
     """All names of one kind, packaged ones first."""
-    return tuple(dict.fromkeys((*_stored(kind), *REGISTRY[kind])))
+    return tuple(dict.fromkeys((*stored(kind), *REGISTRY[kind])))
 
 
-def _stored(kind: str) -> Iterable[str]:
+def stored(kind: str) -> Iterable[str]:
     """Names that are no lines of registry.toml: folders of robots, files of gaits."""
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))

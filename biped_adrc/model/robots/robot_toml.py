@@ -39,6 +39,7 @@ from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import ModelError, problem
 from biped_adrc.core.files import beside, data_folder, reading
+from biped_adrc.core.registry import stored
 from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree, Vector, text_of
 from biped_adrc.model.robots.urdf_reader import read
@@ -204,7 +205,7 @@ _READER = TypeAdapter(RobotDescription)
 
 def robot_names() -> tuple[str, ...]:
     """Names of the robots that come with the package."""
-    return tuple(sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml")))
+    return tuple(stored("robot"))
 
 
 def load_description(robot: str | Path) -> RobotDescription:
