@@ -25,6 +25,7 @@ from biped_adrc.core.errors import BipedError as BipedError
 from biped_adrc.core.errors import WalkWarning as WalkWarning
 from biped_adrc.core.linear import solve as solve
 from biped_adrc.core.part import derived as derived
+from biped_adrc.core.registry import register as register
 from biped_adrc.core.timing import ContinuousTime as ContinuousTime
 from biped_adrc.core.timing import SampledTime as SampledTime
 from biped_adrc.disturbances.base import Disturbance as Disturbance
@@ -74,7 +75,6 @@ from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
-from biped_adrc.scenario.registry import register as register
 from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk

@@ -11,7 +11,7 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.pushes import MemberOutcome, MemberWalk, PushCell
-from biped_adrc.paper.runs import Order, Results, Start
+from biped_adrc.paper.runs import Order, Runs, Start
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
     MapPush,
@@ -143,4 +143,4 @@ def results(**odd):
             "": dict(zip("abcdefgh", (2e-5, 2e-5, 2e-5, 1e-5, 1.0, 4.0, 3.0, 1e-6), strict=True))
         },
     }
-    return Results(PLAN, **{kind: {**found, **odd.get(kind, {})} for kind, found in made.items()})
+    return Runs(PLAN, **{kind: {**found, **odd.get(kind, {})} for kind, found in made.items()})

@@ -15,12 +15,13 @@ from biped_adrc.paper.scenarios import (
     CONTROLLERS,
     GAITS,
     Member,
+    by_rk4,
     declared,
     members,
-    plain,
 )
 from biped_adrc.paper.table import (
-    Case,
+    Probe,
+    all_texts,
     checks,
     claim_checks,
     findings,
@@ -29,8 +30,7 @@ from biped_adrc.paper.table import (
     rows,
     share_text,
     tally,
-    texts,
-    word_of,
+    word_of_claim,
 )
 from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps
 from biped_adrc.paper.values import noise_spectrum
@@ -40,7 +40,7 @@ from .made_up_results import cell, cycle, figure, member, outcome, results, walk
 
 
 def judge(name, **odd):
-    return row_of(texts()[name], results(**odd))
+    return row_of(all_texts()[name], results(**odd))
 
 
 def with_member(odd):
@@ -83,7 +83,7 @@ def test_a_member_carried_out_is_what_it_says():
 @pytest.mark.parametrize("zero", [True, False])
 def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero):
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", pushed=False)
-    (made,) = member_runs.pieces(run, zero, 4.0)
+    (made,) = member_runs.in_two(run, zero, 4.0)
     q, v, s = made.walker.split_state(made.trajectory.arcs[0].x[0])
     found = made.walker.controller.observer.estimate(s)
     assert np.array_equal(found.position, q[:4])
@@ -137,20 +137,20 @@ def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
     ],
 )
 def test_a_number_is_judged_at_both_steps(value, half, holds, marginal):
-    case = Case.of("a", AtTwoSteps(value, half), limit("<= 0.01"), ROUND_OFF, "a")
+    case = Probe.of("a", AtTwoSteps(value, half), limit("<= 0.01"), ROUND_OFF, "a")
     assert (case.holds, case.marginal) == (holds, marginal)
 
 
 def test_words_count_what_is_firm_and_the_share_has_no_interval():
     good, bad, doubtful = (
-        Case(name, figure(1.0), holds, marginal, name)
+        Probe(name, figure(1.0), holds, marginal, name)
         for name, holds, marginal in (("g", True, False), ("b", False, False), ("m", True, True))
     )
-    assert word_of((good,) * 4) == "replicated"
-    assert word_of((good, bad)) == "depends"
-    assert word_of((bad, bad)) == "contradicted"
-    assert word_of((good, good, doubtful)) == "depends"
-    assert word_of((doubtful,)) == word_of(()) == "not testable"
+    assert word_of_claim((good,) * 4) == "replicated"
+    assert word_of_claim((good, bad)) == "depends"
+    assert word_of_claim((bad, bad)) == "contradicted"
+    assert word_of_claim((good, good, doubtful)) == "depends"
+    assert word_of_claim((doubtful,)) == word_of_claim(()) == "not testable"
     assert share_text((good, good, bad), apart=True) == "2 of 3: g 2 of 2; b 0 of 1"
     assert share_text((good, doubtful), apart=False) == "1 of 2; marginal: m"
 
@@ -233,7 +233,7 @@ def test_an_intention_without_a_measure_has_no_verdict_and_a_check_beside_it():
     def found(peak):
         kinds = ("masses", "masses and inertias")
         made = results(runs={f"heavier, {kind} ADRC": outcome("ADRC", peak) for kind in kinds})
-        row = row_of(texts()["model_uncertainty"], made)
+        row = row_of(all_texts()["model_uncertainty"], made)
         assert (row.word, row.limit, row.share) == ("not testable", "", "")
         return row.number, [
             x.holds for x in checks(made, []) if "heavier" in x.name and "ADRC over" in x.name
@@ -269,7 +269,7 @@ def test_what_is_contradicted_is_smoothness_global_stability_and_the_printed_mul
 def test_every_claim_has_a_row_with_every_column():
     table = rows(results())
     assert len(table) == len({row.claim for row in table}) == 28
-    assert {row.word for row in table} <= set(texts()["words"])
+    assert {row.word for row in table} <= set(all_texts()["words"])
     for row in table:
         assert set(CLAIM_COLUMNS) < set(vars(row))
         assert row.claim
@@ -301,7 +301,7 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 def test_what_gait_b_needs_of_ground_and_motors():
     a, b = (
-        runs.walk_scenario(plain("NPD", "identified", gait=gait, run={"impacts": 2})).outcome
+        runs.walk_scenario(by_rk4("NPD", "identified", gait=gait, run={"impacts": 2})).outcome
         for gait in GAITS
     )
     assert (

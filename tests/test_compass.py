@@ -19,7 +19,7 @@ from biped_adrc.core.tree import flatten
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import OK, ExportedController
 from biped_adrc.extras.export.source import source_of
-from biped_adrc.extras.logs.log_file import exchanged
+from biped_adrc.extras.logs.log_file import relabel_legs
 from biped_adrc.model.robot_import.import_robot import Hints, derive
 from biped_adrc.observers.base import Estimate
 
@@ -161,9 +161,9 @@ def test_the_exported_controller_walks_over_impacts(compass, designed):
 def test_a_log_in_the_labels_of_its_own_legs_comes_back(compass):
     q, v, u = (np.random.default_rng(3).normal(size=(6, k)) for k in (2, 2, 1))
     legs = np.array([1.0, 2.0, 2.0, 1.0, 2.0, 1.0])
-    there = exchanged(legs, q, v, u, compass)
+    there = relabel_legs(legs, q, v, u, compass)
     np.testing.assert_array_equal(there[2][legs == 2.0], -u[legs == 2.0])
-    for found, given in zip(exchanged(legs, *there, compass), (q, v, u), strict=True):
+    for found, given in zip(relabel_legs(legs, *there, compass), (q, v, u), strict=True):
         np.testing.assert_allclose(found, given, atol=1e-15)
 
 

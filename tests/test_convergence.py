@@ -20,14 +20,8 @@ from biped_adrc.paper.two_steps import (
     largest_gap,
     order_of_error,
 )
-from biped_adrc.scenario.walk import (
-    FINE_STEP,
-    Part,
-    execute_twice,
-    in_parts,
-    refined,
-    walk_scenario,
-)
+from biped_adrc.scenario.integration import FINE_STEP, WalkPart, in_parts, refined
+from biped_adrc.scenario.walk import execute_twice, walk_scenario
 
 from .made_up_results import outcome
 
@@ -108,7 +102,7 @@ def test_fine_steps_go_where_a_push_switches(biped, gait):
     parts = refined(walker, 6, 1, ba.RK4(1e-3), 1e-4)
     assert [(p.impacts, p.method.h) for p in parts] == [(2, 1e-3), (2, 1e-4), (2, 1e-3)]
     assert refined(replace(walker, disturbance=None), 6, 1, ba.RK4(1e-3), 1e-4) == (
-        Part(6, ba.RK4(1e-3)),
+        WalkPart(6, ba.RK4(1e-3)),
     )
 
 
@@ -116,7 +110,7 @@ def test_a_walk_in_parts_is_the_walk(biped, gait):
     push = ba.TorquePulse([5.0] * 5, step=2, start=0.1, stop=0.3)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
     whole = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled").trajectory
-    parts = tuple(Part(n, ba.RK4(1e-3)) for n in (1, 2, 1))
+    parts = tuple(WalkPart(n, ba.RK4(1e-3)) for n in (1, 2, 1))
     joined = in_parts(walker, gait.start(biped), Mode(1), parts, "compiled")
     assert [arc.mode for arc in joined.arcs] == [arc.mode for arc in whole.arcs]
     for one, other in zip(joined.arcs, whole.arcs, strict=True):

@@ -14,7 +14,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc import _HOMES
-from biped_adrc.scenario.registry import REGISTRY
+from biped_adrc.core.registry import REGISTRY
 
 
 def docstring(name):

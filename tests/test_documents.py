@@ -32,7 +32,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
-from biped_adrc.scenario import registry
+from biped_adrc.core import registry
 from biped_adrc.studies.study import read_study
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -12,7 +12,7 @@ from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.integrators import CROWDED, RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
-from biped_adrc.scenario.walk import default_method, rate_of_law
+from biped_adrc.scenario.integration import default_method, rate_of_law
 
 from .plain import Undecorated
 

@@ -7,8 +7,8 @@ import dataclasses
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.analysis.stability import known_cycle
 from biped_adrc.core.shown import LONGEST
-from biped_adrc.scenario.cycle import known_cycle
 
 LINE = 120
 

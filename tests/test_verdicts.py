@@ -17,7 +17,7 @@ from biped_adrc.core.processes import Timed
 from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper import reproduction
-from biped_adrc.paper.runs import Results, tasks
+from biped_adrc.paper.runs import Runs, tasks
 from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.two_steps import AtTwoSteps
@@ -113,13 +113,13 @@ def stubbed(monkeypatch):
             "planned_tasks": lambda plan: {"made/up": None},
             "run_tasks": lambda *_: [Timed(None, 0.0)],
             "tables": lambda *_: {},
-            "replay": lambda *_: SimpleNamespace(save=lambda _: None),
+            "rebuilt_walk": lambda *_: SimpleNamespace(save=lambda _: None),
             "draw_all": lambda *_: {},
             "headline_animation": lambda *_: "",
         }
         for name, value in replaced.items():
             monkeypatch.setattr(reproduction, name, value)
-        monkeypatch.setattr(Results, "of", lambda *_: r)
+        monkeypatch.setattr(Runs, "of", lambda *_: r)
 
     return stub
 

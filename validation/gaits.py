@@ -26,6 +26,7 @@ from biped_adrc.analysis.stability import (
     RELATIVE,
     Cycle,
     invariance_gap,
+    known_cycle,
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
@@ -40,7 +41,7 @@ from biped_adrc.gait.published import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.cycle import gait_cycle, known_cycle
+from biped_adrc.scenario.cycle import gait_cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from validation.passive import simplest

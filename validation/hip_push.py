@@ -20,12 +20,12 @@ from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Controller
 from biped_adrc.control.stride import StridePI
+from biped_adrc.core.registry import find
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk_scenario
 from validation.forced_steps import stopping_force

@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from biped_adrc.analysis.stability import Cycle
+from biped_adrc.analysis.stability import Cycle, known_cycle
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.types import Array
@@ -27,7 +27,6 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors
-from biped_adrc.scenario.cycle import known_cycle
 from validation.row import Row, published
 
 CLOSED = "closed form"

@@ -8,7 +8,7 @@ import mujoco
 from peers.chains import Chain, Coordinates, H, Simulate
 
 from biped_adrc.core.types import Array
-from biped_adrc.extras.mujoco.robot import compiled, pinned_mjcf
+from biped_adrc.extras.mujoco.robot import model_of, pinned_mjcf
 from biped_adrc.model.biped import Biped
 
 METHODS = {
@@ -23,7 +23,7 @@ class MuJoCoChain(Chain):
 
     def __init__(self, biped: Biped) -> None:
         super().__init__(biped)
-        self.model = compiled(pinned_mjcf(biped, H))
+        self.model = model_of(pinned_mjcf(biped, H))
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(j).name for j in range(self.model.njnt)]
         self.coordinates = Coordinates(biped, joints)

@@ -19,6 +19,7 @@ mechanical ones in the state of the map; then only central differences apply.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,12 +34,14 @@ from biped_adrc.analysis.return_map import (
 )
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
-from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.published import passive_cycle
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
@@ -207,6 +210,35 @@ class Cycle(Shown):
     P: ReturnMap
     guess: Array
     """State x- just before impact, (2 n,) or with the controller's states behind [rad, rad/s]."""
+
+
+LIGHT_FEET = 5e-4
+"""Half width of central differences of the return map P for robots without motors [rad, rad/s]: wider than
+usual, since light feet leave a round-off of 1e-10 in P."""
+
+
+def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
+    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
+
+    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
+    """
+    known = passive_cycle(biped)
+    angle = known.slope if slope is None else slope
+    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
+    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
+    start = walker.initial_state(known.q_plus, known.v_plus)
+    return Cycle(P, P.next_impact(walker, start, Mode()).x_minus)
+
+
+def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
+    """(q, v), each (n,) [rad, rad/s], just after the impact of the cycle on a slope [rad].
+
+    Raises SimulationError where Newton's method finds no cycle.
+    """
+    cycle, n = known_cycle(biped, slope), biped.n
+    orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
+    after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
+    return after.q, after.v
 
 
 @dataclass(frozen=True)

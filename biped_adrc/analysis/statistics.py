@@ -1,4 +1,4 @@
-"""Statistics over many walks, by SciPy: shares, medians and paired ratios, each with an interval of 95 %.
+"""The rms of a signal; over many walks, by SciPy, shares, medians and paired ratios with intervals of 95 %.
 
 A share has Wilson's interval (J. Am. Stat. Assoc. 22, 1927); a median that of the order statistics, which is
 exact for any distribution and takes infinite numbers; a paired ratio that of its median, and the sign test.
@@ -13,6 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
+
+from biped_adrc.analysis.signals import integrate
+from biped_adrc.core.types import Array
 
 CONFIDENCE = 0.95
 """Confidence level of every interval."""
@@ -38,6 +41,13 @@ def median(values: Sequence[float]) -> Interval:
     """Median of at least one number, infinite ones included, with the interval of its order statistics."""
     result = scipy.stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
     return Interval(float(np.median(values)), float(result.low), float(result.high))
+
+
+def rms(t: Array, x: Array) -> float:
+    """Root of the mean over time t (K,) [s] and columns of x (K, k)^2, by quadrature between the nodes."""
+    squares, duration = np.sum(x**2, axis=1) / max(x.shape[1], 1), float(t[-1] - t[0])
+    mean = integrate(t, squares) / duration if duration > 0.0 else float(squares[0])
+    return float(np.sqrt(max(mean, 0.0)))
 
 
 class Paired(NamedTuple):

@@ -19,11 +19,9 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 import typer
 from pydantic import TypeAdapter, ValidationError
 
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, complaint, unknown
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
-from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.records import complaint
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
@@ -107,8 +105,8 @@ def scenario_from(
 
 def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     """The controller where no other one is chosen: "passive" for a robot without motors."""
+    from biped_adrc.core.registry import is_own
     from biped_adrc.model.robots.robot_toml import load_description
-    from biped_adrc.scenario.registry import is_own
 
     if base.controller.name != usual and base.controller != Scenario().controller:
         return {}

@@ -49,12 +49,12 @@ def study(
         return
     from biped_adrc.studies.build import NO_WALK
     from biped_adrc.studies.page import chosen, headings, texts, write_page
-    from biped_adrc.studies.runner import Progress
+    from biped_adrc.studies.runner import StudyProgress
 
     try:
         with console.bar(result.name) as shown:
 
-            def progress(p: Progress) -> None:
+            def progress(p: StudyProgress) -> None:
                 shown(p.done, p.total, result.name)
                 if p.note:
                     console.print(p.note)

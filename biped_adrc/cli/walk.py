@@ -4,7 +4,7 @@
 at half the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
 stores the run. `poincare` finds the fixed point of the return map and its multipliers (`analysis.stability`).
 
-`animate` draws the robot (`view.export`), `plot` its signals (`paper.figures`). Runs are read as they
+`animate` draws the robot (`view.export`), `plot` its signals (`view.plots`). Runs are read as they
 are, without walking again, also runs of a user's own controller that is not at hand. The page of
 `play` is that of `extras.play.page`.
 """
@@ -72,7 +72,8 @@ def _walk(
     A walk with motors is carried out again at half the step, and from a start aside; only the first one is
     stored, before the others begin.
     """
-    from biped_adrc.scenario.walk import ASIDE, DECIDES, halved
+    from biped_adrc.scenario.integration import ASIDE, DECIDES
+    from biped_adrc.scenario.walk import halved
 
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with console.bar(name) as shown:
@@ -237,8 +238,8 @@ def plot(
     out: Path = Path("figure.png"),
 ) -> None:
     """Draw the signals of a run."""
-    from biped_adrc.paper.figures import draw
     from biped_adrc.scenario.stored import load_walks
+    from biped_adrc.view.plots.figures import draw
     from biped_adrc.view.style import write_figure
 
     runs = [run, *(beside or [])]

@@ -321,18 +321,23 @@ def is_users(file: str) -> bool:
     return not file.startswith((PACKAGE, *LIBRARIES, "<frozen"))
 
 
+def hints_of(cls: type) -> dict[str, Any]:
+    """The annotations of a class with their names resolved; none where one of them cannot be read."""
+    try:
+        return get_type_hints(cls, include_extras=True)
+    except (NameError, TypeError, AttributeError, SyntaxError):
+        return {}
+
+
 @lru_cache(maxsize=256)
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...]:
     """Fields of a class to check: name, allowed types and range of each.
 
     Without fields whose annotation cannot be read or contains other types.
     """
-    try:
-        hints = get_type_hints(cls, include_extras=True)
-    except (NameError, TypeError, AttributeError, SyntaxError):
-        return ()
+    hints = hints_of(cls)
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
-    result = ((name, *_members(hints[name])) for name in names)
+    result = ((name, *_members(hints[name])) for name in names if name in hints)
     return tuple(x for x in result if x[2] is not None or all(map(_looked_at, x[1])))
 
 

@@ -11,9 +11,11 @@ the sentence, which names the value and says what was found; the function adds w
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from difflib import get_close_matches
 from numbers import Integral
+from typing import Any
 
 
 class BipedError(Exception):
@@ -132,3 +134,54 @@ def check_positive(value: float, what: str, hint: str = "") -> None:
 def _if_text(value: object) -> str:
     """Says of a text that it is one, since '4' is printed as 4 is."""
     return f" ({value!r} is a str)" if isinstance(value, str) else ""
+
+
+MANY = 20
+"""Names that a message lists at most, before it names the records alone."""
+
+
+def unknown(name: str, known: Iterable[str]) -> str:
+    """The sentence for a name that does not exist: alike ends, near ones, or all of its record."""
+    known, (record, dot, last) = list(known), name.rpartition(".")
+    beside = [whole for whole in known if dot and whole.startswith(record + dot)]
+    ends: dict[str, list[str]] = {}
+    for whole in known:
+        parts = whole.split(".")
+        for k in range(len(parts)):  # records have names too
+            ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
+    alike = [ends[end][0] for end in get_close_matches(last, ends, 2)]
+    near = ends.get(last) or [*get_close_matches(name, known, 2, 0.8), *alike]
+    if last not in ends and beside:
+        known, near = beside, [x for x in near if x in beside]
+    near = list(dict.fromkeys(near))[:3]
+    if near:
+        return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
+    if len(known) > MANY:
+        known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
+    return f"unknown name; choose from {known}" if known else "unknown name; leave it out"
+
+
+def complaint(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's as what was found and what was expected."""
+    text: str = error["msg"].removeprefix("Value error, ").replace("tuple", "list")
+    if text.startswith("Input should"):
+        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return text
+
+
+LABELS = ("float", "constrained-float", "int", "bool", "str")
+"""What pydantic names the members of a union in the place of an error."""
+
+
+def dotted_place(error: Mapping[str, Any]) -> str:
+    """The dotted name of the value that an error of pydantic's is about."""
+    parts = map(str, error["loc"])
+    return ".".join(part for part in parts if part not in LABELS and "[" not in part)
+
+
+def problem(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's in words: its place, what was found and what was expected."""
+    place = dotted_place(error)
+    if error["type"] == "missing":
+        return f"the key '{place}' is missing"
+    return ": ".join(filter(None, (place, complaint(error))))

@@ -19,7 +19,7 @@ from dataclasses import field, fields
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
-from biped_adrc.core.checks import Checked
+from biped_adrc.core.checks import Checked, hints_of
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import frozen
 
@@ -90,8 +90,9 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     Numbers of a field annotated as float become floats, even whole ones.
     """
     result: list[tuple[str, Callable[[Any], Any]]] = []
+    hints = hints_of(cls)
     for f in fields(cls):
-        value = _as_floats if "float" in str(f.type).lower() else _itself
+        value = _as_floats if "float" in str(hints.get(f.name, f.type)).lower() else _itself
         result.append((f.name, (lambda _: Setup()) if f.metadata.get("setup") else value))
     return (*result, *((name, _itself) for name in derived_names(cls)))
 

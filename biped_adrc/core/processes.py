@@ -34,8 +34,6 @@ KEPT = 3 * 2**23
 a chunk of walks need not ask for its pages anew."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: the working directory is not put first on the path."""
-PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
-"""Modules that the processes of `run_tasks` share."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +60,8 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
-def processes(count: int | None = None, preload: Sequence[str] = PRELOADED) -> ProcessPoolExecutor:
-    """Start worker processes, one per core if None.
+def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
+    """Start worker processes, one per core if None, which share the modules `preload`.
 
     Raises InputError for less than 1 or more than `MOST_WORKERS`, and in a script without a main guard.
     """
@@ -80,7 +78,7 @@ def processes(count: int | None = None, preload: Sequence[str] = PRELOADED) -> P
     return ProcessPoolExecutor(count or cores(), context, initializer=_begin)
 
 
-def stop(executor: Executor) -> None:
+def end_all(executor: Executor) -> None:
     """End an executor at once, including processes in the middle of their work."""
     for process in list((getattr(executor, "_processes", None) or {}).values()):
         process.terminate()
@@ -88,12 +86,16 @@ def stop(executor: Executor) -> None:
 
 
 def run_tasks(
-    tasks: Sequence[Task[T]], workers: int | None = None, progress: TaskProgress | None = None
+    tasks: Sequence[Task[T]],
+    workers: int | None,
+    preload: Sequence[str],
+    progress: TaskProgress | None = None,
 ) -> list[Timed[T]]:
     """Run tasks in worker processes; returns their results in order, each with its wall time [s].
 
     workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger.
-    progress: called after each task. An error in one task, or Ctrl-C, terminates all workers and is raised.
+    preload: modules that the processes share. progress: called after each task. An error in one task, or
+    Ctrl-C, terminates all workers and is raised.
     """
     report = progress or (lambda *_: None)
     if (workers or cores()) == 1:
@@ -102,7 +104,7 @@ def run_tasks(
             results.append(_timed(task))
             report(done, len(tasks), task.name)
         return results
-    executor = processes(workers)
+    executor = processes(workers, preload)
     try:
         futures = {executor.submit(_timed, task): task.name for task in tasks}
         for done, future in enumerate(as_completed(futures), 1):
@@ -110,7 +112,7 @@ def run_tasks(
             report(done, len(tasks), futures[future])
         return [future.result() for future in futures]
     finally:
-        stop(executor)
+        end_all(executor)
 
 
 def _timed(task: Task[T]) -> Timed[T]:

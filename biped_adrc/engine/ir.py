@@ -23,7 +23,7 @@ import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.machine import LoadedCode, keep, load_or_compile, stored
-from biped_adrc.engine.structure import Unchanged, lasting, reaching
+from biped_adrc.engine.structure import lasting
 from biped_adrc.engine.symbols import NotCompiled
 
 CHOICE = -1
@@ -132,8 +132,8 @@ DECLARATIONS = "\n".join(
 
 Functions = Mapping[str, Callable[[], SymbolicFunction]]
 """By name, each to be called for its expression."""
-_IN_MEMORY: dict[Hashable, tuple[LoadedCode | str, list[Unchanged]]] = {}
-"""Code by structure, or why there is none, with what it reached; a function is a value, so this is no state."""
+_IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
+"""Code by structure, or why there is none; a function is a value, so this is no state."""
 
 
 def generated(key: Hashable, functions: Functions, vectors: bool = False) -> LoadedCode:
@@ -146,14 +146,13 @@ def generated(key: Hashable, functions: Functions, vectors: bool = False) -> Loa
     """
     names = list(functions)
     key = key, *names
-    code, reached = _IN_MEMORY.get(key, (None, []))
-    if code is None or not all(unchanged() for unchanged in reached):
-        with reaching() as reached:
-            try:
-                code = load_or_compile(_text(key, functions), names, vectors)
-            except NotCompiled as error:
-                code = str(error)
-        _IN_MEMORY[key] = code, reached
+    code = _IN_MEMORY.get(key)
+    if code is None:
+        try:
+            code = load_or_compile(_text(key, functions), names, vectors)
+        except NotCompiled as error:
+            code = str(error)
+        _IN_MEMORY[key] = code
     if isinstance(code, str):
         raise NotCompiled(code)
     return code

@@ -1,18 +1,17 @@
 """What decides generated code, to be found again in memory and on disk.
 
 Tracing takes a tenth of a second, and a study makes thousands of walkers with other numbers. So code in memory
-is found by the structure of what it was made from, floats replaced by their shapes, and by what its methods
-reached outside of this package: a class, function or constant that was defined anew makes other code. Another
-process finds it by that structure where all of it is this package's own (`lasting`).
+is found by the structure of what it was made from, floats replaced by their shapes. Methods that are compiled
+have to be pure, as in JAX: what they read besides their arguments and fields, a function or a constant of a
+module, is read once, when they are compiled. A class that is defined anew is another structure. Another process
+finds code by its structure where all of it is this package's own (`lasting`).
 """
 
 from __future__ import annotations
 
 import sys
 import types
-from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Hashable
 from enum import Enum
 from typing import Any
 
@@ -84,51 +83,12 @@ def _replaced() -> bool:
             own = isinstance(x, type) and x.__module__ == name
             for member in vars(x).values() if own else (x,):
                 home = member.__globals__ if type(member) is types.FunctionType else vars(module)
-                if home is not vars(module) and changes(home["__name__"], home.get("__file__")):
+                if home is not vars(module) and is_users(home.get("__file__") or ""):
                     return True
     return False
-
-
-Unchanged = Callable[[], bool]
-"""Whether something that a traced method reached is still what it was."""
-_REACHED: ContextVar[list[Unchanged] | None] = ContextVar("reached", default=None)
-
-
-@contextmanager
-def reaching() -> Iterator[list[Unchanged]]:
-    """What is traced within the block notes here what it reaches outside of this package and of libraries."""
-    result: list[Unchanged] = []
-    token = _REACHED.set(result)
-    try:
-        yield result
-    finally:
-        _REACHED.reset(token)
-
-
-def note(names: dict[str, Any] | types.MappingProxyType[str, Any], name: str) -> None:
-    """Note the value of a name in the globals of a function, or in a class."""
-    reached, value = _REACHED.get(), names[name]
-    if reached is None:
-        return
-    kept = _snapshot(value)
-    reached.append(lambda: name in names and names[name] is value and _snapshot(value) == kept)
-
-
-def _snapshot(value: Any) -> object:
-    """What can change in place of a constant."""
-    if isinstance(value, np.ndarray):
-        return value.tobytes()
-    return repr(value) if isinstance(value, list | dict | set) else None
 
 
 def is_library(module: types.ModuleType) -> bool:
     """Whether a module is neither the user's nor of this package, which may be installed among libraries."""
     file = getattr(module, "__file__", None)
     return file is None or (file.startswith(LIBRARIES) and not file.startswith(PACKAGE))
-
-
-def changes(module: str | None, file: str | None) -> bool:
-    """Whether a module is one of the user's, and no library's or this package's."""
-    if module is None or module.partition(".")[0] == "biped_adrc":
-        return False
-    return file is None or is_users(file)

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
 from biped_adrc.core.types import frozen
-from biped_adrc.engine.structure import changes, is_library, note
+from biped_adrc.engine.structure import is_library
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
     HIDDEN,
@@ -148,15 +148,12 @@ class Tracer:
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
-            own = changes(f.__module__, f.__globals__.get("__file__"))
-            if own and catches(f.__code__):
+            if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
             for name in names_of(f.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
-                    if own and name in f.__globals__:
-                        note(f.__globals__, name)
             for name, cell in zip(f.__code__.co_freevars, cells, strict=True):
                 twin = self.twin if name == "__class__" else self.on_symbols
                 cell.cell_contents = twin(cell.cell_contents)
@@ -207,11 +204,8 @@ class Tracer:
             subclass = types.new_class(cls.__name__, (*bases, cls))
             subclass.__module__, subclass.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = self._twins[subclass] = subclass
-            own = changes(cls.__module__, getattr(home, "__file__", None))
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
-                    if own:
-                        note(vars(cls), name)
                     setattr(subclass, name, self._member(value))
             abc.update_abstractmethods(subclass)
         return self._twins[cls]
@@ -236,10 +230,7 @@ class _Named:
         self._trace, self._module = trace, module
 
     def __getattr__(self, name: str) -> object:
-        value = getattr(self._module, name)
-        if name in vars(self._module) and changes(self._module.__name__, self._module.__file__):
-            note(vars(self._module), name)
-        return self._trace.on_symbols(value)
+        return self._trace.on_symbols(getattr(self._module, name))
 
 
 def run(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:

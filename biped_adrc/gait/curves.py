@@ -17,7 +17,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
 from math import comb
 from typing import Any, ClassVar
 
@@ -25,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.files import packaged
 from biped_adrc.core.part import derived
+from biped_adrc.core.registry import REGISTRY
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, read_only
 
@@ -206,28 +205,18 @@ def bernstein_to_power(degree: int) -> Array:
     return np.array(T, dtype=float)
 
 
-CURVES: dict[str, Any] = {
-    name: entry["home"]
-    for name, entry in packaged("biped_adrc.scenario", "registry.toml")["curve"].items()
-}
-"""Name of a kind of curve -> `module:Class`, or the class itself if it was registered."""
-
-
 def curve_kind(name: str) -> type[Curve]:
     """The class of a curve by its name in the registry, imported now.
 
     Raises GaitError with the known names.
     """
-    if name not in CURVES:
+    if name not in REGISTRY["curve"]:
         raise GaitError(
-            f"curve is '{name}', expected one of {sorted(CURVES)}; a class of one's own gets a name with "
-            "biped_adrc.register('curve', NAME, CLASS) first, since files are read without importing anything"
+            f"curve is '{name}', expected one of {sorted(REGISTRY['curve'])}; a class of one's own gets a name "
+            "with biped_adrc.register('curve', NAME, CLASS) first, since files are read without importing "
+            "anything"
         )
-    result = CURVES[name]
-    if isinstance(result, str):
-        module, _, cls = result.partition(":")
-        result = getattr(import_module(module), cls)
-    kind: type[Curve] = result
+    kind: Any = REGISTRY["curve"][name].load()
     return kind
 
 

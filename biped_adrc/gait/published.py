@@ -8,7 +8,7 @@ digit; q5, printed with four decimals, and the rates are kept.
 
 A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
 readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published; they
-only start Newton's method on the return map, which finds the cycle itself (`scenario.cycle.known_cycle`).
+only start Newton's method on the return map, which finds the cycle itself (`analysis.stability.known_cycle`).
 
 Gait (b): the paper's own recipe, section IV.
 

@@ -24,18 +24,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.core.errors import ModelError
+from biped_adrc.core.errors import ModelError, SingularError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.model.contact import FloatingDynamics, Impact
-from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors, load_description
+from biped_adrc.model.robots.robot_toml import (
+    RobotDescription,
+    Rotors,
+    check_planar,
+    load_description,
+)
 from biped_adrc.model.robots.urdf import Inertial, Joint, Tree, absolute_angles, relabelling, unlike
 
 STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
+ACCURACY = 1e-6
+"""Largest relative round-off in D_s^-1, eps times its condition [1]; feet of 1e-7 of the hip's mass have
+1e-8."""
 
 
 @dataclass(frozen=True)
@@ -387,3 +394,30 @@ class Biped(Shown):
     def _angles(self, q: Array) -> Array:
         """q (n,) after a check of its shape and that it is finite."""
         return finite_angles(q, (self.n,))
+
+
+def check_numbers(biped: Biped) -> None:
+    """Check at random states that D_s is positive definite and well conditioned, Omega and the impact finite.
+
+    Masses and lengths are checked one by one where a file is read; here together, such as a mass beside another
+    1e20 times as large. Raises ModelError with what to look for in the URDF.
+    """
+    random, n = np.random.default_rng(5), biped.n
+    where = f"'{biped.tree.source}', robot '{biped.description.name}'"
+    for _ in range(4):
+        q, v = random.uniform(-np.pi, np.pi, n), random.normal(0.0, 3.0, n)
+        with np.errstate(all="ignore"):
+            D, Omega = biped.inertia(q), biped.bias(q, v)
+            least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (-1.0, 0.0)
+            fits = most * np.finfo(float).eps <= ACCURACY * least
+            try:
+                fits = fits and np.all(np.isfinite(np.concatenate((Omega, *biped.impact(q, v)))))
+            except SingularError:
+                fits = False
+        if not fits:
+            raise ModelError(
+                f"{where}: D_s has eigenvalues from {least:.2g} to {most:.2g} kg m^2, expected positive ones "
+                "with a ratio that double precision can hold, and Omega and the impact (7) finite; look for a "
+                "body that nothing moves, a foot that no joint moves, and for masses, inertias and lengths "
+                "that are too large or far apart"
+            )

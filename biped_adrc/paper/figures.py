@@ -1,81 +1,39 @@
-"""The figures of any stored walk by name, which the command `plot` draws, and those of the reproduction.
+"""The figures of the reproduction: which signals each gets; the drawing is in `view`.
 
-Decides which signals a figure gets and where the window of the push is; the drawing is in `view`. Drawing
-takes longer than some of the runs, so each figure of the reproduction is a task of `processes`.
+Drawing takes longer than some of the runs, so each figure is a task of `processes`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import write_bytes
 from biped_adrc.core.processes import Task, run_tasks
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.plots import figures
+from biped_adrc.view.plots.figures import push_window
 from biped_adrc.view.plots.study import push_map_figure
-from biped_adrc.view.style import literal, render
-
-NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
-"""Figures that can be asked for."""
-
-
-def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
-    """One figure: of the first walk, or of all walks for "phase" and "comparison".
-
-    Raises InputError for an unknown name, or a robot without motors where the figure shows motors.
-    """
-    if name not in NAMES:
-        raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
-    walks = {literal(n): w for n, w in walks.items()}
-    title, walk = next(iter(walks.items()))
-    signals = {n: w.signals for n, w in walks.items()}
-    first, push = signals[title], push_window(signals[title])
-    if name in ("disturbance", "comparison") and any(s.u.shape[1] == 0 for s in signals.values()):
-        raise InputError(
-            f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
-            "'tracking', 'ground', 'energy', 'phase'"
-        )
-    mu, slope = walk.walker.plant.description.friction_coefficient, walk.walker.ground_slope
-    return {
-        "tracking": partial(walk.plot, title, push),
-        "disturbance": partial(figures.disturbance_figure, first, title, push),
-        "ground": partial(figures.ground_figure, first, title, mu, slope, push),
-        "energy": partial(figures.energy_figure, first, title, push),
-        "phase": partial(figures.phase_figure, signals),
-        "comparison": partial(figures.comparison_figure, signals, push),
-    }[name]()
-
-
-def push_window(s: Signals) -> tuple[float, float] | None:
-    """First and last time [s] of the first step in which an external torque acts; None where there is none."""
-    pushed = np.any(s.zeta != 0.0, axis=1)
-    if not pushed.any():
-        return None
-    t = s.t[pushed & (s.step == s.step[pushed][0])]
-    return float(t[0]), float(t[-1])
+from biped_adrc.view.style import render
 
 
 def draw_all(
-    r: Results, walks: Mapping[str, Walk], out: Path, workers: int | None = None
+    r: Runs, walks: Mapping[str, Walk], out: Path, workers: int | None = None
 ) -> dict[str, bytes]:
     """Write every figure to `out` as .png and .svg; returns the SVG by name, for the report.
 
     walks: the pushed ones, by controller.
     """
     named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
-    drawn = run_tasks(list(named.values()), workers)
+    drawn = run_tasks(list(named.values()), workers, PRELOADED)
     result = {}
     for name, picture in zip(named, drawn, strict=True):
         png, svg = picture.value
@@ -85,7 +43,7 @@ def draw_all(
     return result
 
 
-def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
+def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it

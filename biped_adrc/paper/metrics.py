@@ -21,7 +21,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell
-from biped_adrc.paper.runs import Results, Start
+from biped_adrc.paper.runs import Runs, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
@@ -200,50 +200,50 @@ def setting_of(name: str, cell: PushCell) -> str:
 
 
 # -- scenarios -------------------------------------------------------------------------------------
-def headline(r: Results) -> dict[str, Outcome]:
+def headline(r: Runs) -> dict[str, Outcome]:
     """The pushed walks, by controller."""
     return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
 
-def adrc_push(r: Results) -> dict[str, Outcome]:
+def adrc_push(r: Runs) -> dict[str, Outcome]:
     """The pushed walk under ADRC."""
     return {"ADRC": r.pair("push")[1]}
 
 
-def walks(r: Results) -> dict[str, Outcome]:
+def walks(r: Runs) -> dict[str, Outcome]:
     """Walks under both controllers, one by one."""
     every = r.pairs("").items()
     return {f"{c}, {n}": o for n, pair in every for c, o in zip(CONTROLLERS, pair, strict=True)}
 
 
-def all_cycles(r: Results) -> dict[str, PoincareResult | str]:
+def all_cycles(r: Runs) -> dict[str, PoincareResult | str]:
     """Cycles with all multipliers, and those of gait (b)."""
     every = {f"multipliers {name}": x for name, x in r.multipliers.items()}
     return every | r.named("cycles", "(b)")
 
 
-def laws_of_walks(r: Results) -> dict[str, Mapping[str, float]]:
+def laws_of_walks(r: Runs) -> dict[str, Mapping[str, float]]:
     """Laws of the pushed walks, by controller."""
     return {c: x.laws for c, x in r.headline.items()}
 
 
-def laws_of_models(r: Results) -> dict[str, float]:
+def laws_of_models(r: Runs) -> dict[str, float]:
     """Violation of each law by each model."""
     laws = next(iter(r.model.values()))
     return {f"{preset}: {law}": x[law] for law in laws for preset, x in r.model.items()}
 
 
-def numerics(r: Results) -> dict[str, Sequence[float]]:
+def numerics(r: Runs) -> dict[str, Sequence[float]]:
     """The figures of the numerical methods, all together."""
     return {"": tuple(r.figures.values())}
 
 
-def pushed(kind: str, r: Results) -> dict[str, MemberOutcome]:
+def pushed(kind: str, r: Runs) -> dict[str, MemberOutcome]:
     """The push on the joints at all declared choices ("members"), or on gait (b) ("pushed_recipe")."""
     return {o.member.name: o for part in getattr(r, kind).values() for o in part}
 
 
-def heavier(r: Results) -> dict[str, Pair]:
+def heavier(r: Runs) -> dict[str, Pair]:
     """A plant heavier than the model, in all presets."""
     result = {}
     for preset, kind in itertools.product(r.plan.presets, KINDS):
@@ -252,14 +252,14 @@ def heavier(r: Results) -> dict[str, Pair]:
     return result
 
 
-def torso(r: Results) -> dict[str, Pair]:
+def torso(r: Runs) -> dict[str, Pair]:
     """Pushes on the torso, in all presets."""
     every = itertools.product(declared()["torso"]["amplitudes"], r.plan.presets)
     names = (f"{torque:g} N m on the torso, {preset}" for torque, preset in every)
     return {name: r.pair(name) for name in names}
 
 
-def lost_by_npd(r: Results) -> dict[str, PushCell]:
+def lost_by_npd(r: Runs) -> dict[str, PushCell]:
     """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
     cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
@@ -268,13 +268,13 @@ def lost_by_npd(r: Results) -> dict[str, PushCell]:
     }
 
 
-def undisturbed(gaits: str, r: Results) -> dict[str, Outcome]:
+def undisturbed(gaits: str, r: Runs) -> dict[str, Outcome]:
     """The undisturbed walks under NPD on these gaits, by "gait (.), preset"."""
     every = {name: o for gait in gaits for name, o in r.on_gait(gait).items()}
     return {name.removesuffix(", NPD"): o for name, o in every.items() if name.endswith("NPD")}
 
 
-def both_gaits(r: Results) -> dict[str, tuple[Outcome, Outcome]]:
+def both_gaits(r: Runs) -> dict[str, tuple[Outcome, Outcome]]:
     """The undisturbed walks under NPD on gait (b) and gait (a), by preset."""
     b, a = (undisturbed(gait, r).values() for gait in "ba")
     return dict(zip(r.plan.presets, zip(b, a, strict=True), strict=True))
@@ -286,7 +286,7 @@ def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
     return one.over(other)
 
 
-def below_least(r: Results) -> dict[str, Start]:
+def below_least(r: Runs) -> dict[str, Start]:
     """Starts below the least speed."""
     return {
         f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
@@ -296,7 +296,7 @@ def below_least(r: Results) -> dict[str, Start]:
     }
 
 
-def gains(r: Results) -> dict[str, tuple[float, float]]:
+def gains(r: Runs) -> dict[str, tuple[float, float]]:
     """Gains of Table I and of one extended state."""
     result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():

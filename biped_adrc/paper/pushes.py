@@ -40,9 +40,10 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, MapPush, Member
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.integration import WalkPart, methods_of, runs_in_parts
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import Part, execute_twice, methods_of, runs_in_parts
+from biped_adrc.scenario.walk import execute_twice
 
 
 class Track(NamedTuple):
@@ -87,18 +88,18 @@ def track(walk: Walk) -> Track:
 
 
 @lru_cache(maxsize=8)
-def scene_of(preset: str | None, gait: str) -> RobotAndGait:
+def scene_in(preset: str | None, gait: str) -> RobotAndGait:
     """RABBIT in a preset and one of its gaits, read once for many walks."""
-    return RobotAndGait.of(scenarios.plain("NPD", str(preset), gait=gait))
+    return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
 
 
-def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
+def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
     """The first single support of a run with steps of share run.h, and the others with share `COARSE`, of which
     only the ending matters.
 
     zero: the observer starts at xi^ = 0 instead of the model's xi.
     """
-    scene = scene_of(run.robot.preset, run.gait.name)
+    scene = scene_in(run.robot.preset, run.gait.name)
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
     impacts, h = run.run.impacts, run.run.h
     assert h is not None
@@ -108,16 +109,16 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
     first = methods_of(run.run.replace({"h": share * h}), walker)[0]
-    parts = [Part(1, first), Part(impacts - 1, later)]
+    parts = [WalkPart(1, first), WalkPart(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
     return [Walk(walker, gait, moved) for moved in runs]
 
 
 @lru_cache(maxsize=64)
-def undisturbed(usual: Member, controller: str, share: float) -> Track:
+def usual_track(usual: Member, controller: str, share: float) -> Track:
     """The pushed step of a member without its push, computed once for all pushes on it."""
     run = usual.run(controller, pushed=False)
-    return track(pieces(run, usual.start == "zero", share)[0])
+    return track(in_two(run, usual.start == "zero", share)[0])
 
 
 class MemberWalk(NamedTuple):
@@ -167,8 +168,8 @@ def _at(
     """The numbers of `member_walk` at one step, and what is not feasible."""
     run = member.run(controller, **values)
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
-    walks = pieces(run, member.start == "zero", share)
-    one, other = track(walks[0]), undisturbed(usual, controller, share)
+    walks = in_two(run, member.start == "zero", share)
+    one, other = track(walks[0]), usual_track(usual, controller, share)
     complete = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
     why = {k: x for walk in reversed(walks) for k, x in walk.feasibility.reasons.items()}
     broken = longest = math.inf

@@ -28,17 +28,18 @@ from biped_adrc.core.processes import TaskProgress, run_tasks
 from biped_adrc.core.versions import versions
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.figures import draw_all, push_window
+from biped_adrc.paper.figures import draw_all
 from biped_adrc.paper.poincare import regression_of
 from biped_adrc.paper.pushes import WORDS, PushCell, word_of
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.table import checks, findings, rows, tally, texts
+from biped_adrc.paper.table import all_texts, checks, findings, rows, tally
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.stored import replay
+from biped_adrc.scenario.stored import rebuilt_walk
 from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.pages import report_html
+from biped_adrc.view.plots.figures import push_window
 
 WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 """Kinds of the files that a reproduction writes."""
@@ -60,12 +61,12 @@ def reproduce(
     started = time.perf_counter()
     probe(out)
     named = planned_tasks(plan)
-    done = run_tasks(list(named.values()), workers, progress)
-    r = Results.of(plan, {name: one.value for name, one in zip(named, done, strict=True)})
+    done = run_tasks(list(named.values()), workers, PRELOADED, progress)
+    r = Runs.of(plan, {name: one.value for name, one in zip(named, done, strict=True)})
     summary = judgement(r)
     seconds = {name: one.seconds for name, one in zip(named, done, strict=True)}
     summary |= {"command": command, "seconds": seconds, "versions": versions()}
-    walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
+    walks = {c: rebuilt_walk(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
     pictures = draw_all(r, walks, out, workers)
@@ -77,7 +78,7 @@ def reproduce(
     return summary
 
 
-def judgement(r: Results) -> dict[str, Any]:
+def judgement(r: Runs) -> dict[str, Any]:
     """Claims, checks, tables and numbers of a reproduction, in plain values."""
     plan, of_claims = r.plan, rows(r)
     result = checks(r, of_claims)
@@ -87,11 +88,11 @@ def judgement(r: Results) -> dict[str, Any]:
         "holds": all(check.holds for check in result),
         "checks": result,
         "tally": tally(of_claims),
-        "claims_preface": texts()["preface"],
-        "claims_words": texts()["words"],
+        "claims_preface": all_texts()["preface"],
+        "claims_words": all_texts()["words"],
         "claims": of_claims,
         "findings": findings(r, of_claims),
-        "notes": list(texts()["notes"].values()),
+        "notes": list(all_texts()["notes"].values()),
         "settings": {
             **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
             "pushes": [push.in_words() for push in plan.pushes],
@@ -136,7 +137,7 @@ Table = dict[str, Sequence[object]]
 """`columns`: names; `rows`: one list of as many cells for each row."""
 
 
-def tables(r: Results) -> dict[str, Table]:
+def tables(r: Runs) -> dict[str, Table]:
     """All tables by title."""
     poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
     constants = ("K_p [1/s^2]", 5000, TABLE_II.K_p), ("K_d [1/s]", 50, TABLE_II.K_d)
@@ -191,7 +192,7 @@ NO_MULTIPLIERS = "of n states on a section of n - 1 dimensions: no multipliers"
 """Remark on a regression (27) whose samples span all directions, by round-off or an observer."""
 
 
-def _multipliers(r: Results) -> Table:
+def _multipliers(r: Runs) -> Table:
     """Multipliers by method: central differences, delta^2 of the zero dynamics, the regression
     (27), the paper.
     """
@@ -213,7 +214,7 @@ def _multipliers(r: Results) -> Table:
     )
 
 
-def _recipe(r: Results) -> Table:
+def _recipe(r: Runs) -> Table:
     """The cycle of gait (b) by preset and controller, or why there is none; what its walks ask of ground and
     motors is in "Runs".
     """

@@ -2,7 +2,7 @@
 
 The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
 are kept that a figure of merit needs. Tasks have names such as "multipliers/ADRC" or
-"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Results`.
+"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Runs`.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.KINDS), "torso")
 """Walks that are held against one another under both controllers: pushed, sampled, heavier than the model."""
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
+"""Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
 
@@ -251,7 +253,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
 
 @dataclass(frozen=True)
-class Results:
+class Runs:
     """By kind of task, the results by name."""
 
     plan: Plan
@@ -288,7 +290,7 @@ class Results:
     """By "map": Theta' before an impact and before the next one [rad/s], both (K,)."""
 
     @classmethod
-    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Results:
+    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Runs:
         """Sort what the tasks of a plan returned, by their names."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():

@@ -97,23 +97,23 @@ def pushed_steps(run: Scenario) -> set[int]:
     return {push.step + k for push in run.pushes for k in (0, 1)}
 
 
-def plain(controller: str, preset: str, **values: Any) -> Scenario:
+def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the step of its controller."""
     h = STEPS[controller][0]
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
-    """As `plain`, but the exponential method with a step of h [s] under ADRC."""
+    """As `by_rk4`, but the exponential method with a step of h [s] under ADRC."""
     if controller == "ADRC":
         values |= {"run.method": "exponential", "run.h": h}
-    return plain(controller, preset, **values)
+    return by_rk4(controller, preset, **values)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: the paper's gait under the plan's pushes."""
     fine = STEPS[controller][1]
-    return plain(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
+    return by_rk4(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
@@ -137,12 +137,12 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     for c in CONTROLLERS:
         p, fine = plan.preset, STEPS[c][1]
         for preset in plan.presets:
-            runs[f"nominal {preset} {c}"] = plain(c, preset)
+            runs[f"nominal {preset} {c}"] = by_rk4(c, preset)
             runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", run=EIGHT)
         rises = {"first_step": first, "impacts": 2, "fine": fine}
-        runs[f"rising push {c}"] = plain(c, p, pushes=rising, run=rises)
+        runs[f"rising push {c}"] = by_rk4(c, p, pushes=rising, run=rises)
         late = {"first_step": declared()["torso"]["first_step"], "impacts": 9}
-        runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), run={**late, "fine": fine})
+        runs[f"sine {c}"] = by_rk4(c, p, pushes=(SINE,), run={**late, "fine": fine})
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
         sampled: dict[str, Any] = {"hardware.period": 1e-3, "run.h": 1e-3}
         runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, **sampled)
@@ -251,7 +251,7 @@ class Member:
             RESET: "measured" if zero else "model",
             "run.h": steps[controller],
         }
-        return plain(controller, self.preset, **usual | values)
+        return by_rk4(controller, self.preset, **usual | values)
 
 
 def members(preset: str | None = None) -> tuple[Member, ...]:

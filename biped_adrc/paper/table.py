@@ -17,7 +17,7 @@ Of `checks` every scenario is a check of its own, whose kind (`core.verdict`) sa
     reproduced    the paper's statement does not hold for this robot
 
 A check is a table of checks.toml, a claim one of claims.toml: its words, and by name the scenarios, the metric
-and the values for its texts (functions of `ROOMS`, or members of `Results`). In braces of the words stand
+and the values for its texts (functions of `ROOMS`, or members of `Runs`). In braces of the words stand
 {limit}, {found} (the least and the largest number of the cases) and those values. Limits, and the choices under
 which claims are tried, are in admissible.toml, which was written before the runs.
 """
@@ -35,7 +35,7 @@ from typing import Any, NamedTuple
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics, physical_laws, two_steps, values
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import declared
 from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps, Extremes
 
@@ -45,11 +45,11 @@ CLAIM = "claim"
 """Kind of a statement of the paper, which is judged over all its cases."""
 SHOWN = 8
 """Variants on which a claim may depend that are named."""
-Limit = Callable[[str, str, float], Check]
+Bound = Callable[[str, str, float], Check]
 """Makes the check of (name, kind, value), such as partial(at_most, limit=0.01)."""
 
 
-class Case(NamedTuple):
+class Probe(NamedTuple):
     """One scenario on which a claim was tried."""
 
     name: str
@@ -65,8 +65,8 @@ class Case(NamedTuple):
 
     @classmethod
     def of(
-        cls, name: str, figure: AtTwoSteps, limit: Limit, round_off: float, variant: str | None
-    ) -> Case:
+        cls, name: str, figure: AtTwoSteps, limit: Bound, round_off: float, variant: str | None
+    ) -> Probe:
         """A scenario with its metric, held against a limit at both steps.
 
         round_off: change at half of the step that is none, in the unit of the metric. variant: name if None.
@@ -82,7 +82,7 @@ class Case(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Row:
+class Claim:
     """A claim of the paper with what became of it, in words."""
 
     claim: str
@@ -104,12 +104,12 @@ class Row:
     """Number of its cases that are not converged."""
 
 
-def texts() -> dict[str, Any]:
+def all_texts() -> dict[str, Any]:
     """The tables of claims.toml."""
     return packaged("biped_adrc.paper", "claims.toml")
 
 
-def word_of(cases: Sequence[Case]) -> str:
+def word_of_claim(cases: Sequence[Probe]) -> str:
     """The word for the cases of a claim, as in the head of this module."""
     if all(case.marginal for case in cases):
         return "not testable"
@@ -118,7 +118,7 @@ def word_of(cases: Sequence[Case]) -> str:
     return "depends" if any(case.kept for case in cases) else "contradicted"
 
 
-def share_text(cases: Sequence[Case], apart: bool) -> str:
+def share_text(cases: Sequence[Probe], apart: bool) -> str:
     """How many cases hold; apart: by variant too. Marginal ones are named."""
     if not cases:
         return ""
@@ -131,7 +131,7 @@ def share_text(cases: Sequence[Case], apart: bool) -> str:
     return f"{text}; marginal: {', '.join(marginal)}" if marginal else text
 
 
-def limit(text: str) -> Limit:
+def limit(text: str) -> Bound:
     """The limit "<= 0.01", "in 0.9 1.1", or "<= ratio" by its name in admissible.toml."""
     sign, *words = text.split()
     bounds = [_number(word) for word in words]
@@ -157,7 +157,7 @@ def _function(text: str) -> Callable[..., Any]:
     return methodcaller(name, *words) if words else attrgetter(name)
 
 
-def cases(said: Mapping[str, Any], r: Results) -> tuple[Case, ...]:
+def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
     """The scenarios of a claim or a check, each held against its limit; none where no run can decide."""
     if "scenarios" not in said:
         return ()
@@ -165,22 +165,22 @@ def cases(said: Mapping[str, Any], r: Results) -> tuple[Case, ...]:
     variant = _function(said["variant"]) if "variant" in said else None
     bound, round_off = limit(said["limit"]), _number(said.get("round_off", str(ROUND_OFF)))
     return tuple(
-        Case.of(name, AtTwoSteps.of(measure(x)), bound, round_off, variant and variant(name, x))
+        Probe.of(name, AtTwoSteps.of(measure(x)), bound, round_off, variant and variant(name, x))
         for name, x in _function(said["scenarios"])(r).items()
     )
 
 
-def row_of(said: Mapping[str, Any], r: Results) -> Row:
+def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
     of_claim = cases(said, r)
-    word = said.get("word") or word_of(of_claim)
+    word = said.get("word") or word_of_claim(of_claim)
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
     values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
     values |= _function(said["values"])(r) if "values" in said else {}
     number, reason, finding = (
         str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
     )
-    return Row(
+    return Claim(
         said["claim"].format(**values),
         said["where"],
         word,
@@ -194,20 +194,20 @@ def row_of(said: Mapping[str, Any], r: Results) -> Row:
     )
 
 
-def rows(r: Results) -> list[Row]:
+def rows(r: Runs) -> list[Claim]:
     """Every claim of the paper with what became of it, in the order of the report."""
-    named = (said for said in texts().values() if isinstance(said, dict))
+    named = (said for said in all_texts().values() if isinstance(said, dict))
     return [row_of(said, r) for said in named if "claim" in said]
 
 
-def findings(r: Results, of_claims: Iterable[Row]) -> list[str]:
+def findings(r: Runs, of_claims: Iterable[Claim]) -> list[str]:
     """One line for each main finding: those of claims, then those that the paper says nothing of."""
-    beyond = texts()["beyond"].values()
+    beyond = all_texts()["beyond"].values()
     of_others = [said["finding"].format(**_function(said["values"])(r)) for said in beyond]
     return [row.finding for row in of_claims if row.finding] + of_others
 
 
-def checks(r: Results, of_claims: list[Row]) -> list[Check]:
+def checks(r: Runs, of_claims: list[Claim]) -> list[Check]:
     """All checks of a reproduction: those of checks.toml, and those of its claims."""
     result = []
     for said in packaged("biped_adrc.paper", "checks.toml")["check"]:
@@ -217,7 +217,7 @@ def checks(r: Results, of_claims: list[Row]) -> list[Check]:
     return [*result, *claim_checks(of_claims)]
 
 
-def claim_checks(rows: Sequence[Row]) -> list[Check]:
+def claim_checks(rows: Sequence[Claim]) -> list[Check]:
     """The checks of the claims, for the exit code of the reproduction.
 
     Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
@@ -232,7 +232,7 @@ def claim_checks(rows: Sequence[Row]) -> list[Check]:
     return result
 
 
-def tally(rows: Iterable[Row]) -> str:
+def tally(rows: Iterable[Claim]) -> str:
     """How many claims have which word, in the order of the words."""
     result = Counter(row.word for row in rows)
-    return ", ".join(f"{word} {result[word]}" for word in texts()["words"])
+    return ", ".join(f"{word} {result[word]}" for word in all_texts()["words"])

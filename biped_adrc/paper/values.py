@@ -16,12 +16,12 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.pushes import LOST
-from biped_adrc.paper.runs import Results
+from biped_adrc.paper.runs import Runs
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.two_steps import Extremes
 
 
-def of_headline(r: Results) -> dict[str, object]:
+def of_headline(r: Runs) -> dict[str, object]:
     """How both controllers walk under the headline push."""
     npd, adrc = r.pair("push")
     slow = r.pair("rising push")
@@ -37,7 +37,7 @@ def of_headline(r: Results) -> dict[str, object]:
     }
 
 
-def of_members(r: Results) -> dict[str, object]:
+def of_members(r: Runs) -> dict[str, object]:
     """Extremes over the declared choices."""
     every = [o for part in r.members.values() for o in part]
     adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
@@ -58,12 +58,12 @@ def of_members(r: Results) -> dict[str, object]:
     }
 
 
-def of_recipe_push(r: Results) -> dict[str, object]:
+def of_recipe_push(r: Runs) -> dict[str, object]:
     """The push on gait (b)."""
     return {"peaks": Extremes.of(map(m.error_ratio, m.pushed("pushed_recipe", r).values()))}
 
 
-def of_map(r: Results) -> dict[str, object]:
+def of_map(r: Runs) -> dict[str, object]:
     """What became of the pushes that throw NPD."""
     known = [c for c in r.cells if c.certain]
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
@@ -78,7 +78,7 @@ def of_map(r: Results) -> dict[str, object]:
     }
 
 
-def of_torso(r: Results) -> dict[str, object]:
+def of_torso(r: Runs) -> dict[str, object]:
     """Up to which push of the torso a walk goes on."""
     every = m.torso(r)
     stopped: dict[str, str] = {}
@@ -91,12 +91,12 @@ def of_torso(r: Results) -> dict[str, object]:
     return {"stops": stops, "alike": "" if alike else "not "}
 
 
-def of_heavier(r: Results) -> dict[str, object]:
+def of_heavier(r: Runs) -> dict[str, object]:
     """The largest error of ADRC over NPD's under a heavier plant."""
     return {"errors": Extremes.of(map(m.error, m.heavier(r).values()))}
 
 
-def of_orders(r: Results) -> dict[str, object]:
+def of_orders(r: Runs) -> dict[str, object]:
     """What the order of the observer costs and gives."""
     orders = next(iter(r.orders.values()))
     table, band, delay = orders.values()
@@ -112,13 +112,13 @@ def of_orders(r: Results) -> dict[str, object]:
     }
 
 
-def of_jumps(r: Results) -> dict[str, object]:
+def of_jumps(r: Runs) -> dict[str, object]:
     """What is not smooth at an impact and at an edge."""
     every = [*r.jumps.values()]
     return {name: Extremes(x[name] for x in every) for name in every[0]}
 
 
-def of_cycles(r: Results) -> dict[str, object]:
+def of_cycles(r: Runs) -> dict[str, object]:
     """The largest multiplier of gait (a) beside the closed form."""
     npd, more = r.multipliers["NPD"], ""
     if "ADRC" in r.multipliers:
@@ -128,7 +128,7 @@ def of_cycles(r: Results) -> dict[str, object]:
     return {"largest": largest, "delta_squared": npd.delta_squared, "observer": more}
 
 
-def of_needs(r: Results) -> dict[str, object]:
+def of_needs(r: Runs) -> dict[str, object]:
     """What gait (b) costs and asks of the motors, undisturbed, beside gait (a)."""
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
@@ -136,7 +136,7 @@ def of_needs(r: Results) -> dict[str, object]:
     return {"costs": "; ".join(costs), "torques": torques}
 
 
-def of_starts(r: Results) -> dict[str, object]:
+def of_starts(r: Runs) -> dict[str, object]:
     """Which starts walk on."""
     every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
@@ -163,7 +163,7 @@ def noise_spectrum() -> Array:
     return np.median(result, axis=0)
 
 
-def of_printed(r: Results) -> dict[str, object]:
+def of_printed(r: Runs) -> dict[str, object]:
     """The printed multipliers, what a tracking error does, and what noise gives."""
     return {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
@@ -175,13 +175,13 @@ def of_printed(r: Results) -> dict[str, object]:
     }
 
 
-def of_held(r: Results) -> dict[str, object]:
+def of_held(r: Runs) -> dict[str, object]:
     """The held joint, simulated and by (23)."""
     simulated, _, corrected, printed = tuple(r.figures.values())[:4]
     return {"simulated": simulated, "corrected": corrected, "printed": printed, "gains": TABLE_II}
 
 
-def of_poles(r: Results) -> dict[str, object]:
+def of_poles(r: Runs) -> dict[str, object]:
     """The poles of the observer, and the distance of the undisturbed walks from x*."""
     farthest = float(np.max([m.distance(o) for o in r.on_gait("a").values()]))
     return {"slow": -max(TABLE_I), "fast": -min(TABLE_I), "farthest": farthest}

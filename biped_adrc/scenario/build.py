@@ -18,11 +18,13 @@ from typing import Any, cast
 
 import numpy as np
 
+from biped_adrc.analysis.stability import cycle_start
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import construct, find, part_of_user, takes
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
@@ -50,7 +52,6 @@ from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.hardware import EncoderRecord
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken, named_part
-from biped_adrc.scenario.registry import construct, find, part_of_user, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
@@ -110,8 +111,6 @@ class RobotAndGait:
         coordinates. Raises InputError for a coordinate that the robot does not have.
         """
         if self.cycle is not None:
-            from biped_adrc.scenario.cycle import cycle_start
-
             return cycle_start(self.biped, self.slope(s))
         q, v = self.on_orbit
         x, random = s.start, np.random.default_rng(drawn(s, "start"))

@@ -22,17 +22,17 @@ import numpy as np
 from biped_adrc.control.around import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.errors import unknown
+from biped_adrc.core.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.records import Misfit, named_part
-from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
-Values = dict[str, Any]
+Arguments = dict[str, Any]
 AROUND = ("contact", "prediction", "feedforward", "inner", "name")
 """Values of a controller's record that its constructor does not take."""
 CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
@@ -52,7 +52,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
     Raises InputError for a class that is not there or lacks something, and a value that nothing takes.
     """
     h, rows = gait.constraint, np.eye(biped.n)[: biped.p]
-    known: Values = {
+    known: Arguments = {
         "biped": biped,
         "gait": gait,
         "reference": h,
@@ -63,7 +63,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
     return _made("controller", s.controller, known)
 
 
-def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
+def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     """The controller of a record; place: its dotted name, for messages.
 
     An outer loop stays around the policies of the inner one: its state does not begin anew at a touchdown.
@@ -89,7 +89,7 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     return law if outer else _around(place, c, law, known)
 
 
-def _around(place: str, c: ControllerRecord, law: Controller, known: Values) -> Controller:
+def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) -> Controller:
     """A controller with the policy across contact around it, and what has a number in the registry."""
     contact = c.contact
     if contact.name is not None:
@@ -105,7 +105,7 @@ def _around(place: str, c: ControllerRecord, law: Controller, known: Values) -> 
 
 def _values(
     what: str, make: Callable[..., object], c: ControllerRecord, defaults: Mapping[str, Any]
-) -> tuple[Values, set[str]]:
+) -> tuple[Arguments, set[str]]:
     """What the constructor takes of a record, and the dotted names of the values that were used.
 
     A gain that is given replaces that one of the constructor's default gains. defaults: of the registry's
@@ -131,7 +131,7 @@ def _values(
 
 
 def _observer(
-    what: str, make: Callable[..., object], o: ObserverRecord, settings: Values
+    what: str, make: Callable[..., object], o: ObserverRecord, settings: Arguments
 ) -> tuple[Observer | None, set[str]]:
     """The observer for a controller, and the names it took; None where the controller's default holds.
 

@@ -19,18 +19,13 @@ from functools import lru_cache
 from biped_adrc.analysis.loops.frozen_gait import FrozenGait
 from biped_adrc.analysis.loops.specification import Specification, specification
 from biped_adrc.analysis.return_map import ReturnMap
-from biped_adrc.analysis.stability import SETTLES, Cycle
-from biped_adrc.analysis.variational import periodic_orbit
-from biped_adrc.closed_loop.walker import Mode, Walker
-from biped_adrc.control.base import Passive
+from biped_adrc.analysis.stability import Cycle, known_cycle
+from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
-from biped_adrc.gait.published import passive_cycle
-from biped_adrc.hybrid.integrators import RK4, Adaptive
-from biped_adrc.model.biped import Biped
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
+from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
-from biped_adrc.scenario.walk import methods_of
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
@@ -43,33 +38,6 @@ NO_MAP = (
 """Values and records of a scenario that have no effect on a return map."""
 FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
 """The same of a robot without motors."""
-LIGHT_FEET = 5e-4
-"""Half width of central differences of the return map P for robots without motors [rad, rad/s]: wider than
-usual, since light feet leave a round-off of 1e-10 in P."""
-
-
-def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
-    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
-
-    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
-    """
-    known = passive_cycle(biped)
-    angle = known.slope if slope is None else slope
-    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
-    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
-    start = walker.initial_state(known.q_plus, known.v_plus)
-    return Cycle(P, P.next_impact(walker, start, Mode()).x_minus)
-
-
-def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
-    """(q, v), each (n,) [rad, rad/s], just after the impact of the cycle on a slope [rad].
-
-    Raises SimulationError where Newton's method finds no cycle.
-    """
-    cycle, n = known_cycle(biped, slope), biped.n
-    orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
-    after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
-    return after.q, after.v
 
 
 def gait_cycle(s: Scenario, observer_states: bool = True) -> Cycle:

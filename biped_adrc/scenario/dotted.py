@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Collection, Mapping
 from typing import Any
 
 NAME = ""
 """Key of a record's obvious name in plain values."""
-MANY = 20
-"""Names that a message lists at most, before it names the records alone."""
 
 
 def nested(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -53,24 +50,3 @@ def flat(
         else:
             made[f"{before}{name}"] = tuple(x) if isinstance(x, list) else x
     return made
-
-
-def unknown(name: str, known: Iterable[str]) -> str:
-    """The sentence for a name that does not exist: alike ends, near ones, or all of its record."""
-    known, (record, dot, last) = list(known), name.rpartition(".")
-    beside = [whole for whole in known if dot and whole.startswith(record + dot)]
-    ends: dict[str, list[str]] = {}
-    for whole in known:
-        parts = whole.split(".")
-        for k in range(len(parts)):  # records have names too
-            ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
-    alike = [ends[end][0] for end in get_close_matches(last, ends, 2)]
-    near = ends.get(last) or [*get_close_matches(name, known, 2, 0.8), *alike]
-    if last not in ends and beside:
-        known, near = beside, [x for x in near if x in beside]
-    near = list(dict.fromkeys(near))[:3]
-    if near:
-        return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
-    if len(known) > MANY:
-        known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
-    return f"unknown name; choose from {known}" if known else "unknown name; leave it out"

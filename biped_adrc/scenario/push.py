@@ -18,8 +18,8 @@ from decimal import Decimal
 from typing import Any
 
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import find
 from biped_adrc.scenario.records import OpenRecord, field
-from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity
 
 RANDOM = "random"

@@ -20,6 +20,7 @@ reproduction of the paper read it.
 
 from __future__ import annotations
 
+import json
 import tempfile
 import webbrowser
 from collections.abc import Mapping
@@ -29,31 +30,35 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.analysis.signals import PLACE, Signals, integrate, recorded, signals
+from biped_adrc.analysis.signals import PLACE, Signals, recorded, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
+from biped_adrc.analysis.statistics import rms
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.errors import InputError, optional
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.versions import versions
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import TimeReference
+from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import remarks
+from biped_adrc.scenario.integration import WalkPart, rounding
+from biped_adrc.scenario.plain_parts import Writer
+from biped_adrc.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
-
-    from biped_adrc.scenario.scenario import Scenario
-    from biped_adrc.scenario.walk import Part
 
 OF_JOINTS = {
     "q": "q{} [rad]",
@@ -131,7 +136,7 @@ class Walk(Shown):
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[WalkPart, ...] = ()
     """How it was integrated, on the rigid plant; empty for a walk from a file, and for one that is cut."""
 
     def __repr__(self) -> str:
@@ -243,9 +248,6 @@ class Walk(Shown):
             )
         run, s = self.trajectory, self.signals.before_fall
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
-        squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
-        duration = s.t[-1] - s.t[0]
-        mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
         return Outcome(
             self.scenario,
             run.status.name,
@@ -253,7 +255,7 @@ class Walk(Shown):
             run.before(FOOT_STRIKE),
             np.diff(times),
             s.peak_error,
-            float(np.sqrt(max(mean, 0.0))),
+            rms(s.t, s.error),
             self.peak_torque,
             self.certificates,
             self.feasibility,
@@ -287,9 +289,7 @@ class Walk(Shown):
         """How far [rad, s] a walk from 1e-12 aside ends: above 1e-7 rounding decides. Raises InputError without
         `parts`.
         """
-        from biped_adrc.scenario.walk import rounding
-
-        return rounding(self)
+        return rounding(self.walker, self.trajectory, self.parts)
 
     @property
     def controller_name(self) -> str:
@@ -305,11 +305,9 @@ class Walk(Shown):
 
         Of a robot without motors: angles, energies and the phase portrait.
         """
-        from biped_adrc.view.plots.figures import passive_figure, tracking_figure
+        from biped_adrc.view.plots.figures import walk_figure
 
-        if self.walker.plant.p == 0:
-            return passive_figure(self.signals, title, push)
-        return tracking_figure(self.signals, title, push, self.walker.torque_limit)
+        return walk_figure(self, title, push)
 
     def animate(self, path: Path | str, view: str = "side") -> None:
         """Write the walk by the suffix of `path`: an offline page (.html), a picture (.gif) or a strip (.png).
@@ -333,9 +331,16 @@ class Walk(Shown):
 
         settings: more plain values beside them. Raises InputError and OutputError.
         """
-        from biped_adrc.scenario.stored import save_walk
-
-        return save_walk(self, path, settings)
+        writer = Writer()
+        walker, gait = writer.part(self.walker), writer.plain(self.gait)
+        record = {"parts": writer.records, "walker": walker, "gait": gait}
+        about: dict[str, object] = {"versions": versions(), "remarks": list(self.remarks)}
+        about["states"] = list(self.walker.layout_of(self.trajectory.arcs[0].x[0]).names())
+        if self.scenario is not None:
+            about["scenario"] = self.scenario.record()
+        arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}
+        arrays |= {f"signal.{k}": x for k, x in vars(self.signals).items()}
+        return storage.save(self.trajectory, path, {**about, **(settings or {})}, arrays)
 
     def _columns(self) -> dict[str, Any]:
         """Columns (K,) by name with unit: floats, `step` of int, `event` of text, empty elsewhere."""

@@ -13,13 +13,10 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
-import ast
 import operator
-import sys
 from collections.abc import Collection, Mapping
+from dataclasses import asdict
 from functools import lru_cache
-from inspect import getsource
-from itertools import pairwise
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
@@ -34,11 +31,11 @@ from pydantic import (
     model_validator,
 )
 
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
+from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
 from biped_adrc.core.shown import call_text
-from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
-from biped_adrc.scenario.registry import construct, find, known_name, portable, takes, unit_in
+from biped_adrc.scenario.dotted import NAME, flat, merged, nested
 from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")
@@ -62,8 +59,7 @@ def field(default: Any, unit: str = "", kind: str = "", **limits: Any) -> Any:
 
     The docstring below the field is its help text.
     """
-    extra: Any = {"unit": unit, "kind": kind, "limits": tuple(limits.items())}
-    return Field(default, json_schema_extra=extra)
+    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
 
 
 class Misfit(InputError):
@@ -125,7 +121,7 @@ class Described(NamedTuple):
 
     def read(self, x: Any) -> Any:
         """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
-        x = converted(self, plain(x))
+        x = converted(self, as_python(x))
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
@@ -155,7 +151,13 @@ class Described(NamedTuple):
 class Record(BaseModel):
     """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        defer_build=True,
+        use_attribute_docstrings=True,
+    )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
     APART: ClassVar[tuple[tuple[str, str], ...]] = ()
@@ -234,10 +236,8 @@ class Record(BaseModel):
                 raise Misfit(name, unknown(name, cls.names()))
             inner = record_in(at, part)
             if inner is None:
-                text = texts(at)[part]
-                if inside:  # of a table
-                    return Described(name, (float,), text=text)
-                return described(at, part, name)._replace(text=text)
+                what = described(at, part, name)
+                return Described(name, (float,), text=what.text) if inside else what  # of a table
             at = inner
         if at.SHORT in at.model_fields:
             return at.field_of(at.SHORT)._replace(name=name)
@@ -320,7 +320,7 @@ class OpenRecord(Record):
     model_config = ConfigDict(extra="allow")
 
 
-def plain(x: Any) -> Any:
+def as_python(x: Any) -> Any:
     """A value without NumPy's types, and lists of numbers and texts as tuples."""
     if isinstance(x, np.generic | np.ndarray):
         x = x.tolist()
@@ -362,7 +362,7 @@ def by_default(cls: type[Record]) -> Record:
 
 @lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
-    """One field of a record, but for its text."""
+    """One field of a record."""
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
@@ -370,25 +370,9 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     if record_in(cls, name):
         types = (object, *types)
     more: Any = info.json_schema_extra
-    default = info.get_default(call_default_factory=True)
-    return Described(place or name, types, default=default, choices=choices, **more)
-
-
-@lru_cache
-def texts(cls: type[Record]) -> Mapping[str, str]:
-    """The docstrings below the fields of a record, by name; pydantic would read all at every import."""
-    return {
-        ast.unparse(field.target): ast.literal_eval(below.value)
-        for field, below in pairwise(_bodies(cls.__module__)[cls.__name__])
-        if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr)
-    }
-
-
-@lru_cache
-def _bodies(module: str) -> Mapping[str, list[ast.stmt]]:
-    """What stands in the classes of a module, by their names."""
-    tree = ast.parse(getsource(sys.modules[module]))
-    return {x.name: x.body for x in tree.body if isinstance(x, ast.ClassDef)}
+    limits = tuple(pair for x in info.metadata for pair in asdict(x).items())
+    default, text = info.get_default(call_default_factory=True), info.description or ""
+    return Described(place or name, types, limits, default, text, choices, **more)
 
 
 def _members(hint: Any) -> tuple[Any, ...]:
@@ -407,8 +391,7 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
     result = error.errors()[0]
-    parts = map(str, result["loc"])
-    place = ".".join(part for part in parts if part not in _LABELS and "[" not in part)
+    place = dotted_place(result)
     inner = result.get("ctx", {}).get("error")
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)
@@ -417,15 +400,3 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, cls.names()), known=False)
     return Misfit(place, complaint(result))
-
-
-def complaint(error: Mapping[str, Any]) -> str:
-    """One error of pydantic's as what was found and what was expected."""
-    text: str = error["msg"].removeprefix("Value error, ")
-    if text.startswith("Input should"):
-        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
-    return text
-
-
-_LABELS = ("float", "int", "bool", "str")
-"""What pydantic names the members of a union in the place of an error."""

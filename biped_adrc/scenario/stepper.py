@@ -45,9 +45,9 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
+from biped_adrc.scenario.integration import check_start, default_method, methods_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import check_start, default_method, methods_of
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""

@@ -22,15 +22,15 @@ from typing import Any, NamedTuple
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError, ModelError
+from biped_adrc.core.registry import find, is_own
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.program import COMPILED, numbers_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
-from biped_adrc.scenario.registry import find, is_own
+from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
-from biped_adrc.scenario.walk import methods_of
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""

@@ -23,7 +23,7 @@ from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
 from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
-from biped_adrc.studies.runner import Crew, Progress, Runner
+from biped_adrc.studies.runner import Crew, Runner, StudyProgress
 from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, located, read_study
 
@@ -37,7 +37,7 @@ def study(
     workers: Executor | int | None = None,
     *,
     cluster: str | None = None,
-    progress: Callable[[Progress], None] | None = None,
+    progress: Callable[[StudyProgress], None] | None = None,
     function: Function | None = None,
 ) -> Results:
     """Make all walks of a study whose rows are not yet in the folder `out`, and hand out its results.

@@ -19,14 +19,13 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from biped_adrc.analysis.loops.specification import Specification
-from biped_adrc.core.errors import BipedError
+from biped_adrc.core.errors import BipedError, unknown
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.cycle import specification_of
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.scenario import GroundRecord
 from biped_adrc.studies.build import Values, scenario_of, scene_of
 from biped_adrc.studies.run import COLUMNS, WORDS
-from biped_adrc.studies.space import Part
+from biped_adrc.studies.space import Section
 
 OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
 """Columns that every walk has, however it ended."""
@@ -65,7 +64,7 @@ Over = Literal["median", "mean", "worst"] | Annotated[float, Field(gt=0.0, lt=1.
 """What is taken over all walks: a float is a quantile, of which the next worse walk counts."""
 
 
-class Measure(Part):
+class Measure(Section):
     """A column, and how many walks become one number of it."""
 
     column: Column
@@ -112,7 +111,7 @@ class Measure(Part):
         return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
 
 
-class Objective(Measure):
+class Aim(Measure):
     """A measure that is to be small, or large."""
 
     goal: Literal["minimise", "maximise"] = "minimise"

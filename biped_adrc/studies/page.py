@@ -17,7 +17,7 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.measure import OF_ALL, Row, is_counted
 from biped_adrc.studies.results import Group, Line, Results
 from biped_adrc.studies.run import COLUMNS
-from biped_adrc.view.pages import data_uri, plain, rendered
+from biped_adrc.view.pages import as_text, data_uri, rendered
 from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
 from biped_adrc.view.style import render
 
@@ -54,7 +54,7 @@ def chosen(found: Results) -> dict[str, str]:
     variables = found.study.search.variables if found.study.search else ()
     return {
         name or "chosen": f"candidate {x.selected[0].number}, "
-        + ", ".join(f"{k} = {plain(x.values[k])}" for k in variables if k in x.values)
+        + ", ".join(f"{k} = {as_text(x.values[k])}" for k in variables if k in x.values)
         for name, x in found.choices.items()
     }
 

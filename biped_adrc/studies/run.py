@@ -32,12 +32,12 @@ from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
+from biped_adrc.core.registry import FOLDERS
 from biped_adrc.engine.batch import BatchWalk, left_by, run_case
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.registry import FOLDERS
 from biped_adrc.scenario.walk import walk_scenario
 from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
 

@@ -18,10 +18,10 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from biped_adrc.core.errors import InputError, SimulationError, optional
-from biped_adrc.core.processes import cores, processes, stop
+from biped_adrc.core.processes import cores, end_all, processes
+from biped_adrc.core.registry import FOLDERS
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
-from biped_adrc.scenario.registry import FOLDERS
 from biped_adrc.studies.build import CRASHED
 from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of
@@ -45,7 +45,7 @@ class WorkersError(SimulationError):
     exit_code = 3
 
 
-class Progress(NamedTuple):
+class StudyProgress(NamedTuple):
     """How far a study is: walks done and in all, and what is new."""
 
     done: int
@@ -80,7 +80,7 @@ class Crew:
         if self.cluster is not None:
             self.client.close(timeout=2)
         elif self.executor is not self.workers:
-            stop(self.executor)
+            end_all(self.executor)
 
     def start(self) -> None:
         """Start the executor, if it is none of the user's."""
@@ -105,7 +105,7 @@ class Crew:
             return  # which starts workers itself
         if self.executor is self.workers:
             raise WorkersError("a worker of the executor died, which the study cannot start anew")
-        stop(self.executor)
+        end_all(self.executor)
         self.start()
 
 
@@ -151,7 +151,7 @@ class Runner:
     total: int
     there: Container[int] = ()
     """Places that have a row already."""
-    progress: Callable[[Progress], None] | None = None
+    progress: Callable[[StudyProgress], None] | None = None
     done: int = 0
     crashed: int = 0
     pending: dict[Future[Any], Sequence[Point]] = field(default_factory=dict)
@@ -175,7 +175,7 @@ class Runner:
     def tell(self, note: str = "") -> None:
         """Report progress."""
         if self.progress is not None:
-            self.progress(Progress(self.done, max(self.total, self.done), note))
+            self.progress(StudyProgress(self.done, max(self.total, self.done), note))
 
     def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
         """The points without a row."""

@@ -48,8 +48,8 @@ from pydantic import BeforeValidator, Field
 from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
-from biped_adrc.studies.measure import Limit, Measure, Objective, Row, numbers_without_walk
-from biped_adrc.studies.space import Part, Range, Seeds, each, read_list, read_range, table
+from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without_walk
+from biped_adrc.studies.space import Section, Seeds, Span, each, read_list, read_range, table
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
@@ -57,7 +57,7 @@ FINALISTS = 5
 """Candidates on the second set of walks where the file does not say."""
 
 
-class WalkSet(Part):
+class WalkSet(Section):
     """On what candidates are walked: each of the seeds under each of the conditions."""
 
     seeds: Seeds = Field(min_length=1)
@@ -65,7 +65,7 @@ class WalkSet(Part):
     """Names of the study's conditions; empty: all."""
 
 
-class WalkSets(Part):
+class WalkSets(Section):
     """The three sets of walks, without a seed in common."""
 
     search: WalkSet
@@ -73,10 +73,10 @@ class WalkSets(Part):
     test: WalkSet
 
 
-class Variable(Part):
+class Variable(Section):
     """One thing that the search may change: the numbers of a range, or one of several choices."""
 
-    range: Range | None = None
+    range: Span | None = None
     """Of a number; None for choices."""
     choices: tuple[Any, ...] = ()
     """Values to choose from; empty for a range."""
@@ -111,11 +111,11 @@ Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(va
 """Variables by name, read with their units."""
 
 
-class Search(Part):
+class Search(Section):
     """What is searched, and how candidates are judged."""
 
     variables: Variables = Field(min_length=1)
-    objective: Objective
+    objective: Aim
     limits: tuple[Limit, ...] = ()
     """What a candidate has to keep."""
     walks: WalkSets
@@ -213,7 +213,7 @@ ASKED = 8
 MISSED = 1e30
 """What the sampler is told of a candidate that misses limits, times 1 + what it misses."""
 
-Walk = Callable[[Sequence[Candidate]], Sequence[Walks]]
+WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 """From candidates to their walks, in the same order."""
 
 
@@ -228,7 +228,7 @@ def optuna_library() -> Any:
 
 
 def searched(
-    search: Search, base: Values, walk: Walk, report: Callable[[Candidate], None]
+    search: Search, base: Values, walk: WalkAll, report: Callable[[Candidate], None]
 ) -> list[Candidate]:
     """All candidates of a case by number; number 0 is the case itself, with the values `base`.
 

@@ -12,25 +12,21 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from biped_adrc.core.errors import problem
 from biped_adrc.scenario.dotted import flat
-from biped_adrc.scenario.records import Misfit, complaint
+from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
 MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
 
 
-class Part(BaseModel):
+class Section(BaseModel):
     """A part of a study: it cannot be changed, and takes no other keys."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True
     )
-
-
-def problem(error: Any) -> str:
-    """One error of pydantic's in words: its place, what was found and what was expected."""
-    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), complaint(error)])
 
 
 def table(value: object) -> dict[str, Any]:
@@ -55,7 +51,7 @@ def each(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     return result
 
 
-class Range(Part):
+class Span(Section):
     """An interval of one field, in its SI unit."""
 
     low: float = Field(alias="from", strict=True)
@@ -66,7 +62,7 @@ class Range(Part):
     """Integers only, both ends included."""
 
     @model_validator(mode="after")
-    def _ordered(self) -> Range:
+    def _ordered(self) -> Span:
         """Raises ValueError for ends in another order, and whole or negative numbers on a log scale."""
         log = self.scale == "log"
         if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
@@ -86,7 +82,7 @@ class Range(Part):
         return self.low + (self.high - self.low) * w
 
 
-class Levels(Range):
+class Levels(Span):
     """Levels of one field of the grid, evenly spaced on the scale."""
 
     count: int = Field(ge=1, le=MOST)
@@ -98,10 +94,10 @@ class Levels(Range):
         return levels
 
 
-R = TypeVar("R", bound=Range)
+R = TypeVar("R", bound=Span)
 
 
-def read_range(name: str, value: object, kind: type[R] = Range) -> R:  # type: ignore[assignment]
+def read_range(name: str, value: object, kind: type[R] = Span) -> R:  # type: ignore[assignment]
     """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
     types, keys = Scenario.field_of(name).types, table(value)
     whole = int in types and float not in types
@@ -148,11 +144,11 @@ Grid = Annotated[dict[str, tuple[Any, ...]], BeforeValidator(lambda value: each(
 Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
 Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
-Ranges = Annotated[dict[str, Range], BeforeValidator(lambda value: each(value, read_range))]
+Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: each(value, read_range))]
 """Ranges by name."""
 
 
-class Draw(Part):
+class Draw(Section):
     """Samples of all ranges together: each sample has one value of every field."""
 
     kind: Literal["random", "sobol"] = "sobol"

@@ -28,16 +28,15 @@ from typing import Any, NamedTuple
 
 from pydantic import Field, ValidationError, model_validator
 
-from biped_adrc.core.errors import BipedError, InputError, ReachError
+from biped_adrc.core.errors import BipedError, InputError, ReachError, problem, unknown
 from biped_adrc.core.files import beside, reading
+from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
-from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.registry import FOLDERS, is_own, top_of
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 from biped_adrc.studies.build import SEED, Record, differ, scenario_of, trial_of, versions_of
-from biped_adrc.studies.measure import Column, Limit, Measure, Objective
+from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
-from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
+from biped_adrc.studies.space import Draw, Grid, Section, Seeds, Sets, Values
 
 Undrawn = frozenset[tuple[str, str]]
 """Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
@@ -69,7 +68,7 @@ class Point(NamedTuple):
     record: Record
 
 
-class Study(Part):
+class Study(Section):
     """What is varied and what is not, in SI units, checked; `read_study` makes it of a file or of tables."""
 
     name: str = Field(min_length=1)
@@ -307,7 +306,7 @@ def _problem(error: Any) -> str:
     """One thing that is wrong in a file; an unknown key with the nearest ones."""
     if error["type"] != "extra_forbidden":
         return problem(error)
-    inside = (Search, WalkSets, Variable, Objective, Limit)
+    inside = (Search, WalkSets, Variable, Aim, Limit)
     parts = (Study,) if len(error["loc"]) == 1 else inside
     known = sorted({name for part in parts for name in part.model_fields})
     text = unknown(str(error["loc"][-1]), known).replace("name;", "key;")

@@ -48,7 +48,7 @@ def rendered(template: str, package: str = HERE, **values: object) -> str:
     """Fill in a page's template; returns the text of the page.
 
     template: name of the file, in `package` or here. values: for the names in it. Every value is escaped as
-    HTML, and written by `plain`: floats with four significant digits.
+    HTML, and written by `as_text`: floats with four significant digits.
     """
     return _environment(package).get_template(f"{template}.html.j2").render(values)
 
@@ -59,7 +59,7 @@ def _environment(package: str) -> Environment:
     places = [files(package), files(HERE), files(HERE) / "templates"]
     loader = FileSystemLoader([str(place) for place in places])
     environment = Environment(
-        loader=loader, autoescape=True, finalize=plain, trim_blocks=True, lstrip_blocks=True
+        loader=loader, autoescape=True, finalize=as_text, trim_blocks=True, lstrip_blocks=True
     )
     environment.globals |= {
         "policy": POLICY,
@@ -70,7 +70,7 @@ def _environment(package: str) -> Environment:
     return environment
 
 
-def plain(value: object) -> str:
+def as_text(value: object) -> str:
     """Text of a value on a page: texts as they are, a dash for None, yes or no, floats with four digits.
 
     Entries of mappings and lists are joined with commas, recursively.
@@ -84,9 +84,9 @@ def plain(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.4g}"
     if isinstance(value, Mapping):
-        return ", ".join(f"{key}: {plain(item)}" for key, item in value.items())
+        return ", ".join(f"{key}: {as_text(item)}" for key, item in value.items())
     if isinstance(value, Sequence):
-        return ", ".join(plain(item) for item in value)
+        return ", ".join(as_text(item) for item in value)
     return str(value)
 
 

@@ -2,7 +2,7 @@
 
 All drawings of a walk, from the side or in Meshcat, start here: `WalkScene.of` lays a trajectory
 out along the ground, `WalkScene.joints` gives the joint values of the URDF at any time,
-`link_placements` the links, `loads` the forces. Kinematics are those of the URDF's tree alone;
+`link_placements` the links, `loads_at` the forces. Kinematics are those of the URDF's tree alone;
 Pinocchio is not needed to draw.
 
 The model's stance foot is always at the origin and q is relabelled at impact, so that the model
@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -232,6 +232,14 @@ class Recorded(Protocol):
     def recorded(self) -> Signals | None: ...
 
 
+@runtime_checkable
+class Drawable(Recorded, Protocol):
+    """A walk with its signals at hand, the tracking error among them."""
+
+    @property
+    def signals(self) -> Signals: ...
+
+
 @dataclass(frozen=True)
 class WalkScene:
     """A walk laid out in the world: every single support with the place of its stance foot.
@@ -318,7 +326,7 @@ class DrawnLoads(NamedTuple):
     """Whether a foot slides with its force at the friction cone."""
 
 
-def loads(scene: WalkScene, t: float) -> DrawnLoads:
+def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
     """Forces and torques on the robot at the last stored node up to t [s]; of the ends of the run outside it.
 
     They are computed from the state at the node, or taken from `recorded`. States of controllers are not
@@ -330,7 +338,7 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
     other, slips = np.zeros(2), False
     if FORCE in arc.read:
         force, other = arc.read[FORCE][k, :2], arc.read[FORCE][k, 2:]
-        zeta, slips = arc.read["zeta"][k], bool(slipping(scene, arc)[k])
+        zeta, slips = arc.read["zeta"][k], bool(foot_slips(scene, arc)[k])
     elif known is None:
         i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
         force, zeta = scene.walker.ground_reaction(i, arc.mode), i.zeta
@@ -342,7 +350,7 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
     return DrawnLoads(force, drawn, other, slips)
 
 
-def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
+def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
     F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
@@ -355,7 +363,7 @@ def contact_changes(scene: WalkScene, arc: Arc) -> Array:
     """
     if FORCE not in arc.read:
         return np.zeros(0)
-    contact = np.column_stack((slipping(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
+    contact = np.column_stack((foot_slips(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
     times: Array = arc.t[1:][np.any(contact[1:] != contact[:-1], axis=1)]
     return times
 

@@ -20,6 +20,7 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import find, names
 from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.gait.constraint import CorrectedConstraint, continued
 from biped_adrc.gait.curves import BSpline, Curve
@@ -31,7 +32,6 @@ from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod, Stiff
 from biped_adrc.model.planar import link_point
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.scenario.registry import find, names
 
 from .conforms import PERIOD, SLOW, conforms, gait, heavy, loop_compiles, outputs, robot, written
 

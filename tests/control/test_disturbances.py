@@ -9,6 +9,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import find
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import HipForce, OnLink
 from biped_adrc.disturbances.recorded import RecordedTorque
@@ -18,7 +19,6 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.scenario.build import RobotAndGait, disturbances, window
-from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.scenario import Scenario
 
 F = (12.0, -7.0, 3.0)  # [N, N, N m]

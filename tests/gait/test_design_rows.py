@@ -11,7 +11,7 @@ import pytest
 from biped_adrc.gait.design.nlp import LATE, transcribe
 from biped_adrc.gait.design.optimise import _bounds, audit
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits, StepLimits
-from biped_adrc.gait.design.step import Unknowns, at_gait, flat
+from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
@@ -58,7 +58,7 @@ def rows(robot, limits, unknowns):
     """For a name, the numbers of all rows that have it, with their bounds."""
     numbers, direction = unknowns
     programme, _ = transcribe(robot, ASKED, limits, direction)
-    x = flat(numbers)
+    x = stacked(numbers)
 
     def of(name: str) -> list[tuple[np.ndarray, float, float]]:
         found = [row for row in programme.rows if row.name == name]
@@ -147,7 +147,7 @@ def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give(robot, limits
     for clearance in (0.02, None):
         programme, _ = transcribe(robot, ASKED, replace(limits, clearance=clearance), direction)
         names = [
-            text.split(" by ")[0] for text in programme.in_words(programme.missed(flat(numbers)))
+            text.split(" by ")[0] for text in programme.in_words(programme.missed(stacked(numbers)))
         ]
         assert ("foot clearance" in names) == (clearance is not None)
         assert ("the swing foot above the ground after 50% of the step" in names) == (

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.registry import names
 from biped_adrc.model.robots.robot_toml import load_description, robot_names
-from biped_adrc.scenario.registry import names
 
 HERE = Path(__file__).parent
 FILE = HERE / "walks.json"

@@ -14,7 +14,8 @@ from biped_adrc.cli import app
 from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.gait.conventions import AngleMap
-from biped_adrc.model.physical import check_numbers, checks
+from biped_adrc.model.biped import check_numbers
+from biped_adrc.model.physical import checks
 from biped_adrc.model.robot_import.import_robot import Hints, biped_from_urdf, derive
 from validation.frost_urdf import HUNG, LIMIT, TURNED, bodies, body, joint
 from validation.frost_urdf import rabbit_urdf as rabbit

@@ -92,7 +92,7 @@ def test_states_that_are_no_states(biped):
     ("old", "new", "message"),
     [
         ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "expected 5 finite numbers"),
-        ("mass = 12.0", "mass = -12.0", "mass is -12"),
+        ("mass = 12.0", "mass = -12.0", "torso.mass: found -12"),
         ('unactuated = "torso_pitch"\n', "", "'unactuated' is missing"),
         ('urdf = "floating.urdf"', 'urdf = "../floating.urdf"', "in its own folder or below"),
         ('urdf = "floating.urdf"', 'urdf = "/proc/version"', "in its own folder or below"),

@@ -11,8 +11,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.core.registry import REGISTRY, takes
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
-from biped_adrc.scenario.registry import REGISTRY, takes
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.scenario.walk import walk_scenario

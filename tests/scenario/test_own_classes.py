@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core import registry
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario import registry
 from biped_adrc.scenario.build import build
 from tests.commands import command
 

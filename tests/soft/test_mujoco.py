@@ -12,7 +12,7 @@ from biped_adrc.closed_loop.protocols import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
 from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant
-from biped_adrc.extras.mujoco.robot import compiled, mujoco, pinned_mjcf
+from biped_adrc.extras.mujoco.robot import model_of, mujoco, pinned_mjcf
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import SoftGround, ground_axes
 
@@ -40,7 +40,7 @@ def in_joints_of(model, biped):
 
 
 def test_pinned_it_accelerates_as_pinocchio_says(robot):
-    mj, model, random = mujoco(), compiled(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
+    mj, model, random = mujoco(), model_of(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
     for _ in range(20):
         q, v = random.uniform(-np.pi, np.pi, robot.n), random.normal(size=robot.n)

@@ -14,7 +14,7 @@ from biped_adrc.scenario.cycle import specified
 from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
-from biped_adrc.studies.measure import Limit, Objective, numbers_without_walk
+from biped_adrc.studies.measure import Aim, Limit, numbers_without_walk
 from biped_adrc.studies.search import Candidate, searched
 from biped_adrc.studies.study import read_study
 from tests.commands import command
@@ -123,7 +123,7 @@ FELL = ("", {"survived": 0, "feasible": 0, "rms_error": 0.001})
 REFUSED = ("", {"survived": None, "feasible": None, "rms_error": None})
 
 
-def of(found, kind=Objective, column="rms_error", **more):
+def of(found, kind=Aim, column="rms_error", **more):
     return kind(column=column, **more).of(found, {})
 
 

@@ -11,8 +11,8 @@ import pytest
 from selenium.webdriver import Chrome
 
 import biped_adrc as ba
+from biped_adrc.core.registry import REGISTRY
 from biped_adrc.extras.play.page import FIRST, page, revised
-from biped_adrc.scenario.registry import REGISTRY
 from biped_adrc.scenario.scenario import read_scenario
 
 from .browser import chromium, console

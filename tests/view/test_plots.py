@@ -22,14 +22,14 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf
-from biped_adrc.paper.figures import NAMES, draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
-from biped_adrc.view.plots import figures, over_time
+from biped_adrc.view.plots import over_time
+from biped_adrc.view.plots.figures import NAMES, draw
 from biped_adrc.view.style import render
 
 
@@ -75,7 +75,7 @@ def test_the_panels_of_a_fall_show_what_a_robot_can_do(fallen: Walk) -> None:
     for axes in (angles, knees):
         assert max(np.max(np.abs(finite(x))) for x in axes.get_lines()) < 2.0 * np.pi
     assert errors.get_ylabel() == "tracking error [mrad]"
-    sizes = figures.error_sizes(axes_of_my_own(), {"NPD": fallen.signals})
+    sizes = over_time.error_sizes(axes_of_my_own(), {"NPD": fallen.signals})
     assert np.max(drawn_lines(sizes)["NPD"]) < 0.5
 
 
@@ -143,7 +143,7 @@ def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
     t = np.linspace(0.0, 1.0, 1001)
     error = 0.02 * np.sin(2 * np.pi * 5 * t)
     sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
-    axes = figures.error_sizes(axes_of_my_own(), {"NPD": sine})
+    axes = over_time.error_sizes(axes_of_my_own(), {"NPD": sine})
     np.testing.assert_allclose(
         axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
     )

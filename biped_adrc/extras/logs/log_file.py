@@ -77,7 +77,7 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
     """
     _check_pairs(log.has_rate, biped)
     legs = 2.0 - log.step % 2.0
-    q, v, u = exchanged(legs, log.q, log.rates, log.u, biped)
+    q, v, u = relabel_legs(legs, log.q, log.rates, log.u, biped)
     signals = {"q": q, "v": v, "u": u}
     columns = {"t [s]": log.t, CONTACT: legs.astype(int)}
     for name in _numbered(biped):
@@ -87,7 +87,7 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
     return write_csv(columns, path)
 
 
-def exchanged(
+def relabel_legs(
     legs: Array, q: Array, v: Array, u: Array, biped: Biped
 ) -> tuple[Array, Array, Array]:
     """Exchange the legs in the rows in which leg 2 stands; returns q, v (K, n) and u (K, p).
@@ -186,7 +186,7 @@ def _log(
     check_rows(*log, names)
     check_plausible(log, measured, biped, names)
     if CONTACT in table:
-        q, v, u = exchanged(table[CONTACT], q, v, u, biped)
+        q, v, u = relabel_legs(table[CONTACT], q, v, u, biped)
         log = table["t"], step, q, u, v
     return RobotLog(*log, measured.astype(float), remarks)
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
-from biped_adrc.extras.logs.log_file import exchanged
+from biped_adrc.extras.logs.log_file import relabel_legs
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.model.biped import Biped
 
@@ -56,7 +56,7 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     begins = np.arange(half, len(log.t) - rows - half)
     begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]
     begins = begins[:: len(begins) // 60 + 1]  # evenly over a long log
-    other = exchanged(np.full(len(log.t), 2.0), log.q, log.rates, log.u, biped)
+    other = relabel_legs(np.full(len(log.t), 2.0), log.q, log.rates, log.u, biped)
     readings = {
         "": (log.q, log.u),
         "the other leg stands (exchange 1 and 2 of 'contact')": (other[0], other[2]),

@@ -230,7 +230,7 @@ class Replay(Shown):
         q_b - x1^ [mrad]; the torque of the controller over the one in the log [N m]. The window of contact
         after each touchdown is shaded.
         """
-        from biped_adrc.view.plots.over_time import broken, curves, finished, without_observer
+        from biped_adrc.view.plots.over_time import broken, curves, finished, say_no_observer
         from biped_adrc.view.style import GREY, new_figure
 
         x = self.signals
@@ -246,7 +246,7 @@ class Replay(Shown):
                 (torque, x.torque, "u", "torque asked for [N m]"),
             ):
                 if np.isnan(values).all():
-                    without_observer(axes)
+                    say_no_observer(axes)
                 else:
                     curves(axes, x, values, symbol)
                 across = axes.get_xaxis_transform()

@@ -39,7 +39,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import check_ends
 from biped_adrc.core.types import Array, Indices, MuJoCoModel, relabelled
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine
-from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
+from biped_adrc.extras.mujoco.robot import PLANES, floating_mjcf, model_of, mujoco
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import (
@@ -104,7 +104,7 @@ class MuJoCoPlant(Checked, Shown):
                 stacklevel=3,
             )
         planes = PLANES if self.ground_steps else PLANES[:1]
-        model = compiled(floating_mjcf(self.biped, self.ground, self.slope, self.h, planes))
+        model = model_of(floating_mjcf(self.biped, self.ground, self.slope, self.h, planes))
         model.opt.integrator = getattr(mujoco().mjtIntegrator, INTEGRATORS[self.integrator])
         object.__setattr__(self, "model", model)
 

@@ -3,7 +3,7 @@
     qpos = (x, z of the base, q)      in the order of the model's joints
 
 `floating_mjcf` stands on a `SoftGround` with spheres for feet; `pinned_mjcf` turns about its stance foot
-and has no contact; `compiled` makes a model of either. Of MuJoCo's bodies those that move have to have a
+and has no contact; `model_of` makes a model of either. Of MuJoCo's bodies those that move have to have a
 mass, so the joints of the base belong to the trunk. RK4, since MuJoCo's Euler methods move the angles over a
 sampling period by (1 + h/T) a T^2 / 2, which a fast observer takes for a disturbance: that of Table I does
 not walk on them. Static friction is MuJoCo's `frictionloss`, a bound on a constraint's force, where the rigid
@@ -43,7 +43,7 @@ def mujoco() -> ModuleType:
     return module
 
 
-def compiled(root: ET.Element) -> MuJoCoModel:
+def model_of(root: ET.Element) -> MuJoCoModel:
     """Compile an MJCF element <mujoco> to a model of MuJoCo."""
     return mujoco().MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
 

@@ -16,9 +16,9 @@ import numpy as np
 
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.errors import BipedError
+from biped_adrc.core.registry import find, takes
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.controllers import CONTEXT, GAINS
-from biped_adrc.scenario.registry import find, takes
 from biped_adrc.scenario.scenario import Scenario
 
 Form = tuple[float, float, int] | list[float]

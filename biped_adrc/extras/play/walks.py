@@ -38,8 +38,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.urdf import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits
+from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
-from biped_adrc.scenario.walk import methods_of
 from biped_adrc.studies.build import scene_of
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values
@@ -95,7 +95,7 @@ class PageWalk:
             raise InputError(f"the walk '{name}' has a push of its own; leave it out")
         x = walker.initial_state(*scene.start(s), Mode(s.run.first_step))
         try:
-            code = compiled(s, scene, with_hand(walker), x)
+            code = walk_code(s, scene, with_hand(walker), x)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
@@ -134,7 +134,7 @@ class PageWalk:
         Raises InputError for a scenario with another structure.
         """
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
-        code = compiled(s, self.scene, walker, self.x)
+        code = walk_code(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
             raise InputError("another structure")
         return self._block(code)
@@ -187,7 +187,7 @@ class PageWalk:
         return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
 
 
-def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
+def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
     """Compile a walker with a hand. Raises NotCompiled."""
     method = methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, walker.layout_of(x), 0.0, scene.walked.constraint)

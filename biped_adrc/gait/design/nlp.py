@@ -13,7 +13,7 @@ Everything else (torque, ground reaction, foot height) is an explicit function o
 derivatives are exact and nothing is integrated in time. All rows are dimensionless: lengths over the leg,
 forces over the weight, speeds over sqrt(g leg), torques over their limit.
 
-`transcribe` writes it. `solve` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same
+`transcribe` writes it. `solve_nlp` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same
 programme with a slack variable s >= 0 in each limit and sum s minimised (an elastic, or l1, relaxation): a
 slack that stays above zero names a limit that cannot be kept, and an end without slack is a feasible point to
 start from again. `optimise` calls all three.
@@ -248,7 +248,7 @@ class IpoptResult(NamedTuple):
     iterations: int
 
 
-def solve(
+def solve_nlp(
     programme: NonlinearProgram, x0: Array, bounds: Bounds, strategy: str = "adaptive"
 ) -> IpoptResult:
     """Run IPOPT from x0 (nx,) within bounds of the decision vector.
@@ -313,7 +313,7 @@ def relaxed(
     softened = NonlinearProgram(ca.vertcat(programme.x, slack), cost, tuple(rows))
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
-    result = solve(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
+    result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > MISSED}
     if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"

@@ -39,9 +39,9 @@ from scipy.optimize import least_squares
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.nlp import ASKED, LATE, LONGEST, Bounds, relaxed, solve, transcribe
+from biped_adrc.gait.design.nlp import ASKED, LATE, LONGEST, Bounds, relaxed, solve_nlp, transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
-from biped_adrc.gait.design.step import Unknowns, at_gait, flat
+from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit, invariant_constraint
 from biped_adrc.model.biped import Biped
@@ -195,7 +195,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     allowed = dict.fromkeys(ASKED, SPEED)
     # the foot may scuff, and is kept up in the second half at the nodes alone
     allowed[LATE] = np.inf
-    result = programme.missed(flat(x))
+    result = programme.missed(stacked(x))
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, EXACT)}
     return programme.in_words(missed)
 
@@ -268,13 +268,13 @@ def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]
     direction = float(np.sign(guess.theta[1] - guess.theta[0]))
     for stage in stages:
         programme, unknowns = transcribe(biped, stage, limits, direction)
-        x0, bounds = flat(guess), _bounds(unknowns, guess, stage, limits)
-        runs = [solve(programme, x0, bounds)]
+        x0, bounds = stacked(guess), _bounds(unknowns, guess, stage, limits)
+        runs = [solve_nlp(programme, x0, bounds)]
         if not runs[-1].solved:
-            runs.append(solve(programme, x0, bounds, "monotone"))
+            runs.append(solve_nlp(programme, x0, bounds, "monotone"))
         if not runs[-1].solved and stage is stages[-1]:
             point = relaxed(programme, stage.in_words(), x0, bounds, runs[-1].status)
-            runs.append(solve(programme, point, bounds))
+            runs.append(solve_nlp(programme, point, bounds))
             if not runs[-1].solved:
                 raise GaitError(
                     f"no gait with {stage.in_words()} was found: IPOPT stopped with {runs[-1].status}, though "
@@ -309,7 +309,7 @@ def _bounds(
     if request.through is not None:
         fixed = {"q": guess.q, "slope": guess.slope, "rate": guess.rate}
         low, high = low._replace(**fixed), high._replace(**fixed)
-    return flat(low), flat(high)
+    return stacked(low), stacked(high)
 
 
 def exact_gait(

@@ -69,7 +69,7 @@ class Unknowns(NamedTuple, Generic[T]):
         return Unknowns(*(cut.reshape(part.shape, order="F") for cut, part in both))
 
 
-def flat(numbers: Unknowns[Array]) -> Array:
+def stacked(numbers: Unknowns[Array]) -> Array:
     """Join the unknowns to the decision vector (nx,), matrices column by column."""
     return np.concatenate([np.ravel(part, order="F") for part in numbers])
 

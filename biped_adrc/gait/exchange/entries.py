@@ -28,7 +28,7 @@ import numpy as np
 from scipy.io.matlab import mat_struct
 
 
-def flat(x: Any, name: str = "") -> dict[str, Any]:
+def all_entries(x: Any, name: str = "") -> dict[str, Any]:
     """All entries of a file by name, structs with what they hold."""
     if isinstance(x, mat_struct):
         x = {key: getattr(x, key) for key in x._fieldnames}
@@ -40,7 +40,7 @@ def flat(x: Any, name: str = "") -> dict[str, Any]:
         cells = np.ndenumerate(np.array(x, dtype=object))
         inner = {f"{name}({','.join(str(i + 1) for i in place)})": y for place, y in cells}
     for key, y in inner.items():
-        result |= flat(y, key)
+        result |= all_entries(y, key)
     return result
 
 

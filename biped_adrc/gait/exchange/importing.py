@@ -46,7 +46,7 @@ from biped_adrc.core.files import output_path, plain, read_json, reading, write_
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.causes import explained
-from biped_adrc.gait.exchange.entries import entry, flat, frost_steps
+from biped_adrc.gait.exchange.entries import all_entries, entry, frost_steps
 from biped_adrc.gait.exchange.record import (
     ENTRIES,
     REQUIRED,
@@ -149,7 +149,7 @@ def read_record(
         )
     result = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
     with reading("gait file", path, GaitError):
-        entries, source = flat(result), path.name
+        entries, source = all_entries(result), path.name
         known, steps, names = list(entries), frost_steps(entries), dict(names or {})
         cut_off = result.get("format") == FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []

@@ -27,21 +27,44 @@ The keys are the fields of `RobotDescription`, with joint friction in a table [f
 
 from __future__ import annotations
 
-import math
 import tomllib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
 
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import ModelError, check_positive
+from biped_adrc.core.errors import ModelError, problem
 from biped_adrc.core.files import beside, data_folder, reading
+from biped_adrc.core.registry import stored
 from biped_adrc.core.shown import Shown
-from biped_adrc.model.robots.urdf import Inertial, Tree
+from biped_adrc.model.robots.urdf import Inertial, Tree, Vector, text_of
 from biped_adrc.model.robots.urdf_reader import read
 
-Rotors = float | tuple[float, ...]
+
+def _different(names: tuple[str, ...]) -> tuple[str, ...]:
+    """The names. Raises ValueError where two are the same."""
+    if len(set(names)) < len(names):
+        raise ValueError(f"found {list(names)}, expected a list of different names")
+    return names
+
+
+def _rising(ends: tuple[float, float]) -> tuple[float, float]:
+    """The ends of a range. Raises ValueError for another order."""
+    if not ends[0] < ends[1]:
+        raise ValueError(f"found {list(ends)}, expected the lower angle first")
+    return ends
+
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[Number, Field(gt=0.0)]
+NotNegative = Annotated[Number, Field(ge=0.0)]
+Names = Annotated[tuple[str, ...], AfterValidator(_different)]
+Ends = Annotated[tuple[Number, Number], AfterValidator(_rising)]
+Rotors = NotNegative | tuple[NotNegative, ...]
 """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
 
 
@@ -49,14 +72,16 @@ Rotors = float | tuple[float, ...]
 class BodyParameters:
     """Parameters of a link that is symmetric about its axis z."""
 
-    mass: float
+    mass: Positive
     """Mass [kg]."""
-    com: float
+    com: Number
     """Distance of the COM from the link's origin along +z [m]."""
-    inertia: float
+    inertia: Positive
     """Moment of inertia about the COM and the axis y [kg m^2]."""
 
 
+ALONG = 1e-6
+"""How far an axis may be from y, x or z [1]."""
 GRAVITY = 9.81
 """Gravity [m/s^2] of a record that gives no other value."""
 
@@ -82,9 +107,9 @@ class RobotDescription(Shown):
     """Name of the robot, as in `Biped.load`."""
     urdf: Path
     """Path of the URDF with the floating base."""
-    actuated: tuple[str, ...]
+    actuated: Names
     """Joints with a motor, q1, ..., qp in order."""
-    passive: tuple[str, ...]
+    passive: Names
     """Relative joints without a motor."""
     unactuated: str
     """Joint of the base that is the absolute pitch of the trunk, q_N."""
@@ -98,27 +123,27 @@ class RobotDescription(Shown):
     """Link whose origin is the hip."""
     trunk: str
     """Link that the floating base carries; that of the hip if the record names no other."""
-    phase: tuple[float, ...]
+    phase: tuple[Number, ...]
     """Row c (n,) of the phase variable Theta = c q, dimensionless."""
-    offset: tuple[float, ...]
+    offset: tuple[Number, ...]
     """Offset r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
-    peak_torque: float
+    peak_torque: Positive
     """Torque limit of every motor [N m]."""
-    friction_coefficient: float
+    friction_coefficient: Positive
     """Dry friction mu between foot and ground, dimensionless."""
-    gravity: float
+    gravity: Positive
     """Gravity [m/s^2]."""
-    viscous: Mapping[str, float]
+    viscous: Mapping[str, NotNegative]
     """Viscous joint friction by joint [N m s/rad]; 0 for joints that are not here."""
-    static: Mapping[str, float]
+    static: Mapping[str, NotNegative]
     """Static joint friction by joint [N m]; 0 for joints that are not here."""
-    links: Mapping[str, tuple[str, ...]]
+    links: Mapping[str, Names]
     """Links by body: the class "thigh" has the links of both thighs."""
     default_preset: str
     """Name of the preset that is used by default."""
     presets: Mapping[str, Preset]
     """Parameter sets by name."""
-    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    ranges: Mapping[str, Ends] = field(default_factory=dict)
     """Lower and upper end [rad] by joint, for gait design alone; a walk is judged by what the URDF states."""
 
     @property
@@ -174,9 +199,13 @@ class RobotDescription(Shown):
         return tree.with_inertials(inertials)
 
 
+_READER = TypeAdapter(RobotDescription)
+"""Reads a record from TOML's tables, by the types of its fields."""
+
+
 def robot_names() -> tuple[str, ...]:
     """Names of the robots that come with the package."""
-    return tuple(sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml")))
+    return tuple(stored("robot"))
 
 
 def load_description(robot: str | Path) -> RobotDescription:
@@ -204,60 +233,35 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        friction, ranges = (_table(key, data.get(key, {})) for key in ("friction", "ranges"))
-        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in ("viscous", "static"))
-        _numbers("friction", rubs := [*viscous.values(), *static.values()], len(rubs), 0.0)
-        actuated, base = (_names(key, data[key]) for key in ("actuated", "base"))
-        passive = _names("passive", data.get("passive", ()))
-        joints = (*actuated, *passive, data["unactuated"])
-        _names("the list of all joints", (*joints, *base))
-        if len(base) != 2:
-            raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
-        texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
-        for key, table in (("ranges", ranges), ("friction", viscous | static)):
-            if unknown := sorted(set(table) - set(joints)):
-                raise ValueError(f"{key} names {unknown}, the joints are {list(joints)}")
-        phase = _numbers("phase", data["phase"], len(joints))
-        if phase[-1] == 0.0:
-            raise ValueError(f"phase is {list(phase)}; the last number must not be 0")
-        return RobotDescription(
-            **{key: _name(key, data[key]) for key in texts},
-            urdf=beside(path, data["urdf"]),
-            actuated=actuated,
-            passive=passive,
-            base=(base[0], base[1]),
-            trunk=_name("trunk", data.get("trunk", data["hip"])),
-            phase=phase,
-            offset=_numbers("offset", data.get("offset", [0.0] * len(joints)), len(joints)),
-            peak_torque=_positive(data["peak_torque"], "peak_torque"),
-            friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
-            gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
-            viscous=viscous,
-            static=static,
-            links={
-                body: _names(f"links.{body}", x)
-                for body, x in _table("links", data["links"]).items()
-            },
-            presets={
-                name: _preset(name, _table(f"presets.{name}", x), data)
-                for name, x in _table("presets", data["presets"]).items()
-            },
-            ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
-        )
-
-
-def _name(key: str, value: object) -> str:
-    """Check a name or a text. Raises ValueError that names the key."""
-    if not isinstance(value, str):
-        raise ValueError(f"{key} is {value!r}, expected a text")
-    return value
-
-
-def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
-    """Check a list of different names. Raises ValueError that names the key."""
-    if not isinstance(values, list | tuple) or len(set(map(str, values))) < len(values):
-        raise ValueError(f"{key} is {values!r}, expected a list of different names")
-    return tuple(_name(f"a name in {key}", x) for x in values)
+        links, presets = _table("links", data["links"]), _table("presets", data["presets"])
+        usual = {"trunk": data["hip"], "passive": (), "offset": (), "gravity": GRAVITY}
+        friction = {"viscous": {}, "static": {}, **_table("friction", data.get("friction", {}))}
+        own = {
+            "urdf": beside(path, data["urdf"]),
+            "presets": {name: _preset(name, x, links) for name, x in presets.items()},
+        }
+        try:
+            d = _READER.validate_python({**usual, **friction, **data, **own})
+        except ValidationError as error:
+            innermost = max(error.errors(), key=lambda one: len(one["loc"]))
+            raise ValueError(problem(innermost).replace(".bodies.", ".")) from None
+        n, names = len(d.joints), (*d.joints, *d.base)
+        d = d if "offset" in data else replace(d, offset=(0.0,) * n)
+        rows = {"phase": (d.phase, n), "offset": (d.offset, n)}
+        for name, preset in d.presets.items():
+            if isinstance(preset.armature, tuple):
+                rows[f"presets.{name}.armature"] = preset.armature, len(d.actuated)
+        for key, (row, count) in rows.items():
+            if len(row) != count:
+                raise ValueError(f"{key} is {list(row)}, expected {count} finite numbers")
+        if len(set(names)) < len(names):
+            raise ValueError(f"the joints are {names}, expected a list of different names")
+        for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
+            if unknown := sorted(set(table) - set(d.joints)):
+                raise ValueError(f"{key} names {unknown}, the joints are {list(d.joints)}")
+        if d.phase[-1] == 0.0:
+            raise ValueError(f"phase is {list(d.phase)}; the last number must not be 0")
+        return d
 
 
 def _table(key: str, value: object) -> Mapping[str, Any]:
@@ -267,48 +271,31 @@ def _table(key: str, value: object) -> Mapping[str, Any]:
     return value
 
 
-def _numbers(
-    key: str, values: Sequence[Any], count: int, least: float = -math.inf
-) -> tuple[float, ...]:
-    """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
-    row = values if isinstance(values, list | tuple) else ()
-    numbers = tuple(float(x) if isinstance(x, int | float) else math.nan for x in row)
-    if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
-        above = f", at least {least:g}" if math.isfinite(least) else ""
-        raise ValueError(f"{key} is {values!r}, expected {count} finite numbers{above}")
-    return numbers
+def _preset(name: str, value: object, links: Mapping[str, Any]) -> dict[str, Any]:
+    """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none."""
+    record = _table(f"presets.{name}", value)
+    bodies = {body: record[body] for body in links if any(x in record for x in links)}
+    return {**record, "name": name, "bodies": bodies}
 
 
-def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
-    """Lower and upper end of a joint's range [rad], after a check of their order. Raises ValueError."""
-    low, high = _numbers(f"ranges.{joint}", ends, 2)
-    if not low < high:
-        raise ValueError(f"ranges.{joint} is [{low}, {high}], expected the lower angle first")
-    return low, high
+def check_planar(tree: Tree, d: RobotDescription) -> None:
+    """Check that joints turn about y and that the base slides along x and z.
 
-
-def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
-    """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none. Raises
-    ValueError.
+    Raises ModelError that names the joint, its axis and the expected one.
     """
-    bodies, where = {}, f"presets.{name}"
-    for body in data["links"] if any(body in record for body in data["links"]) else ():
-        p = _table(f"{where}.{body}", record[body])
-        bodies[body] = BodyParameters(
-            _positive(p["mass"], f"{where}.{body}.mass"),
-            _numbers(f"{where}.{body}.com", [p["com"]], 1)[0],
-            _positive(p["inertia"], f"{where}.{body}.inertia"),
-        )
-    rotors: Any = record["armature"]
-    each = rotors if isinstance(rotors, list | tuple) else [rotors]
-    count = len(data["actuated"]) if each is rotors else 1
-    armature = _numbers(f"{where}.armature", each, count, least=0.0)
-    source = _name(f"{where}.source", record["source"])
-    return Preset(name, source, armature if each is rotors else armature[0], bodies)
-
-
-def _positive(value: Any, what: str) -> float:
-    """Check that a value is a number above zero. Raises InputError that names it by `what`."""
-    (number,) = _numbers(what, [value], 1)
-    check_positive(number, f"{what} is {value}")
-    return number
+    x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    axes: dict[str, Vector] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
+    joints = {joint.name: joint for joint in tree.joints}
+    for name, axis in axes.items():
+        kind = "revolute" if axis == y else "prismatic"
+        joint = joints.get(name)
+        along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
+        off = 1.0 - (abs(along) if kind == "revolute" else along)
+        if joint is None or joint.type != kind or not abs(off) <= ALONG:
+            text = f"missing in {list(joints)}"
+            if joint is not None:
+                text = f"{joint.type} along {text_of(joint.axis)}"
+            raise ModelError(
+                f"'{tree.source}': joint '{name}' of the record of robot '{d.name}' is {text}, expected "
+                f"{kind} along {text_of(axis)}: a planar robot moves in x and z"
+            )

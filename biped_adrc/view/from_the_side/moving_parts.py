@@ -23,7 +23,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.view import colours
 from biped_adrc.view.colours import LONGEST, REACTION, STANCE, SWING, TORQUE, TRUNK, bent_arrow
 from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
-from biped_adrc.view.placement import TILE, loads
+from biped_adrc.view.placement import TILE, loads_at
 
 STONE = "#7a5230"
 """Colour of a stone: brown."""
@@ -137,7 +137,7 @@ class DrawnWalk:
         self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
         if self.trail:
             self._extend(points, view.step(t))
-        acting, foot = loads(scene, t), np.array(scene.foot(i, t))
+        acting, foot = loads_at(scene, t), np.array(scene.foot(i, t))
         drawn, cut = self._arrow(0, foot, acting.ground_reaction)
         self._arrow(1, points[2:], acting.other)
         self.text.set_text(cut or ("slips" if acting.slips else ""))

@@ -33,8 +33,8 @@ from biped_adrc.core.files import write_bytes
 from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
-from biped_adrc.view.from_the_side.side_view import SideView, Tracked
-from biped_adrc.view.placement import Clip, Recorded, WalkScene, check_frames, ending
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.placement import Clip, Drawable, Recorded, WalkScene, check_frames, ending
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, label, literal, new_figure, style, write_figure
 
@@ -161,7 +161,7 @@ def side_by_side(
     for walks without a reference.
     """
     for walk in walks.values():
-        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
+        if not isinstance(walk, Drawable) or walk.walker.plant.p == 0:
             raise InputError(
                 "a walk without motors has no reference to deviate from; leave 'apart' out"
             )
@@ -172,7 +172,7 @@ def side_by_side(
     figure, panels = draw.blank(WIDE, height), []
     for k, (name, walk) in enumerate(walks.items()):
         axes = figure.add_axes((k * share, STRIP / height, share, body / height))
-        colour, signals = LINES[k % len(LINES)], cast(Tracked, walk).signals
+        colour, signals = LINES[k % len(LINES)], cast(Drawable, walk).signals
         panels.append(_Panel(axes, views[k], signals, name, colour, float(times[0])))
     strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
     errors = _Errors(strip, panels, times)

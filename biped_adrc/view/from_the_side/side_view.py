@@ -8,24 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Link, Tree, Visual
 from biped_adrc.view.colours import WEIGHT_LENGTH
-from biped_adrc.view.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
-
-
-@runtime_checkable
-class Tracked(Recorded, Protocol):
-    """A walk with its signals at hand, the tracking error among them."""
-
-    @property
-    def signals(self) -> Signals: ...
+from biped_adrc.view.placement import WalkScene, exchanged, legs, link_placements, spokes
 
 
 @dataclass(frozen=True)

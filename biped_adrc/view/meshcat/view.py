@@ -271,7 +271,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
         joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
-    acting = placement.loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
+    acting = placement.loads_at(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
     values, forces = [at[name] for name in moving], (acting.ground_reaction, acting.zeta)
     contact = np.array([*foothold, *acting.other, acting.slips])
     points = scene.points(i, t, q)

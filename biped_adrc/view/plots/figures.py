@@ -17,11 +17,13 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
-from biped_adrc.analysis.signals import Signals, integrate
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
+from biped_adrc.view.placement import Drawable
 from biped_adrc.view.plots import over_time, stability
-from biped_adrc.view.plots.over_time import Window, broken, finished, legend
-from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
+from biped_adrc.view.plots.over_time import Window
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, literal, new_figure
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer.report import ObserverReport
@@ -33,7 +35,7 @@ EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
 EDGES = ("push begins", "push ends")
 """Titles of the columns of the two edges."""
 
-Draw = Callable[[Axes], object]
+Panel = Callable[[Axes], object]
 """A function that draws one panel on the axes it is given."""
 
 
@@ -50,7 +52,7 @@ def tracking_figure(
     p = signals.q_d.shape[1]
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
     angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
-    below: list[Draw] = [
+    below: list[Panel] = [
         partial(over_time.torques, s=signals, limit=torque_limit, push=push),
         partial(over_time.tracking_errors, s=signals, push=push),
     ]
@@ -85,7 +87,9 @@ def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
     return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
-def _column(figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Draw]) -> list[Axes]:
+def _column(
+    figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Panel]
+) -> list[Axes]:
     """Draw panels one above the other that share one time axis, labelled below the lowest; returns
     their axes.
     """
@@ -103,7 +107,7 @@ def _around_and_edges(
     figure: FigureBase,
     spec: Any,
     rows: Sequence[int],
-    draws: Sequence[Draw],
+    draws: Sequence[Panel],
     s: Signals,
     push: Window | None,
 ) -> list[list[Axes]]:
@@ -268,80 +272,14 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     first = next(iter(walks.values()))
     with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
-        draw = partial(error_over_time, walks=walks, push=push)
+        draw = partial(over_time.error_over_time, walks=walks, push=push)
         (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
         for (axes,) in edges:
             axes.set_ylim(around.get_ylim())
         sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
-        error_sizes(sizes, walks)
-        torque_sizes(motors, walks)
+        over_time.error_sizes(sizes, walks)
+        over_time.torque_sizes(motors, walks)
         return figure
-
-
-MARKERS = "osD^"
-"""Marks by controller, repeated from the fifth on."""
-FLOOR = 1e-13
-"""Least error that is drawn [rad]: on a logarithmic scale anything below it is round-off."""
-
-
-def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
-    """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
-
-    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break
-    at impacts. Returns the axes.
-    """
-    for i, (name, s) in enumerate(walks.items()):
-        largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        x, y = broken(s, s.t), broken(s, largest)
-        axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
-    axes.set_yscale("log")
-    return finished(axes, "largest tracking error [rad]", push)
-
-
-def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
-    """Draw peak and root mean square of the tracking error [rad] by controller, with their
-    numbers; returns the axes.
-
-    walks: name of the controller -> signals. The scale is logarithmic.
-    """
-    for i, (name, s) in enumerate(walks.items()):
-        sizes = [max(float(np.nanmax(np.abs(s.error))), FLOOR), max(_rms(s.before_fall), FLOOR)]
-        axes.plot([0, 1], sizes, color=PALETTE[i], marker=MARKERS[i % 4], ls="", ms=8, label=name)
-        for k, size in enumerate(sizes):
-            axes.annotate(
-                f"{size:.1e}", (k, size), xytext=(9, 0), textcoords="offset points", va="center"
-            )
-    axes.set_xticks([0, 1], ["largest", "root mean square"])
-    axes.set_xlim(-0.5, 1.8)
-    axes.set_yscale("log")
-    axes.margins(y=0.15)
-    label(axes, "", "tracking error [rad]")
-    return axes
-
-
-def _rms(s: Signals) -> float:
-    """Root of the mean over time and joints of (q_b - q_d)^2 [rad].
-
-    The mean over time is an integral over the nodes, as their distances differ between methods.
-    """
-    squares, duration = np.mean(s.error**2, axis=1), float(s.t[-1] - s.t[0])
-    mean = integrate(s.t, squares) / duration if duration > 0.0 else float(squares[0])
-    return float(np.sqrt(mean))
-
-
-def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
-    """Draw the peak torque [N m] of every motor as bars, a colour and hatch for each
-    controller; returns the axes.
-    """
-    width = 0.8 / len(walks)
-    for i, (name, s) in enumerate(walks.items()):
-        peaks = np.max(np.abs(s.u), axis=0)
-        at = np.arange(len(peaks)) + (i - 0.5 * (len(walks) - 1)) * width
-        hatch = ("", "///", "...", "xxx")[i % 4]
-        axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)
-    axes.set_xticks(np.arange(len(peaks)), [f"$u_{k + 1}$" for k in range(len(peaks))])
-    label(axes, "", "peak torque [N m]")
-    return legend(axes)
 
 
 FREQUENCIES, LEAST = 400, 1e-12
@@ -378,3 +316,50 @@ def observer_figure(report: ObserverReport) -> Figure:
             axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
         return figure
+
+
+NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
+"""Figures that can be asked for."""
+
+
+def walk_figure(walk: Drawable, title: str = "", push: Window | None = None) -> Figure:
+    """Draw a walk as `tracking_figure` does, and one of a robot without motors as `passive_figure`."""
+    if walk.walker.plant.p == 0:
+        return passive_figure(walk.signals, title, push)
+    return tracking_figure(walk.signals, title, push, walk.walker.torque_limit)
+
+
+def draw(name: str, walks: Mapping[str, Drawable]) -> Figure:
+    """One figure: of the first walk, or of all walks for "phase" and "comparison".
+
+    Raises InputError for an unknown name, or a robot without motors where the figure shows motors.
+    """
+    if name not in NAMES:
+        raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
+    walks = {literal(n): w for n, w in walks.items()}
+    title, walk = next(iter(walks.items()))
+    signals = {n: w.signals for n, w in walks.items()}
+    first, push = signals[title], push_window(signals[title])
+    if name in ("disturbance", "comparison") and any(s.u.shape[1] == 0 for s in signals.values()):
+        raise InputError(
+            f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
+            "'tracking', 'ground', 'energy', 'phase'"
+        )
+    mu, slope = walk.walker.plant.description.friction_coefficient, walk.walker.ground_slope
+    return {
+        "tracking": partial(walk_figure, walk, title, push),
+        "disturbance": partial(disturbance_figure, first, title, push),
+        "ground": partial(ground_figure, first, title, mu, slope, push),
+        "energy": partial(energy_figure, first, title, push),
+        "phase": partial(phase_figure, signals),
+        "comparison": partial(comparison_figure, signals, push),
+    }[name]()
+
+
+def push_window(s: Signals) -> tuple[float, float] | None:
+    """First and last time [s] of the first step in which an external torque acts; None where there is none."""
+    pushed = np.any(s.zeta != 0.0, axis=1)
+    if not pushed.any():
+        return None
+    t = s.t[pushed & (s.step == s.step[pushed][0])]
+    return float(t[0]), float(t[-1])

@@ -8,13 +8,14 @@ torques jump.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.statistics import rms
 from biped_adrc.core.errors import check_positive
 from biped_adrc.core.types import Array
 from biped_adrc.model.ground import ground_axes
@@ -24,7 +25,7 @@ Window = tuple[float, float]
 """Start and stop of a push [s]."""
 
 
-class Rows(Protocol):
+class OverTime(Protocol):
     """What lines over time need of signals: t (K,) [s], and the number of the single support (K,)."""
 
     @property
@@ -33,7 +34,7 @@ class Rows(Protocol):
     def step(self) -> Array: ...
 
 
-def broken(s: Rows, y: Array) -> Array:
+def broken(s: OverTime, y: Array) -> Array:
     """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
 
     matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
@@ -41,12 +42,12 @@ def broken(s: Rows, y: Array) -> Array:
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
 
-def line(axes: Axes, s: Rows, y: Array, i: int, name: str) -> None:
+def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
     """Draw y (K,) over time [s] in the i-th colour and dash."""
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
-def curves(axes: Axes, s: Rows, values: Array, symbol: str) -> None:
+def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
     """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ..."""
     for i, column in enumerate(values.T):
         line(axes, s, column, i, f"${symbol}_{i + 1}$")
@@ -181,13 +182,13 @@ def _pair(
     t = broken(s, s.t)
     axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
-        without_observer(axes)
+        say_no_observer(axes)
         return
     y, dash = broken(s, estimate), (0, (4, 2))
     axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
 
 
-def without_observer(axes: Axes) -> None:
+def say_no_observer(axes: Axes) -> None:
     """Write on the axes, in place of a curve, that the controller has no observer."""
     axes.text(0.5, 0.9, "no observer: nothing is estimated", ha="center", transform=axes.transAxes)
 
@@ -255,3 +256,60 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
     label(axes, r"$\Theta$ [rad]", r"$\dot\Theta$ [rad/s]")
     axes.legend(loc="best", frameon=False)
     return axes
+
+
+MARKERS = "osD^"
+"""Marks by controller, repeated from the fifth on."""
+FLOOR = 1e-13
+"""Least error that is drawn [rad]: on a logarithmic scale anything below it is round-off."""
+
+
+def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
+    """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
+
+    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break
+    at impacts. Returns the axes.
+    """
+    for i, (name, s) in enumerate(walks.items()):
+        largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
+        x, y = broken(s, s.t), broken(s, largest)
+        axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
+    axes.set_yscale("log")
+    return finished(axes, "largest tracking error [rad]", push)
+
+
+def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
+    """Draw peak and root mean square of the tracking error [rad] by controller, with their
+    numbers; returns the axes.
+
+    walks: name of the controller -> signals. The scale is logarithmic.
+    """
+    for i, (name, s) in enumerate(walks.items()):
+        past = s.before_fall
+        sizes = [max(float(np.nanmax(np.abs(s.error))), FLOOR), max(rms(past.t, past.error), FLOOR)]
+        axes.plot([0, 1], sizes, color=PALETTE[i], marker=MARKERS[i % 4], ls="", ms=8, label=name)
+        for k, size in enumerate(sizes):
+            axes.annotate(
+                f"{size:.1e}", (k, size), xytext=(9, 0), textcoords="offset points", va="center"
+            )
+    axes.set_xticks([0, 1], ["largest", "root mean square"])
+    axes.set_xlim(-0.5, 1.8)
+    axes.set_yscale("log")
+    axes.margins(y=0.15)
+    label(axes, "", "tracking error [rad]")
+    return axes
+
+
+def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
+    """Draw the peak torque [N m] of every motor as bars, a colour and hatch for each
+    controller; returns the axes.
+    """
+    width = 0.8 / len(walks)
+    for i, (name, s) in enumerate(walks.items()):
+        peaks = np.max(np.abs(s.u), axis=0)
+        at = np.arange(len(peaks)) + (i - 0.5 * (len(walks) - 1)) * width
+        hatch = ("", "///", "...", "xxx")[i % 4]
+        axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)
+    axes.set_xticks(np.arange(len(peaks)), [f"$u_{k + 1}$" for k in range(len(peaks))])
+    label(axes, "", "peak torque [N m]")
+    return legend(axes)

@@ -32,9 +32,8 @@ from types import MappingProxyType
 from typing import TypeVar
 
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import BipedError, InputError
+from biped_adrc.core.errors import BipedError, InputError, unknown
 from biped_adrc.core.files import data_folder, packaged
-from biped_adrc.scenario.dotted import unknown
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
@@ -71,17 +70,17 @@ class Entry:
 
 REGISTRY: dict[str, dict[str, Entry]] = {
     kind: {name: Entry(**values) for name, values in entries.items()}
-    for kind, entries in packaged("biped_adrc.scenario", "registry.toml").items()
+    for kind, entries in packaged("biped_adrc.core", "registry.toml").items()
 } | {"robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
 
 
 def names(kind: str) -> tuple[str, ...]:
     """All names of one kind, packaged ones first."""
-    return tuple(dict.fromkeys((*_stored(kind), *REGISTRY[kind])))
+    return tuple(dict.fromkeys((*stored(kind), *REGISTRY[kind])))
 
 
-def _stored(kind: str) -> Iterable[str]:
+def stored(kind: str) -> Iterable[str]:
     """Names that are no lines of registry.toml: folders of robots, files of gaits."""
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
@@ -115,10 +114,6 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
         )
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
     REGISTRY[kind][name] = Entry(home, words, given=thing)
-    if kind == "curve":
-        from biped_adrc.gait.curves import CURVES
-
-        CURVES[name] = thing
 
 
 def portable(kind: str, name: str) -> str:

@@ -1,0 +1,158 @@
+"""A walker and its parts as plain values, for a file, and made again of them.
+
+`Writer` turns an object into a record: its class as `module:Class` and the values that its constructor takes,
+with inner objects in records of their own, each once, referred to by number. `Reader` makes the objects again.
+Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
+its own: of a class of the user's the name alone is stored, and a stand-in takes the place of such a controller.
+
+How values are written:
+
+    None, bool, int, float, str   as they are
+    array                         {"array": [...], "shape": [...], "dtype": "float64"}
+    list, tuple, mapping          {"list": [...]}, {"tuple": [...]}, {"map": {...}}
+    complex, path, enum           {"complex": [re, im]}, {"path": "..."}, {"enum": [module:Class, name]}
+    any other object              {"part": number of its record in the list "parts"}
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.registry import takes
+
+_ROOMS = re.compile(
+    r"biped_adrc\.((control|observers|disturbances|gait|hardware|model(\.robots)?)\.[a-z_]+|core\.timing|closed_loop\.walker)"
+)
+"""Modules whose classes are made when a record is read."""
+
+PartRecord = dict[str, Any]
+"""One object: `class` as module:Class, `values` that its constructor takes; without them it is the user's."""
+
+
+class MissingPart(InputError):
+    """An object whose class, or that of an object inside of it, is the user's."""
+
+    def __init__(self, home: str) -> None:
+        super().__init__(f"'{home}' is not of this package")
+        self.home = home
+
+
+def home_of(kind: Any) -> str:
+    """A class or function as `module:Class`."""
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+def is_ours(home: str) -> bool:
+    """True where module:Class is of this package, and may be imported when a record is read."""
+    return _ROOMS.fullmatch(home.partition(":")[0]) is not None
+
+
+@dataclass
+class Writer:
+    """Turns objects into records; the inverse of `Reader`.
+
+    An object that is used twice, such as the robot in walker and gait, is written once and is one object again
+    after reading. Objects are dataclasses, NamedTuples, or classes that keep the arguments of their constructor
+    as attributes of the same names.
+    """
+
+    records: list[PartRecord] = field(default_factory=list)
+    """Of all objects seen, each once; an object is referred to by its place here."""
+    _known: dict[int, tuple[int, object]] = field(default_factory=dict)
+    """By id of an object its place, and the object itself, so that its id is not used again."""
+
+    def plain(self, x: object) -> object:
+        """The value as JSON has it; {kind: ...} for arrays, tuples, enums and paths, {"part": place} for
+        objects.
+        """
+        if x is None or (isinstance(x, bool | int | float | str) and not isinstance(x, Enum)):
+            return x
+        if isinstance(x, np.generic):
+            return self.plain(x.item())
+        if isinstance(x, complex):
+            return {"complex": [x.real, x.imag]}
+        if isinstance(x, Enum):
+            return {"enum": [home_of(type(x)), x.name]}
+        if isinstance(x, Path):
+            return {"path": str(x)}
+        if isinstance(x, np.ndarray):
+            return {"array": x.ravel().tolist(), "shape": list(x.shape), "dtype": str(x.dtype)}
+        if isinstance(x, Mapping):
+            return {"map": {str(key): self.plain(inner) for key, inner in x.items()}}
+        if isinstance(x, list | tuple) and not hasattr(x, "_fields"):
+            return {type(x).__name__: [self.plain(inner) for inner in x]}
+        return {"part": self.part(x)}
+
+    def part(self, x: object) -> int:
+        """The place of an object among the records, written the first time it is seen."""
+        if id(x) not in self._known:
+            made = self._record(x)
+            self._known[id(x)] = len(self.records), x
+            self.records.append(made)
+        return self._known[id(x)][0]
+
+    def _record(self, x: Any) -> PartRecord:
+        """The record of one object; of one that is the user's its class alone."""
+        if hasattr(x, "__qualname__"):  # a class or a function itself
+            return {"class": home_of(x)}
+        home, names = home_of(type(x)), takes(x.__class__)
+        if not is_ours(home) or not all(hasattr(x, name) for name in names):
+            return {"class": home}
+        return {"class": home, "values": {name: self.plain(getattr(x, name)) for name in names}}
+
+
+@dataclass
+class Reader:
+    """Makes objects of records; the inverse of `Writer`."""
+
+    records: list[PartRecord]
+    _made: dict[int, object] = field(default_factory=dict)
+
+    def made(self, x: object) -> Any:
+        """The value that `Writer.plain` was given.
+
+        Raises MissingPart for an object of the user's and what contains one, InputError for a class that this
+        version of the package does not have, and what a class raises of values that it does not take.
+        """
+        match x:
+            case {"part": int(i)}:
+                if i not in self._made:
+                    home, values = self.records[i]["class"], self.records[i].get("values")
+                    if values is None:
+                        raise MissingPart(home)
+                    inner = {name: self.made(y) for name, y in values.items()}
+                    self._made[i] = _class(home)(**inner)
+                return self._made[i]
+            case {"array": values, "shape": shape, "dtype": kind}:
+                return np.array(values, dtype=np.dtype(kind)).reshape(shape)
+            case {"map": values}:
+                return {key: self.made(inner) for key, inner in values.items()}
+            case {"list": values}:
+                return [self.made(inner) for inner in values]
+            case {"tuple": values}:
+                return tuple(self.made(inner) for inner in values)
+            case {"enum": (home, name)}:
+                return _class(home)[name]
+            case {"complex": (real, imaginary)}:
+                return complex(real, imaginary)
+            case {"path": path}:
+                return Path(path)
+        return x
+
+
+def _class(home: str) -> Any:
+    """A class of this package by module:Class. Raises InputError where this version does not have it."""
+    module, _, name = home.partition(":")
+    result = getattr(import_module(module), name, None) if is_ours(home) else None
+    if not isinstance(result, type) or result.__module__ != module:
+        raise InputError(f"there is no class '{home}' in this version of the package")
+    return result
