@@ -2,10 +2,12 @@
 
 import itertools
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import biped_adrc as ba
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import pushes as member_runs
@@ -33,7 +35,7 @@ from biped_adrc.paper.table import (
     word_of_claim,
 )
 from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps
-from biped_adrc.paper.values import noise_spectrum
+from biped_adrc.paper.values import noise_spectrum, of_starts
 from biped_adrc.view.pages import CLAIM_COLUMNS
 
 from .made_up_results import cell, cycle, figure, member, outcome, results, walk
@@ -329,3 +331,32 @@ def test_an_observer_with_a_given_margin():
     bandwidth = runs.bandwidth_with(1e-3, 1)
     margin = ObserverLoop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
     assert margin == pytest.approx(1e-3, rel=1e-6)
+
+
+def test_starts_that_fail_are_those_slower_than_the_gait_s():
+    walks, falls = SimpleNamespace(walked=True), SimpleNamespace(walked=False)
+    starts = [
+        SimpleNamespace(least=0.9, factor=f, outcomes={"NPD": o})
+        for f, o in ((0.95, falls), (1.05, falls), (1.2, walks))
+    ]
+    found = of_starts(SimpleNamespace(starts={"gait": starts}))
+    assert found["failing"] == pytest.approx((0.9 * 0.95,))
+    assert found["passing"] == pytest.approx((0.9 * 1.2,))
+    assert (found["passed"], found["above"]) == (1, 2)
+
+
+def test_the_jump_of_the_total_disturbance_is_that_of_a_walk():
+    """q_b'' - kappa u on both sides of the impact, in the labels after it."""
+    biped = ba.Biped.load("rabbit", "identified")
+    gait = ba.load_gait("published", biped)
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 2, ba.RK4(1e-4))
+    first, second = walk.trajectory.arcs[:2]
+
+    def xi(x):
+        terms = biped.reduction(x[:5], x[5:10])
+        u = np.linspace(1.0, 4.0, 4)
+        a = biped.acceleration(x[:5], x[5:10], np.append(u, 0.0))
+        return a[:4] - terms.kappa @ u
+
+    expected = np.max(np.abs(xi(second.x[0]) - xi(first.x[-1])[biped.swap]))
+    assert runs.jumps("identified")["xi_at_impact"] == pytest.approx(expected, rel=1e-2)

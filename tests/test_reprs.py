@@ -8,7 +8,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.analysis.stability import known_cycle
-from biped_adrc.core.shown import LONGEST
+from biped_adrc.core.shown import LONGEST, SHORT, short
 
 LINE = 120
 
@@ -59,3 +59,10 @@ def test_values_are_shown_as_they_are(biped, gait):
     assert repr(ba.Gains()) == "Gains()"
     assert repr(ba.Gains(1.0, np.array([1.0, 2.0]))) == "Gains(K_p=1.0, K_d=[1 2])"
     assert repr(gait) == "Gait('published', robot 'rabbit', preset 'identified', period 0.4164 s)"
+
+
+def test_a_long_text_is_shortened_and_a_short_one_is_whole():
+    assert short("v0.8") == "'v0.8'"
+    assert short((1.0, 2.0)) == "(1.0, 2.0)"
+    assert short("x" * 200) == repr("x" * (SHORT - 5) + "...")
+    assert short(tuple(range(200))) == "(200 items)"

@@ -166,3 +166,9 @@ def test_a_tick_of_the_kalman_filter_is_where_its_covariance_ends(m):
     assert np.ravel(later) == pytest.approx((Phi @ L)[:3], rel=1e-8)
     pushed = observer.estimate(observer.predict(z, one))
     assert np.ravel(pushed) == pytest.approx((T * T / 2, T, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize(("drift", "measurement"), [(-2.0, 0.1), (0.0, 0.1), (2.0, -0.1)])
+def test_noises_that_are_not_positive_are_refused(drift, measurement):
+    with pytest.raises(InputError, match="positive"):
+        KalmanObserver.from_noise(drift, measurement)

@@ -147,3 +147,15 @@ def test_what_cannot_be_corrected_is_refused(bare, published):
     ):
         with pytest.raises((InputError, GaitError)):
             make()
+
+
+def test_nothing_is_corrected_where_too_little_of_the_step_is_left_for_it(bare, published):
+    """x = 1 at the start of the step, 0 at its share 0.5; below 0.2 the correction would fall abruptly."""
+    law = ReferenceReset(ba.NPDController(published.constraint))
+    walker, h = ba.Walker(bare, law), published.constraint
+    for x, corrected in ((0.3, True), (0.1, False), (-0.1, False)):
+        theta = h.theta_plus + 0.5 * (1.0 - x) * (h.theta_minus - h.theta_plus)
+        q, v = published.start(bare)
+        q = q + (theta - h.phase @ q) * h.phase / (h.phase @ h.phase)
+        w = law.own_start(h, walker.measure(0.0, q, 1.05 * v, ba.Mode()))
+        assert np.any(w != 0.0) == corrected

@@ -115,3 +115,22 @@ def test_other_numbers_compile_nothing(biped, gait):
     assert usual == key(other, FaultyTouchdown(0.01, 0.2, (3, 0.2), 5))
     assert usual == key(noisy, replace(told, seed=4))
     assert usual != key(noisy, ByKinematics())
+
+
+@dataclass(frozen=True)
+class Lost(Tilted):
+    """Without numbers once a joint is quick."""
+
+    def reading(self, w, q, v):
+        if np.max(np.abs(v)) > 1.9:
+            return q * np.nan, v
+        return q, v
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_sensor_that_loses_its_numbers_on_the_way_is_named(biped, gait, engine):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=CLOCK, sensors=Lost())
+    assert np.max(np.abs(gait.start(biped)[1])) < 1.9
+    run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
+    assert not run.status.ok
+    assert "Lost.reading" in run.detail

@@ -228,3 +228,13 @@ def test_a_class_and_its_name_have_the_same_settings() -> None:
     scene = RobotAndGait.of(Scenario("DOB"))
     named = build(Scenario("DOB"), scene).controller
     assert named == MomentumDOBController(scene.gait.constraint)
+
+
+@pytest.mark.parametrize("name", ["q5", "v2"])
+def test_an_angle_or_rate_of_the_start_is_added(name: str) -> None:
+    usual, moved = (Scenario(start=x) for x in ({}, {name: 0.01}))
+    scene = RobotAndGait.of(usual)
+    change = np.array(scene.start(moved)) - np.array(scene.start(usual))
+    expected = np.zeros((2, 5))
+    expected["qv".index(name[0]), int(name[1]) - 1] = 0.01
+    assert change == pytest.approx(expected, abs=1e-15)

@@ -318,7 +318,13 @@ def test_a_database_of_somebody_else_is_refused_in_a_sentence(tmp_path, commands
 
 def test_rows_of_other_types_are_walked_again(tmp_path, expected):
     made(tmp_path, None)
-    values = ("x'00ff'", "NULL", "3.5", """replace(row, '"feasible": 1', '"feasible": NaN')""")
+    values = (
+        "x'00ff'",
+        "CAST(x'80ff' AS TEXT)",
+        "NULL",
+        "3.5",
+        """replace(row, '"feasible": 1', '"feasible": NaN')""",
+    )
     for place, value in enumerate(values):
         changed(tmp_path / RESULTS, f"UPDATE walks SET row = {value} WHERE place = {place}")
     changed(tmp_path / RESULTS, "UPDATE walks SET place = 777 WHERE place = 30")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -28,7 +29,7 @@ from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
-from biped_adrc.view.plots import over_time
+from biped_adrc.view.plots import over_time, zero_dynamics
 from biped_adrc.view.plots.figures import NAMES, draw
 from biped_adrc.view.style import render
 
@@ -221,3 +222,35 @@ def test_a_checked_robot_is_drawn_with_its_joints_masses_and_feet(name):
         assert f"q{i + 1} {joint}" in texts
     heavy = [link for link in biped.tree.links.values() if link.inertial]
     assert {f"{link.name} {link.inertial.mass:.4g} kg" for link in heavy} < texts
+
+
+def test_five_controllers_have_five_colours_in_the_bars(pushed: dict[str, Walk]) -> None:
+    """There are four hatches; the fifth is the first again."""
+    walks = {f"{i}": pushed["NPD"].signals for i in range(5)}
+    bars = over_time.torque_sizes(Figure().subplots(), walks).containers
+    colours = {tuple(part[0].get_facecolor()) for part in bars}
+    assert len(bars) == len(colours) == 5
+    assert bars[4][0].get_hatch() == bars[0][0].get_hatch()
+
+
+def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
+    axes = Figure().subplots()
+    axes.plot([0.0, 1.0, 2.0], [0.0, 1.0, 0.5])
+    axes.axhline(50.0)
+    figures._limits([axes], 0.0, 2.0)
+    assert axes.get_ylim() == pytest.approx((-0.06, 1.06))
+    assert axes.get_xlim() == (0.0, 2.0)
+
+
+def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
+    def drawn(low: float, high: float) -> tuple[float, float]:
+        class Domain(tuple[SimpleNamespace, SimpleNamespace]):
+            empty = low > high
+
+        ends = Domain((SimpleNamespace(zeta=low), SimpleNamespace(zeta=high)))
+        report = SimpleNamespace(domain=ends, orbits=SimpleNamespace(lowest=7.0), zeta_star=20.0)
+        return zero_dynamics._shown(report)  # type: ignore[arg-type]
+
+    assert drawn(10.0, 30.0) == (10.0, 30.0)
+    assert drawn(10.0, np.inf) == (10.0, zero_dynamics.WIDE * 20.0)
+    assert drawn(30.0, 10.0) == (7.0, 20.0)
