@@ -29,7 +29,7 @@ from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
-from biped_adrc.view.plots import over_time, zero_dynamics
+from biped_adrc.view.plots import figures, over_time, zero_dynamics
 from biped_adrc.view.plots.figures import NAMES, draw
 from biped_adrc.view.style import render
 
