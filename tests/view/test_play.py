@@ -499,3 +499,10 @@ def test_the_name_is_looked_at_before_anything_is_made(
     for name in ("own.txt", "folder.html"):
         with pytest.raises((InputError, OutputError), match=name):
             ba.play(tmp_path / name)
+
+
+def test_a_page_says_that_its_motors_have_no_torque_limit(path: Path, tmp_path: Path) -> None:
+    said = "motors without a torque limit"
+    unlimited = ba.play(tmp_path / "x.html", ba.Scenario(controller="NPD"))
+    assert said in unlimited.read_text(encoding="utf-8")
+    assert said not in path.read_text(encoding="utf-8")
