@@ -9,7 +9,7 @@ from scipy.linalg import expm
 import biped_adrc as ba
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.core.errors import GaitError, InputError, NotFiniteError, SingularError
-from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs
+from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, OutputPoint, Outputs
 
 from .off_orbit import off_orbit
 
@@ -136,3 +136,15 @@ def test_outputs_that_do_not_fit(biped, gait, state):
             wrong()
     with pytest.raises(NotFiniteError):
         torques(biped, [OutputNPDController(FunctionOutputs(lambda q: q * np.nan))], q, v)
+
+
+def test_what_outputs_of_ones_own_return_is_checked_at_every_call(state):
+    class Mine(Outputs):
+        def __call__(self, t, q, v):
+            return OutputPoint(
+                q[:4], v[:4] * (1.0 if t < 1.0 else np.nan), np.eye(4, 5), np.zeros(4)
+            )
+
+    assert np.array_equal(Mine()(0.0, *state).y, state[0][:4])
+    with pytest.raises(NotFiniteError, match="Mine"):
+        Mine()(1.0, *state)

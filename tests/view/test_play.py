@@ -18,6 +18,7 @@ from selenium.webdriver.common.keys import Keys
 import biped_adrc as ba
 from biped_adrc.core.errors import BipedError, InputError, OutputError
 from biped_adrc.extras.play.page import FIRST, page, revised, tour
+from biped_adrc.extras.play.sliders import Slider, at_base
 from biped_adrc.extras.play.walks import MOST, SPRING, PageWalk
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
@@ -503,6 +504,15 @@ def test_the_name_is_looked_at_before_anything_is_made(
 
 def test_a_page_says_that_its_motors_have_no_torque_limit(path: Path, tmp_path: Path) -> None:
     said = "motors without a torque limit"
-    unlimited = ba.play(tmp_path / "x.html", ba.Scenario(controller="NPD"))
+    unlimited = ba.play(
+        tmp_path / "x.html", ba.Scenario(controller="NPD", hardware={"period": 1e-3})
+    )
     assert said in unlimited.read_text(encoding="utf-8")
     assert said not in path.read_text(encoding="utf-8")
+
+
+def test_a_slider_begins_at_the_value_that_gives_the_walks_numbers() -> None:
+    """x with number = a + b x^k; a relative error of 0.2 is a factor of 1.2."""
+    error = Slider("errors.mass", -0.5, 0.5, False)
+    for form, number, value in (((1.0, 1.0, 1), 1.2, 0.2), ((3.0, 2.0, 2), 3.02, 0.1)):
+        assert at_base(error, np.array([number]), {0: form}).value == pytest.approx(value)
