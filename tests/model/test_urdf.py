@@ -99,6 +99,17 @@ def test_states_that_are_no_states(biped):
         ('urdf = "floating.urdf"', 'urdf = "linked.urdf"', "in its own folder or below"),
         ('"left_knee", "right_knee"]', '"left_knee", "left_knee"]', "a list of different names"),
         ('["left_thigh", "right_thigh"]', '["left_thigh", "thigh"]', r"\['thigh'\] in its links"),
+        ('torso = ["torso"]', "torso = []", r"links.torso is \[\], expected the names"),
+        ('"left_shin", "right_shin"', '"left_shin", "left_thigh"', "the links of all bodies"),
+        ('swing_foot = "right_foot"', 'swing_foot = "left_foot"', "both feet"),
+        ("mass = 12.0", "mass = true", "torso.mass is .True"),
+        ("peak_torque = 150.0", "peak_torque = true", "peak_torque is .True"),
+        ("friction_coefficient = 0.6", "friction_coefficient = true", "friction_coefficient is"),
+        ('urdf = "floating.urdf"', "urdf = { a = 1 }", "urdf is {'a': 1}, expected a text"),
+        ("peak_torque =", "peek_torque =", "unknown key 'peek_torque', expected peak_torque"),
+        ("inertia = 1.33", "inertia = 1.33, mas = 3.0", "unknown key 'mas', expected mass"),
+        ("viscous = {", "viscuous = {", "unknown key 'viscuous', expected viscous"),
+        ("torso = { mass", "torzo = { mass", "unknown key 'torzo', expected torso"),
     ],
 )
 def test_bad_robot_record_is_refused(tmp_path, old, new, message):

@@ -29,8 +29,10 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from difflib import get_close_matches
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -204,13 +206,25 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        friction, ranges = (_table(key, data.get(key, {})) for key in ("friction", "ranges"))
-        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in ("viscous", "static"))
+        rubbing = ("viscous", "static")
+        _table(
+            "the record",
+            data,
+            {f.name for f in fields(RobotDescription)} - {*rubbing} | {"friction"},
+        )
+        friction = _table("friction", data.get("friction", {}), rubbing)
+        ranges, links = _table("ranges", data.get("ranges", {})), _table("links", data["links"])
+        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in rubbing)
         _numbers("friction", rubs := [*viscous.values(), *static.values()], len(rubs), 0.0)
         actuated, base = (_names(key, data[key]) for key in ("actuated", "base"))
         passive = _names("passive", data.get("passive", ()))
         joints = (*actuated, *passive, data["unactuated"])
         _names("the list of all joints", (*joints, *base))
+        _names("the list of both feet", (data["stance_foot"], data["swing_foot"]))
+        bodies = {body: _names(f"links.{body}", x) for body, x in links.items()}
+        _names("the list of the links of all bodies", (*chain(*bodies.values()),))
+        if empty := [body for body, names in bodies.items() if not names]:
+            raise ValueError(f"links.{empty[0]} is [], expected the names of its links")
         if len(base) != 2:
             raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
         texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
@@ -222,7 +236,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             raise ValueError(f"phase is {list(phase)}; the last number must not be 0")
         return RobotDescription(
             **{key: _name(key, data[key]) for key in texts},
-            urdf=beside(path, data["urdf"]),
+            urdf=beside(path, _name("urdf", data["urdf"])),
             actuated=actuated,
             passive=passive,
             base=(base[0], base[1]),
@@ -234,12 +248,11 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
             viscous=viscous,
             static=static,
-            links={
-                body: _names(f"links.{body}", x)
-                for body, x in _table("links", data["links"]).items()
-            },
+            links=bodies,
             presets={
-                name: _preset(name, _table(f"presets.{name}", x), data)
+                name: _preset(
+                    name, _table(f"presets.{name}", x, (*bodies, "armature", "source")), data
+                )
                 for name, x in _table("presets", data["presets"]).items()
             },
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
@@ -260,10 +273,13 @@ def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
     return tuple(_name(f"a name in {key}", x) for x in values)
 
 
-def _table(key: str, value: object) -> Mapping[str, Any]:
-    """Check a table. Raises ValueError that names the key."""
+def _table(key: str, value: object, known: Iterable[str] | None = None) -> Mapping[str, Any]:
+    """Check a table, and that its keys are among the known ones. Raises ValueError that names the key."""
     if not isinstance(value, Mapping):
         raise ValueError(f"{key} is {value!r}, expected a table")
+    for name in () if known is None else sorted(set(value) - set(known)):
+        near = get_close_matches(name, known, 1) or sorted(known)
+        raise ValueError(f"{key} has the unknown key '{name}', expected {' or '.join(near)}")
     return value
 
 
@@ -272,7 +288,9 @@ def _numbers(
 ) -> tuple[float, ...]:
     """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
     row = values if isinstance(values, list | tuple) else ()
-    numbers = tuple(float(x) if isinstance(x, int | float) else math.nan for x in row)
+    numbers = tuple(
+        math.nan if type(x) is bool or not isinstance(x, int | float) else float(x) for x in row
+    )
     if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
         above = f", at least {least:g}" if math.isfinite(least) else ""
         raise ValueError(f"{key} is {values!r}, expected {count} finite numbers{above}")
@@ -293,7 +311,7 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
     """
     bodies, where = {}, f"presets.{name}"
     for body in data["links"] if any(body in record for body in data["links"]) else ():
-        p = _table(f"{where}.{body}", record[body])
+        p = _table(f"{where}.{body}", record[body], ("mass", "com", "inertia"))
         bodies[body] = BodyParameters(
             _positive(p["mass"], f"{where}.{body}.mass"),
             _numbers(f"{where}.{body}.com", [p["com"]], 1)[0],
