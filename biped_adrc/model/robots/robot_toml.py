@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
 from itertools import chain
@@ -273,11 +273,11 @@ def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
     return tuple(_name(f"a name in {key}", x) for x in values)
 
 
-def _table(key: str, value: object, known: Iterable[str] | None = None) -> Mapping[str, Any]:
-    """Check a table, and that its keys are among the known ones. Raises ValueError that names the key."""
+def _table(key: str, value: object, known: Collection[str] = ()) -> Mapping[str, Any]:
+    """Check a table, and that its keys are among the known ones, if any. Raises ValueError that names the key."""
     if not isinstance(value, Mapping):
         raise ValueError(f"{key} is {value!r}, expected a table")
-    for name in () if known is None else sorted(set(value) - set(known)):
+    for name in sorted(set(value) - set(known)) if known else ():
         near = get_close_matches(name, known, 1) or sorted(known)
         raise ValueError(f"{key} has the unknown key '{name}', expected {' or '.join(near)}")
     return value
