@@ -155,6 +155,20 @@ def test_the_curve_of_another_gait_is_named(biped, gait):
     assert float(remark.split(" rad")[0].split()[-1]) == pytest.approx(off, rel=0.05)
 
 
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_start_with_the_swing_foot_in_the_ground_is_named(engine, biped, gait):
+    """The pitch turns the robot about its stance foot: the swing foot behind sinks by sin(0.1) of the step."""
+    q, v = gait.start(biped)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), slope=gait.slope)
+    foot, lean = biped.swing_foot(q), 0.1 * np.eye(5)[4]
+    c, s = math.cos(0.1), math.sin(0.1)
+    depth = max(s * foot[0] - c * foot[1], -s * foot[0] - c * foot[1])
+    with pytest.warns(ba.WalkWarning, match=f"swing foot {1e3 * depth:.3g} mm below the ground"):
+        ba.walk(walker, gait, 1, start=(q + lean, v), engine=engine)
+    lifted = ba.walk(walker, gait, 1, start=(q - 0.001 * lean, v), engine=engine)
+    assert lifted.remarks == ()
+
+
 def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
     late = pulse(5, 0.1, 0.3) + pulse(7, 0.1, 0.3)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), late)

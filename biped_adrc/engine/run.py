@@ -132,7 +132,7 @@ def simulate_compiled(
     run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
     run["every"] = options.store_every
 
-    def flown(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
+    def flown(t: float, x: Array, mode: Mode, fired: Event | None) -> FlownArc:
         """To the end or the first event, with the impact there."""
         nx, event, outcome = run.nx, None, None
         status, strikes = run.stride(1)

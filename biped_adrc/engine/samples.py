@@ -39,7 +39,7 @@ from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Arc
+from biped_adrc.hybrid.trajectory import Arc, Event
 from biped_adrc.model.planar import link_point
 from biped_adrc.model.planar_robot import once_each
 
@@ -131,7 +131,7 @@ class PythonWalk:
     x: Array
     """State (nx,) before the sample instant at t."""
     mode: Mode
-    fired: str | None = None
+    fired: Event | None = None
     """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
     """Of this single support so far."""
@@ -187,7 +187,7 @@ class PythonWalk:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
                 return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
             t, (x, mode) = event.t, flown.outcome
-            walk = replace(walk, t=t, x=x, mode=mode, fired=event.guard, arcs=arcs)
+            walk = replace(walk, t=t, x=x, mode=mode, fired=event, arcs=arcs)
             if timing.restart or t >= until:
                 return walk, flown.status, over
 

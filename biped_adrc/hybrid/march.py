@@ -260,14 +260,31 @@ def begins_low(r: Run) -> bool:
     return low
 
 
+@inner
+def overdue(r: Run, t0: float) -> int:
+    """Code of an event at t0 [s], the start of an arc, 0 for none: another event function than the one that has
+    fired is at zero or below and falls, since two events fell together or a reset or the start put it there.
+    """
+    copy(r.x0, r.x_e, r.nx)
+    watch(r, t0, r.x_e, r.tried)
+    for guard in range(r.guards):
+        fall = r.values[guard] - r.after[guard]
+        if guard == r.fired or r.values[guard] > 0.0 or not fall > 0.0:
+            continue
+        if not passed(r, guard, fall) and accepts(r, guard, t0):
+            r.t_event = t0
+            return code_of(r, guard)
+    return 0
+
+
 @unit
 def lift(r: Run, t0: float, s: float) -> int:
-    """Code of an event in (t0, s] [s], the first TOGETHER of an arc; `values` become those at s.
+    """Code of an event in [t0, s] [s], the first TOGETHER of an arc; `values` become those at s.
 
-    So an event function that begins at zero is above it at s, and watched, however soon it falls again. One
-    that is below fell steadily, w(s) = 2 w(s/2), where the reset lets it pass, as a time that is over. If it
-    bent down, as s^2 does, 4 w(s/2), and a hop shorter than s, more than that, a ball is at rest on its floor:
-    the next events are not told apart (EVENT_LIMIT).
+    So an event function that begins at zero is above it at s, and watched, however soon it falls again. If it
+    bent down, as s^2 does, w(s) = 4 w(s/2), and a hop shorter than s, more than that, a ball is at rest on its
+    floor: the next events are not told apart (EVENT_LIMIT). One that falls steadily, 2 w(s/2), is let pass
+    where it has just fired, as a time that is over; another one fires at t0 (`overdue`).
     """
     retake(r, t0, t0 + 0.5 * (s - t0))
     copy(r.tried, r.after, r.guards)
@@ -277,7 +294,8 @@ def lift(r: Run, t0: float, s: float) -> int:
         if r.values[guard] == 0.0 > w and w < 3.0 * r.after[guard] and accepts(r, guard, t0):
             return EVENT_LIMIT
     copy(r.tried, r.after, r.guards)
-    code = crossed(r, t0, t0, s)
+    code = overdue(r, t0)
+    code = code if code != 0 else crossed(r, t0, t0, s)
     copy(r.after, r.values, r.guards)
     return code
 
@@ -417,13 +435,15 @@ def pass_on(r: Run) -> None:
 def stop(r: Run, code: int) -> int:
     """x0 (nx,) and t at the event just found, kept as a node with its slope from the left; its code.
 
-    A status, and all as before, where the state is not finite.
+    A status, and all as before, where the state is not finite. An arc of no length has its node already.
     """
     te = r.t_event
     if not finite(r.x_e, r.nx):
         return broken(r)
     copy(r.x_e, r.x0, r.nx)
     r.t = te
+    if te == r.t_arc:
+        return code
     if r.every > 0:
         flow(r, left(te), r.x0, r.dx0)
     keep(r, te, r.x0, r.dx0)

@@ -92,9 +92,9 @@ class Run:
         record: Record,
         t: float,
         x: Array,
-        fired: str | None,
+        fired: Event | None,
     ):
-        """From x (nx,) at t [s]; fired: the guard that ended the arc before, None at the start.
+        """From x (nx,) at t [s]; fired: the event that ended the arc before, None at the start.
 
         Raises InputError for a system without what the method needs.
         """
@@ -103,7 +103,8 @@ class Run:
         self.t, self.t_end, self.limit, self.t_event = t, calendar.t_end, math.inf, 0.0
         self.event_functions = self.system.guards(self.mode)
         names = [guard.name for guard in self.event_functions]
-        self.guards, self.fired = len(names), names.index(fired) if fired in names else -1
+        self.guards, self.before = len(names), np.zeros(len(names))
+        self.fired = names.index(fired.guard) if fired and fired.guard in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
         self.look = self.pulled = 0
         self.nx, self.moving, self.p = len(x), len(x), 0
@@ -113,6 +114,8 @@ class Run:
             setattr(self, name, np.zeros(self.nx))
         self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
         self.x0[:] = x
+        if fired and len(fired.x_minus) == self.nx:
+            watch(self, fired.t, fired.x_minus, self.before)
         self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
         self.t_next, self.steps = math.nan, iter(tuple[Step, ...]())
         self.nN = self.n_slow = self.levels = 0
@@ -250,6 +253,11 @@ def watch(r: Run, t: float, x: Array, out: Array) -> None:
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
     """True: a step longer than RESOLUTION is always taken again at its interior points."""
     return True
+
+
+def passed(r: Run, guard: int, fall: float) -> bool:
+    """Whether an event function was below zero before the last event by more than its `fall` in TOGETHER."""
+    return bool(r.before[guard] + fall <= 0.0)
 
 
 def accepts(r: Run, guard: int, te: float) -> bool:

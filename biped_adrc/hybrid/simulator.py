@@ -31,7 +31,7 @@ from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem, Mode, Outcome
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 Progress = Callable[[float, int], None]
 """Called after every event with the time [s] and the number of events so far."""
@@ -118,13 +118,13 @@ def run(
 
 
 def run_arcs(
-    fly: Callable[[float, Array, Mode, str | None], FlownArc],
+    fly: Callable[[float, Array, Mode, Event | None], FlownArc],
     x0: Array,
     mode: Mode,
     label: str,
     options: RunOptions,
 ) -> Trajectory:
-    """A run from x0 (nx,), arc after arc made by fly(t, x, mode, name of the guard that has just fired).
+    """A run from x0 (nx,), arc after arc made by fly(t, x, mode, event that ended the arc before).
 
     label: of the method, for the settings. Counts events, applies resets and decides when the run
     is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE and
@@ -133,18 +133,18 @@ def run_arcs(
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
     arcs, events = list[Arc](), Counter[str]()
-    fired: str | None = None
+    event: Event | None = None
     while True:
         # what overflows ends as the status NOT_FINITE
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            flown = finite(fly(t, x, mode, fired))
+            flown = finite(fly(t, x, mode, event))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
             status = options.timed_out if status is Status.COMPLETED else status
             break
-        t, (x, mode), fired = event.t, flown.outcome, event.guard
-        events[fired] += 1
+        t, (x, mode) = event.t, flown.outcome
+        events[event.guard] += 1
         if options.progress is not None:
             options.progress(t, len(arcs))
         crowded = len(arcs) > CROWD and t - arcs[-CROWD].t[-1] < TOGETHER
@@ -199,7 +199,7 @@ def flow_arc(
     t: float,
     x: Array,
     mode: Mode,
-    fired: str | None,
+    fired: Event | None,
     began: float | None = None,
 ) -> FlownArc:
     """One arc from (t, x) in Python: to an event, t_end, or an error of `FAILURES`.
@@ -210,7 +210,7 @@ def flow_arc(
     record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""
     calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
-    move = system.mover(fired)
+    move = system.mover(fired.guard if fired else None)
     run = None
     if move is None:
         assert method is not None

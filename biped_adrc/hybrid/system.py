@@ -49,7 +49,7 @@ Moves a system from t to `until` [s] or to its next event in whatever way it lik
 
 @dataclass(frozen=True)
 class Guard(Shown):
-    """An event function: a named zero crossing of witness(t, x) over (t0, t1], and what follows from it.
+    """An event function: a named zero crossing of witness(t, x), downwards, and what follows from it.
 
     - witness(t, x): real function whose zero is the event.
     - reset(t, x): (x+, mode+), or None to let the crossing pass as no event.
@@ -57,7 +57,11 @@ class Guard(Shown):
 
     A guard watches from the start of an arc on. Where its witness begins at zero, as after its own reset, it
     fires after the witness has risen, however shortly. A witness that bends down from zero, a body at rest on
-    what it would bounce off, ends the run as EVENT_LIMIT; one that falls through zero steadily is let pass.
+    what it would bounce off, ends the run as EVENT_LIMIT; one that falls steadily after its own reset is let
+    pass. One that begins at zero or below and falls, at the start, after a jump of the state, or as the second
+    of two events at one instant, fires at once; so a time that is over leaves the guards with its reset's mode,
+    or another event at that very instant fires it again. One that begins below zero and rises fires the next
+    time that it falls through zero.
     """
 
     name: str

@@ -30,6 +30,8 @@ from biped_adrc.hybrid.trajectory import Trajectory
 NEAR = 1e-3
 """[s], the usual integration step: whether an edge this close to an impact acts before or after it is decided
 by the error of the method."""
+BURIED = 5e-3
+"""Depth of the swing foot below the ground [m] from which a start is named, beyond the scuff of a leg."""
 LONGER = 1.1
 """Largest step over the observer's shortest time constant; a little above 1 for round-off in its poles."""
 SAME_CURVE = 1e-6
@@ -37,7 +39,7 @@ SAME_CURVE = 1e-6
 
 
 def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on pushes, steps beside their edges, the last stone, controller and gait (None without motors).
+    """Sentences on pushes, steps beside their edges, start, last stone, controller and gait (None: no motors).
 
     A push is named that did not act, that an impact cuts off, or with an edge at an impact. An edge within
     `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
@@ -52,6 +54,9 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
             name = names[0] if names else f"the push {type(part).__name__}"
             yield f"{name} did not act: it was zero at every instant of the walk"
     yield from _of_steps(walker, trajectory)
+    depth = -walker.clearance(trajectory.arcs[0].x[0, : walker.plant.n])
+    if depth > BURIED:
+        yield f"the start has the swing foot {1e3 * depth:.3g} mm below the ground"
     count = 0 if walker.stones is None else len(walker.stones.lengths)
     if 0 < count < trajectory.arcs[-1].mode.step:
         behind = f"behind stone {count}, the last one, from single support {count + 1} on"

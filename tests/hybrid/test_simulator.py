@@ -92,6 +92,76 @@ def test_a_ball_at_rest_does_not_fall_through_the_floor(method, start, bounces):
     assert run.final_state == pytest.approx([0.0, 0.0], abs=1e-15)
 
 
+def floor(k):
+    """The floor of ball k of several, whose state is (z, v) of one after the other."""
+
+    def reset(t, x):
+        x = x.copy()
+        x[2 * k : 2 * k + 2] = 0.0, -0.8 * x[2 * k + 1]
+        return x, None
+
+    return Guard(f"floor {k}", lambda t, x: x[2 * k], reset)
+
+
+class Balls(HybridSystem):
+    """Three balls that know nothing of each other."""
+
+    def flow(self, t, x, mode):
+        return np.column_stack([x[1::2], np.full(len(x) // 2, -G)]).ravel()
+
+    def guards(self, mode):
+        return tuple(floor(k) for k in range(3))
+
+
+@pytest.mark.parametrize("method", [RK4(1e-3), RK4(0.03), Adaptive(), Stiff()])
+@pytest.mark.parametrize("apart", [0.0, 1.2e-15, 1e-13, 1e-9])
+def test_balls_that_land_at_one_instant_all_bounce(method, apart):
+    """Each has the bounces of a ball alone, and after all of them the heights of it."""
+    start = [1.0, 0.0, 1.0 + apart, 0.0, 1.0, 0.0]
+    run = simulate(Balls(), np.array(start), None, method, t_end=1.5)
+    alone = simulate(Ball(), np.array([1.0, 0.0]), 0, method, t_end=1.5)
+    assert run.status is Status.COMPLETED
+    for k in range(3):
+        found = [event.t for event in run.events(f"floor {k}")]
+        assert found == pytest.approx([event.t for event in alone.events()], abs=1e-8)
+    assert run.final_state[::2] == pytest.approx(alone.final_state[:1].repeat(3), abs=1e-8)
+    assert run(0.3)[::2] == pytest.approx(np.full(3, 1.0 - 0.5 * G * 0.09), abs=1e-8)
+
+
+@pytest.mark.parametrize("method", ALL_METHODS)
+@pytest.mark.parametrize("start", [(0.0, -1.0), (-0.1, -1.0)])
+def test_a_ball_that_starts_at_or_below_its_floor_and_falls_bounces_at_once(method, start):
+    run = simulate(Dropped(0.8), np.array(start), 0, method, t_end=0.1)
+    (event,) = run.events()
+    assert (event.t, *event.x_minus) == (0.0, *start)
+    assert run(0.1) == pytest.approx([0.08 - 0.005 * G, 0.8 - 0.1 * G], abs=1e-9)
+    assert run(0.0) == pytest.approx([0.0, 0.8])
+
+
+@dataclass(frozen=True)
+class Switched(Ball):
+    """At 0.2 s, once, the ball is put to another height; its guard stays where `stays`."""
+
+    height: float | None
+    stays: bool
+
+    def guards(self, mode):
+        def reset(t, x):
+            return np.array([x[0] if self.height is None else self.height, x[1]]), mode + 1
+
+        switch = Guard("switch", lambda t, x: 0.2 - t, reset)
+        return (*super().guards(mode), switch)[: 2 if self.stays or mode == 0 else 1]
+
+
+def test_a_jump_below_a_floor_fires_at_once_and_a_time_that_is_over_does_not_again():
+    jump = simulate(Switched(-0.5, False), np.array([1.0, 0.0]), 0, RK4(1e-3), t_end=0.7)
+    assert [event.guard for event in jump.events()] == ["switch", "bounce", "bounce"]
+    times = [0.2, 0.2, 0.2 + 2 * 0.8 * 0.2]
+    assert [event.t for event in jump.events()] == pytest.approx(times, abs=1e-12)
+    over = simulate(Switched(None, True), np.array([1.0, 0.0]), 0, RK4(1e-3), t_end=1.5)
+    assert [event.guard for event in over.events()] == ["switch", "bounce", "bounce"]
+
+
 def test_events_of_two_guards_in_turn_that_accumulate_end_the_run():
     """x' = +-3 between walls at +-(1 - t): each way takes half the time of the one before."""
 
@@ -153,8 +223,9 @@ def go(system, method=None, t_end=1.0, **more):
     return simulate(system, np.zeros(1), 0, method or RK4(0.1), t_end=t_end, **more)
 
 
-def test_a_zero_at_the_start_does_not_fire_and_one_at_the_end_does():
-    assert not go(Timer(lambda t: -t)).events()
+def test_a_zero_at_the_start_fires_where_the_witness_falls_and_one_at_the_end_does():
+    assert not go(Timer(lambda t: t)).events()
+    assert [event.t for event in go(Timer(lambda t: -t)).events()] == [0.0]
     events = go(Timer(lambda t: 1.0 - t), t_end=1.0).events()
     assert [event.t for event in events] == [1.0]
 

@@ -99,6 +99,21 @@ def test_states_that_are_no_states(biped):
         ('urdf = "floating.urdf"', 'urdf = "linked.urdf"', "in its own folder or below"),
         ('"left_knee", "right_knee"]', '"left_knee", "left_knee"]', "a list of different names"),
         ('["left_thigh", "right_thigh"]', '["left_thigh", "thigh"]', r"\['thigh'\] in its links"),
+        ('torso = ["torso"]', "torso = []", "links.torso.*at least 1"),
+        ('"left_shin", "right_shin"', '"left_shin", "left_thigh"', "the links are"),
+        ('swing_foot = "right_foot"', 'swing_foot = "left_foot"', "the feet are"),
+        ("mass = 12.0", "mass = true", "torso.mass.*True"),
+        ("peak_torque = 150.0", "peak_torque = true", "peak_torque.*True"),
+        ("friction_coefficient = 0.6", "friction_coefficient = true", "friction_coefficient.*True"),
+        ('urdf = "floating.urdf"', "urdf = { a = 1 }", "urdf: .*not a valid path"),
+        ("peak_torque =", "peek_torque =", "'peek_torque' in the record.*'peak_torque'"),
+        (
+            "inertia = 1.33",
+            "inertia = 1.33, mas = 3.0",
+            "'mas' in presets.identified.torso.*'mass'",
+        ),
+        ("viscous = {", "viscuous = {", "'viscuous' in friction.*'viscous'"),
+        ("torso = { mass", "torzo = { mass", "'torzo' in presets.identified.*'torso'"),
     ],
 )
 def test_bad_robot_record_is_refused(tmp_path, old, new, message):

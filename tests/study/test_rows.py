@@ -199,6 +199,8 @@ DRAWS = {
 FIXED = {
     "nothing": {},
     "push": PUSH | {"pushes.0.onset": 0.1},
+    "push of no torque": {"pushes.0.torque": 0.0, "pushes.0.joints": "random"},
+    "noise of no force": {"pushes.0.link": "torso", "pushes.0.shape": "noise"},
     "counts": {"hardware.encoders.counts": 8192.0},
     "masses": {"errors.mass": {"torso": 1.1}, "errors.trunk_load": 0.1},
     "ground": {"ground.drop": 0.01},
@@ -302,6 +304,10 @@ def changed(path, *commands):
         (["DROP TABLE walks"], "other tables"),
         (["PRAGMA application_id = 7"], "of another program"),
         (["DELETE FROM study"], "empty or damaged"),
+        (
+            ["UPDATE study SET hash = 7"],
+            "another one: its values are the same, and its hash is not",
+        ),
         (["UPDATE study SET hash = 7, study = NULL"], "damaged"),
         (["UPDATE study SET hash = 7, study = '[]'"], "damaged"),
         (["UPDATE study SET versions = x'ff'"], "damaged"),

@@ -201,6 +201,12 @@ def watch(r: Run, t: float, q: Array, out: Array) -> None:
 
 
 @inner
+def passed(r: Run, guard: int, fall: float) -> bool:
+    """False: of a walk's event functions the touchdown alone may be below zero, and `accepts` asks of it."""
+    return False
+
+
+@inner
 def accepts(r: Run, guard: int, te: float) -> bool:
     """Whether the crossing found is an event: a touchdown less than least_step ahead of the stance foot is
     none."""

@@ -28,8 +28,9 @@ The keys are the fields of `RobotDescription`, with joint friction in a table [f
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, fields, replace
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -37,7 +38,7 @@ import numpy as np
 from pydantic import AfterValidator, Field, TypeAdapter, ValidationError
 
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import ModelError, problem
+from biped_adrc.core.errors import ModelError, problem, unknown
 from biped_adrc.core.files import beside, data_folder, reading
 from biped_adrc.core.registry import stored
 from biped_adrc.core.shown import Shown
@@ -137,7 +138,7 @@ class RobotDescription(Shown):
     """Viscous joint friction by joint [N m s/rad]; 0 for joints that are not here."""
     static: Mapping[str, NotNegative]
     """Static joint friction by joint [N m]; 0 for joints that are not here."""
-    links: Mapping[str, Names]
+    links: Mapping[str, Annotated[Names, Field(min_length=1)]]
     """Links by body: the class "thigh" has the links of both thighs."""
     default_preset: str
     """Name of the preset that is used by default."""
@@ -201,6 +202,9 @@ class RobotDescription(Shown):
 
 _READER = TypeAdapter(RobotDescription)
 """Reads a record from TOML's tables, by the types of its fields."""
+RECORD_KEYS = {f.name for f in fields(RobotDescription)} - {"viscous", "static"} | {"friction"}
+BODY_KEYS = [f.name for f in fields(BodyParameters)]
+"""Keys of a record and of a body in a preset."""
 
 
 def robot_names() -> tuple[str, ...]:
@@ -233,11 +237,13 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
+        _table("the record", data, RECORD_KEYS)
         links, presets = _table("links", data["links"]), _table("presets", data["presets"])
+        rubbing = _table("friction", data.get("friction", {}), ("viscous", "static"))
         usual = {"trunk": data["hip"], "passive": (), "offset": (), "gravity": GRAVITY}
-        friction = {"viscous": {}, "static": {}, **_table("friction", data.get("friction", {}))}
+        friction, urdf = {"viscous": {}, "static": {}, **rubbing}, data["urdf"]
         own = {
-            "urdf": beside(path, data["urdf"]),
+            "urdf": beside(path, urdf) if isinstance(urdf, str) else urdf,
             "presets": {name: _preset(name, x, links) for name, x in presets.items()},
         }
         try:
@@ -245,7 +251,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         except ValidationError as error:
             innermost = max(error.errors(), key=lambda one: len(one["loc"]))
             raise ValueError(problem(innermost).replace(".bodies.", ".")) from None
-        n, names = len(d.joints), (*d.joints, *d.base)
+        n = len(d.joints)
         d = d if "offset" in data else replace(d, offset=(0.0,) * n)
         rows = {"phase": (d.phase, n), "offset": (d.offset, n)}
         for name, preset in d.presets.items():
@@ -254,27 +260,36 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         for key, (row, count) in rows.items():
             if len(row) != count:
                 raise ValueError(f"{key} is {list(row)}, expected {count} finite numbers")
-        if len(set(names)) < len(names):
-            raise ValueError(f"the joints are {names}, expected a list of different names")
+        bodies = (*chain(*d.links.values()),)
+        for what, names in {
+            "joints": (*d.joints, *d.base),
+            "feet": d.feet,
+            "links": bodies,
+        }.items():
+            if len(set(names)) < len(names):
+                raise ValueError(f"the {what} are {names}, expected a list of different names")
         for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
-            if unknown := sorted(set(table) - set(d.joints)):
-                raise ValueError(f"{key} names {unknown}, the joints are {list(d.joints)}")
+            if others := sorted(set(table) - set(d.joints)):
+                raise ValueError(f"{key} names {others}, the joints are {list(d.joints)}")
         if d.phase[-1] == 0.0:
             raise ValueError(f"phase is {list(d.phase)}; the last number must not be 0")
         return d
 
 
-def _table(key: str, value: object) -> Mapping[str, Any]:
-    """Check a table. Raises ValueError that names the key."""
+def _table(key: str, value: object, known: Collection[str] = ()) -> Mapping[str, Any]:
+    """Check a table, and that its keys are known where `known` names them. Raises ValueError."""
     if not isinstance(value, Mapping):
         raise ValueError(f"{key} is {value!r}, expected a table")
+    for name in sorted(set(value) - set(known)) if known else ():
+        raise ValueError(f"'{name}' in {key}: {unknown(name, known)}")
     return value
 
 
 def _preset(name: str, value: object, links: Mapping[str, Any]) -> dict[str, Any]:
     """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none."""
-    record = _table(f"presets.{name}", value)
-    bodies = {body: record[body] for body in links if any(x in record for x in links)}
+    record, keys = _table(f"presets.{name}", value, (*links, "armature", "source")), BODY_KEYS
+    all_or_none = links if any(x in record for x in links) else ()
+    bodies = {x: _table(f"presets.{name}.{x}", record[x], keys) for x in all_or_none}
     return {**record, "name": name, "bodies": bodies}
 
 
