@@ -174,12 +174,20 @@ def top(kind):
     return f'<joint name="top" type="{kind}">{ends}</joint>'
 
 
+def ramp(slope):
+    """The slides on a ground that is turned about y and welded to a world which is not there."""
+    weld = '<joint name="weld" type="fixed"><parent link="world"/><child link="ground"/>'
+    turn = f'<origin rpy="0 {slope} 0"/></joint><link name="ground"/>'
+    return weld + turn + SLIDES.replace('"world"', '"ground"')
+
+
 @pytest.mark.parametrize(
     "text",
     [
         two_legs("space"),
         two_legs(SLIDES),
         two_legs(HEAVY + SLIDES),
+        two_legs(ramp(0.0)),
         two_legs('<link name="world"/>' + top("planar")),
         two_legs(top("planar")),
         two_legs(top("floating")),
@@ -190,6 +198,7 @@ def top(kind):
         "namespace",
         "world",
         "heavy world",
+        "ground",
         "planar",
         "own world",
         "floating",
@@ -208,6 +217,24 @@ def test_form_does_not_change_the_physics(urdf, text):
         ):
             size = np.max(np.abs(expected))
             np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * size)
+
+
+def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
+    one, derived = (
+        biped_from_urdf(urdf(two_legs())),
+        derive(urdf(two_legs(ramp(0.04)), "ramp.urdf")),
+    )
+    own, turn = derived.biped, np.array([0.0, 0.0, 0.04])
+    assert (own.description.base, own.description.unactuated) == (("x", "z"), "pitch")
+    for q, v in states(3):
+        np.testing.assert_allclose(own.inertia(q), one.inertia(q + turn), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(own.bias(q, v), one.bias(q + turn, v), rtol=0, atol=1e-11)
+        np.testing.assert_allclose(own.swing_foot(q), one.swing_foot(q + turn), rtol=0, atol=1e-12)
+    (said,) = (note.text for note in derived.notes if "slope" in note.text)
+    assert "0.04 rad" in said
+    parallel = SLIDES.replace('"0 0 1"', '"1 0 0"')
+    with pytest.raises(ModelError, match="two prismatic joints in the plane"):
+        derive(urdf(two_legs(parallel), "parallel.urdf"))
 
 
 @pytest.mark.parametrize("inertia", ["", '<inertia ixx="0" iyy="0" izz="0"/>'])
@@ -328,6 +355,20 @@ def test_a_tree_that_hangs_from_a_leg_is_the_same_robot(urdf, root):
         close(own.bias(Q, V)[order] * sign, one.bias(q, v))
         close(own.swing_foot(Q), one.swing_foot(q))
         close(own.impact(Q, V).v[order] * sign, one.impact(q, v).v)
+
+
+def test_each_foot_may_have_a_tip_of_its_own(urdf):
+    """The frame of the left shin lies at its foot, that of the right one at its knee."""
+    text = hung("left_shin")
+    legs, tip = ("left_shin", "right_shin"), (0.0, 0.0, 0.0, 0.0, 0.0, -SHIN)
+    one = derive(urdf(text), Hints(("left_shin", "right_foot"))).biped
+    own = derive(urdf(text), Hints(legs, tip=tip)).biped
+    for q, v in states(5, 3):
+        close(own.swing_foot(q), one.swing_foot(q))
+        close(own.impact(q, v).v, one.impact(q, v).v)
+    for wrong in (tip[:4], (0.0, math.nan, 1.0)):
+        with pytest.raises(ModelError, match="of one after the other"):
+            derive(urdf(text), Hints(legs, tip=wrong))
 
 
 def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):

@@ -129,8 +129,9 @@ class Hints:
     """Rotor inertia per motor, reflected to the joint [kg m^2]; None for that of the file."""
     gravity: float = GRAVITY
     """Gravity [m/s^2]."""
-    tip: tuple[float, float, float] | None = None
-    """Place of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins."""
+    tip: tuple[float, ...] | None = None
+    """Place (3,) of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins; or
+    (6,), of the stance foot, then of the swing foot."""
 
 
 def record_of(
@@ -237,7 +238,7 @@ def biped_from_urdf(
     hip: str | None = None,
     torque: float | None = None,
     armature: float | None = None,
-    tip: tuple[float, float, float] | None = None,
+    tip: tuple[float, ...] | None = None,
 ) -> Biped:
     """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
 
@@ -289,9 +290,13 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
             f"'{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
             f"are {list(contents.tree.links)}"
         )
+    if len(hints.tip) not in (3, 6) or not all(map(math.isfinite, hints.tip)):
+        raise ModelError(
+            f"tip={hints.tip}, expected x, y, z of both feet, or of one after the other [m]"
+        )
     tree, tips = contents.tree, []
-    for foot in feet:
-        tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ np.array(hints.tip)))
+    for foot, place in zip(feet, np.resize(hints.tip, (len(feet), 3)), strict=True):
+        tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ place))
         tips.append(tip)
     return replace(contents, tree=tree), tuple(tips)
 
