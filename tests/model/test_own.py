@@ -232,6 +232,15 @@ def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
         np.testing.assert_allclose(own.swing_foot(q), one.swing_foot(q + turn), rtol=0, atol=1e-12)
     (said,) = (note.text for note in derived.notes if "slope" in note.text)
     assert "0.04 rad" in said
+    box = (
+        mass("box", 5, 0)
+        + '<joint name="at" type="fixed"><parent link="{}"/><child link="box"/></joint>'
+    )
+    derived = derive(urdf(two_legs(ramp(0.04) + box.format("ground")), "box.urdf"))
+    np.testing.assert_array_equal(derived.biped.inertia(q), own.inertia(q))
+    assert any("['box']" in note.text for note in derived.notes if note.kind == "left out")
+    with pytest.raises(ModelError, match="has mass in \\['box'\\]"):
+        derive(urdf(two_legs(ramp(0.04) + box.format("a")), "boom.urdf"))
     parallel = SLIDES.replace('"0 0 1"', '"1 0 0"')
     with pytest.raises(ModelError, match="two prismatic joints in the plane"):
         derive(urdf(two_legs(parallel), "parallel.urdf"))

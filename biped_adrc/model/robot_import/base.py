@@ -22,7 +22,6 @@ from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
-_Y = 1
 _NAMES = ("base_x", "base_z", "base_pitch")
 
 
@@ -94,27 +93,20 @@ def _top(tree: Tree, root: str) -> Joint | None:
             f"this kind at most, at the root '{root}', where it leaves the robot free"
         )
     holds = ("revolute", "fixed") if root == "world" else ("revolute",)
-    slides = any(joint.type == "prismatic" for joint in tree.joints)
-    if not floats and not slides and len(below) == 1 and tree.links[root].inertial is None:
-        floats = [joint for joint in below if joint.type in holds]
+    stands = len(below) == 1 and tree.links[root].inertial is None
+    if stands and not any(joint.type == "prismatic" for joint in tree.joints):
+        floats = floats or [joint for joint in below if joint.type in holds]
     return floats[0] if floats else None
 
 
 def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
     """The tree below `top` on a base added in its place; an axis of `top` is that of the pitch."""
-    rest = _hanging(tree, top.child)
     turns = top.type in ("planar", "revolute")
-    on_base = added(rest, top.child, *((top.axis, (*_NAMES[:2], top.name)) if turns else ()))
-    other = sorted(set(tree.links) - {*rest.links, root})
+    on_base = added(tree, top.child, *((top.axis, (*_NAMES[:2], top.name)) if turns else ()))
+    other = sorted(set(tree.links) - {*on_base.tree.links, root})
     text = f"{top.type} joint '{top.name}' to '{root}': the robot stands on its feet instead"
-    left = f"{text}; and {other}, which do not move with it" if other else text
-    return on_base.noting(Note("left out", left))
-
-
-def _hanging(tree: Tree, top: str) -> Tree:
-    """The tree of link `top` and all links that it carries."""
-    links = {link: tree.links[link] for link in tree.links_from(top)}
-    return replace(tree, links=links, joints=tuple(j for j in tree.joints if j.parent in links))
+    rest_of = f"; and {other}, which do not move with it" if other else ""
+    return on_base.noting(Note("left out", text + rest_of))
 
 
 def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
@@ -124,10 +116,11 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     Raises ModelError where it is incomplete or has mass.
     """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
-    above = {joint.name: tree.path_to_root(joint.parent) for joint in turning}
-    tops = [j for j in turning if not any(a.type == "revolute" for a in above[j.name])]
-    carriers = above[tops[0].name] if tops else ()
-    heavy = [j.child for j in carriers if tree.links[j.child].inertial is not None]
+    tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
+    carriers = tree.path_to_root(tops[0].parent) if tops else ()
+    carried = tree.links_from(tops[0].child) if tops else []
+    masses = [x for x, link in tree.links.items() if link.inertial and x not in carried]
+    heavy = [x for x in masses if set(slides) & set(tree.path_to_root(x))]
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
     if not plane or not set(slides) <= set(carriers) or len(tops) != 1 or heavy:
@@ -139,24 +132,26 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
         )
     (pitch,), x = tops, flat[0]
     names = tuple(joint.name for joint in (*flat, pitch))
-    on_base = added(_hanging(tree, pitch.child), pitch.child, pitch.axis, names)
+    on_base = added(tree, pitch.child, pitch.axis, names)
     text = "base: '{}' and '{}' slide, '{}' is the pitch of the trunk".format(*names)
-    on_base = replace(on_base, notes=(Note("read", f"{text} '{pitch.child}'"),))
     slope = math.atan(-x.axis[2] / x.axis[0])
-    left = Note(
-        "left out", f"slope of '{x.name}', {slope:g} rad; ground.slope of a scenario gives it"
+    notes = (
+        ("read", True, f"{text} '{pitch.child}'"),
+        ("left out", masses, f"masses of {masses}, which do not move"),
+        ("left out", abs(slope) > PLANAR, f"slope of '{x.name}', {slope:g} rad: see ground.slope"),
     )
-    return on_base.noting(left) if abs(slope) > PLANAR else on_base
+    return replace(on_base, notes=tuple(Note(kind, text) for kind, found, text in notes if found))
 
 
 def added(
     tree: Tree, root: str, axis: Vector | None = None, names: tuple[str, ...] = _NAMES
 ) -> PlanarBase:
-    """The tree with a base added above the root link; its pitch turns about `axis`, or in the sense of
-    the first revolute joint.
+    """The tree below link `root` with a base above it; its pitch turns about `axis`, or in the sense of the
+    first revolute joint.
     """
-    first = next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
-    axis = axis or first
+    carried = {link: tree.links[link] for link in tree.links_from(root)}
+    tree = replace(tree, links=carried, joints=tuple(j for j in tree.joints if j.parent in carried))
+    axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
     every = (*names, "world", "base_x_carriage", "base_z_carriage")
     x, z, pitch, world, cart, lift = (free_name(tree, name) for name in every)
     zero = (0.0, 0.0, 0.0)
@@ -165,9 +160,8 @@ def added(
         Joint(z, "prismatic", cart, lift, zero, (0.0, 0.0, 1.0)),
         Joint(pitch, "revolute", lift, root, zero, axis),
     )
-    links = {name: Link(name, None, ()) for name in (world, cart, lift)} | dict(tree.links)
-    turns = f"axis {axis[_Y]:+g} y"
-    text = f"base: '{x}', '{z}' and the pitch '{pitch}' ({turns}) were put above the trunk '{root}'"
+    links = {name: Link(name, None, ()) for name in (world, cart, lift)} | carried
+    text = f"base: '{x}', '{z}' and pitch '{pitch}' (axis {axis[1]:+g} y) put above '{root}'"
     tree = replace(tree, links=links, joints=joints + tree.joints)
     return PlanarBase(tree, (x, z), pitch, root, (Note("assumed", text),))
 

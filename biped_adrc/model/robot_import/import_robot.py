@@ -292,7 +292,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
         )
     if len(hints.tip) not in (3, 6) or not all(map(math.isfinite, hints.tip)):
         raise ModelError(
-            f"tip={hints.tip}, expected x, y, z of both feet, or of one after the other [m]"
+            f"tip={hints.tip}, expected x, y, z of both feet or of one after the other"
         )
     tree, tips = contents.tree, []
     for foot, place in zip(feet, np.resize(hints.tip, (len(feet), 3)), strict=True):

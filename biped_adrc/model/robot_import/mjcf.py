@@ -81,8 +81,7 @@ def _compiled(model: Any, path: Path) -> Any:
         if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
     for element in (*root.iterfind("compiler"), *bodies):
-        for key in ("coordinate", "pos"):
-            element.attrib.pop(key, None)
+        element.attrib = {k: x for k, x in element.attrib.items() if k not in ("coordinate", "pos")}
     return model.from_xml_string(ET.tostring(root, encoding="unicode"))
 
 
