@@ -54,7 +54,7 @@ def on_planar_base(tree: Tree) -> PlanarBase:
     slides = [joint for joint in tree.joints if joint.type == "prismatic"]
     root = next(link for link in tree.links if tree.joint_above(link) is None)
     top = _top(tree, root)
-    if top is not None:
+    if top is not None and not (slides and top.type in ("fixed", "revolute")):
         on_base = _released(tree, root, top)
     else:
         on_base = _own(tree, slides) if slides else added(tree, root)
@@ -93,9 +93,8 @@ def _top(tree: Tree, root: str) -> Joint | None:
             f"this kind at most, at the root '{root}', where it leaves the robot free"
         )
     holds = ("revolute", "fixed") if root == "world" else ("revolute",)
-    stands = len(below) == 1 and tree.links[root].inertial is None
-    if stands and not any(joint.type == "prismatic" for joint in tree.joints):
-        floats = floats or [joint for joint in below if joint.type in holds]
+    if not floats and len(below) == 1 and tree.links[root].inertial is None:
+        floats = [joint for joint in below if joint.type in holds]
     return floats[0] if floats else None
 
 
@@ -149,7 +148,7 @@ def added(
     """The tree below link `root` with a base above it; its pitch turns about `axis`, or in the sense of the
     first revolute joint.
     """
-    carried = {link: tree.links[link] for link in tree.links_from(root)}
+    carried = {link: tree.links[link] for link in tree.links_from(root) or tree.links}
     tree = replace(tree, links=carried, joints=tuple(j for j in tree.joints if j.parent in carried))
     axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
     every = (*names, "world", "base_x_carriage", "base_z_carriage")
