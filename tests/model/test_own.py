@@ -238,12 +238,33 @@ def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
     )
     derived = derive(urdf(two_legs(ramp(0.04) + box.format("ground")), "box.urdf"))
     np.testing.assert_array_equal(derived.biped.inertia(q), own.inertia(q))
-    assert any("['box']" in note.text for note in derived.notes if note.kind == "left out")
-    with pytest.raises(ModelError, match="has mass in \\['box'\\]"):
+    assert any("'box': 5.0" in note.text for note in derived.notes if note.kind == "left out")
+    with pytest.raises(
+        ModelError, match=r"has mass in \{'box': 5.0\} kg.* 1% of the robot's 11 kg"
+    ):
         derive(urdf(two_legs(ramp(0.04) + box.format("a")), "boom.urdf"))
     parallel = SLIDES.replace('"0 0 1"', '"1 0 0"')
     with pytest.raises(ModelError, match="two prismatic joints in the plane"):
         derive(urdf(two_legs(parallel), "parallel.urdf"))
+
+
+def test_light_carriages_of_a_base_are_left_out_by_name(urdf):
+    """Two of 0.054 kg on a robot of 11 kg; two of 0.056 kg are more than 1 % of it."""
+
+    def carried(m):
+        text = two_legs(SLIDES)
+        for name in ("a", "b"):
+            text = text.replace(f'<link name="{name}"/>', mass(name, m, 0.1))
+        return urdf(text, "carried.urdf")
+
+    derived, one = derive(carried(0.054)), biped_from_urdf(urdf(two_legs()))
+    for q, v in states(3, 3):
+        np.testing.assert_allclose(derived.biped.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(derived.biped.bias(q, v), one.bias(q, v), rtol=0, atol=1e-11)
+    (said,) = (x.text for x in derived.notes if x.kind == "left out" and "slide" in x.text)
+    assert "{'a': 0.054, 'b': 0.054}" in said
+    with pytest.raises(ModelError, match=r"'a': 0.056, 'b': 0.056\} kg"):
+        derive(carried(0.056))
 
 
 @pytest.mark.parametrize("inertia", ["", '<inertia ixx="0" iyy="0" izz="0"/>'])

@@ -1,12 +1,14 @@
 """The planar base of a robot: two slides along x and z, then the pitch of the trunk, q_N.
 
 The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints in the
-plane x-z and one revolute joint about y, in this order from the root, with no mass in between; slides that the
-file turns, as on a ramp, are put along x and z, and the zero of the pitch turns with them. The stance contact
-determines its position, so only the pitch remains as a coordinate. A robot without a base floats on its
-root link; the base put there turns in the sense of its other joints, as the one in place of a `floating` joint
-or of a `planar` joint does, which has a sense of its own. A robot that the file pins to the ground by
-a revolute joint gets slides below the pin. Places along y do not enter planar motion, and stay as they are.
+plane x-z and one revolute joint about y, in this order from the root. A mass in between does not turn, and one
+on the first slide moves in one direction only, which no D_s of a pinned robot has: light ones are left out by
+name, others refused. Slides that the file turns, as on a ramp, are put along x and z, and the zero of the pitch
+turns with them. The stance contact determines its position, so only the pitch remains as a coordinate. A
+robot without a base floats on its root link; the base put there turns in the sense of its other joints, as the
+one in place of a `floating` joint or of a `planar` joint does, which has a sense of its own. A robot that
+the file pins to the ground by a revolute joint gets slides below the pin. Places along y do not enter planar
+motion, and stay as they are.
 `import_robot.derive` calls `on_planar_base` first.
 """
 
@@ -23,6 +25,8 @@ from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, free_n
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
 _NAMES = ("base_x", "base_z", "base_pitch")
+LIGHT = 0.01
+"""Largest share of the robot's mass that the slides of its base may have, and which is left out."""
 
 
 @dataclass(frozen=True)
@@ -118,16 +122,19 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
     carriers = tree.path_to_root(tops[0].parent) if tops else ()
     carried = tree.links_from(tops[0].child) if tops else []
-    masses = [x for x, link in tree.links.items() if link.inertial and x not in carried]
-    heavy = [x for x in masses if set(slides) & set(tree.path_to_root(x))]
+    masses = {x: link.inertial.mass for x, link in tree.links.items() if link.inertial}
+    still = {x: m for x, m in masses.items() if x not in carried}
+    heavy = {x: m for x, m in still.items() if set(slides) & set(tree.path_to_root(x))}
+    robot = sum(masses.values()) - sum(still.values())
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
-    if not plane or not set(slides) <= set(carriers) or len(tops) != 1 or heavy:
+    light = sum(heavy.values()) <= LIGHT * robot
+    if not plane or not set(slides) <= set(carriers) or len(tops) != 1 or not light:
         raise ModelError(
             f"'{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
-            f"{[j.name for j in tops]} and has mass in {heavy}; expected two prismatic joints in the plane "
-            "x-z, then one revolute pitch about y, and no mass above the trunk. Complete the base, or "
-            "remove it and one is put there"
+            f"{[j.name for j in tops]} and has mass in {heavy} kg; expected two prismatic joints in the plane "
+            f"x-z, then one revolute pitch about y, and above the trunk at most {LIGHT:.0%} of the robot's "
+            f"{robot:.5g} kg. Complete the base, or remove it and one is put there"
         )
     (pitch,), x = tops, flat[0]
     names = tuple(joint.name for joint in (*flat, pitch))
@@ -136,7 +143,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     slope = math.atan(-x.axis[2] / x.axis[0])
     notes = (
         ("read", True, f"{text} '{pitch.child}'"),
-        ("left out", masses, f"masses of {masses}, which do not move"),
+        ("left out", still, f"masses [kg] that stand still, or only slide with the base: {still}"),
         ("left out", abs(slope) > PLANAR, f"slope of '{x.name}', {slope:g} rad: see ground.slope"),
     )
     return replace(on_base, notes=tuple(Note(kind, text) for kind, found, text in notes if found))
