@@ -267,6 +267,45 @@ def test_light_carriages_of_a_base_are_left_out_by_name(urdf):
         derive(carried(0.056))
 
 
+def leg(text, side, m=2.0, c=COM, yy=0.03, length=HIP):
+    """The text of `two_legs` with another leg: mass, COM below the hip, moment and length."""
+    moments = f'<inertia ixx="0.02" iyy="{yy}" izz="0.012"/>'
+    foot = f'{side}_foot"/><origin xyz="0 0 {{}}"'
+    changes = (
+        (mass(f"{side}_leg", 2, -COM), mass(f"{side}_leg", m, -c, moments)),
+        (foot.format(-HIP), foot.format(-length)),
+    )
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def test_legs_that_differ_slightly_are_the_mean_of_both(urdf):
+    other = {"m": 1.984, "c": 0.3015, "yy": 0.0297, "length": 0.7952}
+    mean = {"m": 1.992, "c": 0.30075, "yy": 0.02985, "length": 0.7976}
+    derived = derive(urdf(leg(two_legs(), "right", **other)))
+    one = biped_from_urdf(urdf(leg(leg(two_legs(), "right", **mean), "left", **mean), "mean.urdf"))
+    for q, v in states(3, 5):
+        np.testing.assert_allclose(derived.biped.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(derived.biped.bias(q, v), one.bias(q, v), rtol=0, atol=1e-11)
+        np.testing.assert_allclose(derived.biped.swing_foot(q), one.swing_foot(q), atol=1e-12)
+    (said,) = (note.text for note in derived.notes if "mean of both" in note.text)
+    assert "1.00% at most, in ['left_leg', 'right_leg']" in said
+    assert not any("mean of both" in note.text for note in derive(urdf(two_legs())).notes)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "gap"),
+    [("m", 2.03, 0.0148), ("c", 0.305, 0.0164), ("yy", 0.0304, 0.0132), ("length", 0.81, 0.0123)],
+)
+def test_legs_that_differ_by_more_than_one_percent_are_refused_with_the_number(
+    urdf, key, value, gap
+):
+    with pytest.raises(ModelError, match=f"legs differ.*_(leg|foot)', '{gap}'"):
+        derive(urdf(leg(two_legs(), "right", **{key: value})))
+
+
 @pytest.mark.parametrize("inertia", ["", '<inertia ixx="0" iyy="0" izz="0"/>'])
 def test_point_masses_have_the_inertia_of_points(urdf, inertia):
     """D_s = sum m Re(d* d') with d the derivative of the place z = i exp(-i a) l of each point."""

@@ -142,7 +142,7 @@ def test_twins_that_differ_are_named(biped):
         joints = tuple(replace(j, **change) if j.name == "right_knee" else j for j in tree.joints)
         return replace(biped, tree=replace(tree, joints=joints))
 
-    assert urdf.unlike(tree, d.feet) == []
+    assert urdf.unlike(tree, d.feet) == {}
     with pytest.raises(ModelError, match=r"legs differ.*'right_shin'"):
         changed(origin=(0.0, 0.0, 0.5)).check()
     other = changed(axis=(0.0, 1.0, 0.0))

@@ -15,6 +15,7 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
     urdf_reader.read      links and joints, frames turned parallel at zero angles
     on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
     on_feet               feet that are points, legs that hang from a trunk
+    evened                the mean of legs that differ by less than 1 %
     anatomy               hip, order of the joints, phase variable
     drawable              shapes to draw, balls where there are none
     _motors, _torque      joints with a motor, and their torque limit
@@ -262,6 +263,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     hints = Hints() if hints is None else hints
     contents, feet = _with_tips(path, hints)
     body, pair = on_feet(on_planar_base(contents.tree), feet, hints.actuated or ())
+    tree, of_legs = urdf.evened(body.tree, pair)
+    body = replace(body, tree=tree).noting(*of_legs)
     parts = anatomy(body, pair, hints.hip)
     tree, of_shapes = drawable(body.tree, parts.feet)
     actuated, of_motors = _motors(contents, parts.moving, hints)
