@@ -165,9 +165,31 @@ def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
     np.testing.assert_allclose(biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], atol=1e-12)
 
 
+def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
+    """Two thin legs of 0.8 m below a trunk: with the places of their ends they are a compass."""
+    leg = (
+        '<body name="{0}"><joint name="{0}h" axis="0 1 0"/>'
+        '<geom type="capsule" size=".03" fromto="0 0 0 0 0 -.8"/></body>'
+    )
+    slides = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    path = tmp_path / "legs.xml"
+    path.write_text(
+        f'<mujoco><worldbody><body name="trunk">{slides}<joint axis="0 1 0"/>'
+        f'<geom size=".1" pos="0 0 .3"/>{leg.format("l")}{leg.format("r")}</body></worldbody></mujoco>'
+    )
+    with pytest.raises(ModelError, match=r"legs\.xml \(MJCF\)'.*--set tip=x,y,z"):
+        derive(path)
+    derived = derive(path, Hints(("l", "r"), tip=(0.0, 0.0, -0.8)))
+    q = np.array([0.3, -0.2, 0.1])
+    place = 0.8 * (np.exp(0.4j) - np.exp(-0.1j))  # z + i x of the feet below the hip
+    np.testing.assert_allclose(derived.biped.swing_foot(q), [place.imag, place.real], atol=1e-12)
+    assert derived.record["urdf"] == "legs.xml"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "word"),
     [
+        ('range="-120 0"', 'range="-120 0.1."', "'range' Element 'joint'"),
         ("</actuator>", "</actuator><equality><joint joint1='left_hip'/></equality>", "equality"),
         ('"left_knee" pos', '"left_knee" axis="1 0 0" pos', "left_knee"),
         (

@@ -32,6 +32,11 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
         (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive semidefinite"),
         (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive semidefinite"),
         (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
+        (
+            FIRST_AXIS,
+            FIRST_AXIS + '<limit lower="-1.57." upper="1.57"/>',
+            "joint 'torso_pitch' <limit>: lower='-1.57.', expected 1 number",
+        ),
         ('name="left_hip" type="revolute"', 'name="left_hip" type="screw"', "'screw'"),
         ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
         (HIP, HIP.replace("torso", "pelvis"), "links ['pelvis'] that are not there"),

@@ -136,6 +136,7 @@ class Hints:
 
 
 def record_of(
+    file: str,
     contents: Contents,
     body: PlanarBase,
     parts: Anatomy,
@@ -146,7 +147,7 @@ def record_of(
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
-    torque: limit of every motor [N m]. armature: of every motor, or of each [kg m^2].
+    file: its name. torque: limit of every motor [N m]. armature: of every motor, or of each [kg m^2].
     """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
@@ -154,10 +155,9 @@ def record_of(
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
         return {name: values[name] for name in moving if name in values}
 
-    source = f"The masses of {Path(contents.tree.source).name}."
     return {
         "name": contents.tree.name,
-        "urdf": Path(contents.tree.source).name,
+        "urdf": file,
         "default_preset": PRESET,
         "actuated": list(actuated),
         "passive": [name for name in moving if name not in actuated],
@@ -174,7 +174,7 @@ def record_of(
         "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": source, "armature": armature}},
+        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": armature}},
     }
 
 
@@ -270,8 +270,9 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     armature, of_rotors = _armature(contents, actuated, hints)
-    record = record_of(contents, body, parts, actuated, torque, armature, hints)
-    description = description_of(record, Path(path))
+    path = Path(path)
+    record = record_of(path.name, contents, body, parts, actuated, torque, armature, hints)
+    description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)

@@ -119,7 +119,7 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             urdf.check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
-    tree = Tree(model or path.stem, links, tuple(joints), str(path))
+    tree = Tree(model or path.stem, links, tuple(joints), f"{path} (MJCF)")
     owners, at = (*m.geom_bodyid, *m.site_bodyid), (*d.geom_xpos, *d.site_xpos)
     shapes = [*map(m.geom, range(m.ngeom)), *map(m.site, range(m.nsite))]
     for b, place, shape in zip(owners, at, shapes, strict=True):
