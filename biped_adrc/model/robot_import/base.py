@@ -122,14 +122,14 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
     carriers = tree.path_to_root(tops[0].parent) if tops else ()
     carried = tree.links_from(tops[0].child) if tops else []
-    masses = {x: link.inertial.mass for x, link in tree.links.items() if link.inertial}
-    still = {x: m for x, m in masses.items() if x not in carried}
+    masses = {x: body.mass for x, link in tree.links.items() if (body := link.inertial)}
+    still = {x: masses.pop(x) for x in list(masses) if x not in carried}
     heavy = {x: m for x, m in still.items() if set(slides) & set(tree.path_to_root(x))}
-    robot = sum(masses.values()) - sum(still.values())
+    robot = sum(masses.values())
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
-    light = sum(heavy.values()) <= LIGHT * robot
-    if not plane or not set(slides) <= set(carriers) or len(tops) != 1 or not light:
+    plane = plane and set(slides) <= set(carriers) and len(tops) == 1
+    if not plane or sum(heavy.values()) > LIGHT * robot:
         raise ModelError(
             f"'{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
             f"{[j.name for j in tops]} and has mass in {heavy} kg; expected two prismatic joints in the plane "

@@ -38,7 +38,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -135,20 +135,21 @@ class Hints:
     (6,), of the stance foot, then of the swing foot."""
 
 
-def record_of(
-    file: str,
-    contents: Contents,
-    body: PlanarBase,
-    parts: Anatomy,
-    actuated: tuple[str, ...],
-    torque: float,
-    armature: Rotors,
-    hints: Hints,
-) -> dict[str, Any]:
-    """The tables of the robot.toml that describes this robot, as plain values.
+class Motors(NamedTuple):
+    """The motors of a robot."""
 
-    file: its name. torque: limit of every motor [N m]. armature: of every motor, or of each [kg m^2].
-    """
+    joints: tuple[str, ...]
+    """Names of the joints q1, ..., qp."""
+    torque: float
+    """Torque limit of every motor [N m]."""
+    armature: Rotors
+    """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
+
+
+def record_of(
+    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, motors: Motors, hints: Hints
+) -> dict[str, Any]:
+    """The tables of the robot.toml that describes this robot, as plain values; file: its name."""
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
@@ -159,8 +160,8 @@ def record_of(
         "name": contents.tree.name,
         "urdf": file,
         "default_preset": PRESET,
-        "actuated": list(actuated),
-        "passive": [name for name in moving if name not in actuated],
+        "actuated": list(motors.joints),
+        "passive": [name for name in moving if name not in motors.joints],
         "unactuated": body.pitch,
         "base": list(body.base),
         "stance_foot": parts.feet[0],
@@ -168,13 +169,13 @@ def record_of(
         "hip": parts.hip,
         "trunk": body.trunk,
         "phase": list(parts.phase),
-        "peak_torque": torque,
+        "peak_torque": motors.torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": armature}},
+        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": motors.armature}},
     }
 
 
@@ -270,8 +271,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     armature, of_rotors = _armature(contents, actuated, hints)
-    path = Path(path)
-    record = record_of(path.name, contents, body, parts, actuated, torque, armature, hints)
+    path, motors = Path(path), Motors(actuated, torque, armature)
+    record = record_of(path.name, contents, body, parts, motors, hints)
     description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
@@ -379,16 +380,13 @@ def _armature(
 
 def _remarks(contents: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
     """Sentences on friction: of the feet, and of the joints."""
-    notes = []
-    if hints.friction_coefficient is None:
-        text = f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
-        notes.append(Note("assumed", text))
-    for what, values, unit in (
-        ("viscous", contents.viscous, "N m s/rad"),
-        ("static", contents.static, "N m"),
-    ):
-        text = ", ".join(f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name))
-        if text:
-            text = f"{what} joint friction [{unit}]: {text}; it acts where hardware.friction is set"
-            notes.append(Note("read", text))
+    text = (
+        f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
+    )
+    notes = [Note("assumed", text)] if hints.friction_coefficient is None else []
+    units = ("viscous", contents.viscous, "N m s/rad"), ("static", contents.static, "N m")
+    for what, values, unit in units:
+        each = [f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name)]
+        text = f"{what} joint friction [{unit}]: {', '.join(each)}; it acts where hardware.friction is set"
+        notes += [Note("read", text)] if each else []
     return tuple(notes)

@@ -213,6 +213,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         _names("the list of all joints", (*joints, *base))
         if len(base) != 2:
             raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
+        links, presets = (_table(key, data[key]) for key in ("links", "presets"))
         texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
         for key, table in (("ranges", ranges), ("friction", viscous | static)):
             if unknown := sorted(set(table) - set(joints)):
@@ -234,14 +235,8 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
             viscous=viscous,
             static=static,
-            links={
-                body: _names(f"links.{body}", x)
-                for body, x in _table("links", data["links"]).items()
-            },
-            presets={
-                name: _preset(name, _table(f"presets.{name}", x), data)
-                for name, x in _table("presets", data["presets"]).items()
-            },
+            links={body: _names(f"links.{body}", x) for body, x in links.items()},
+            presets={name: _preset(name, x, data) for name, x in presets.items()},
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
         )
 
@@ -287,11 +282,12 @@ def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
     return low, high
 
 
-def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+def _preset(name: str, table: object, data: Mapping[str, Any]) -> Preset:
     """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none. Raises
     ValueError.
     """
     bodies, where = {}, f"presets.{name}"
+    record = _table(where, table)
     for body in data["links"] if any(body in record for body in data["links"]) else ():
         p = _table(f"{where}.{body}", record[body])
         bodies[body] = BodyParameters(

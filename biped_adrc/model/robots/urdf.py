@@ -385,22 +385,19 @@ def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
     gaps = unlike(tree, feet)
     if not gaps or max(gaps.values()) > ALIKE:
         return tree, ()
+    links, joints = dict(tree.links), {joint.child: joint for joint in tree.joints}
     for pair in gaps:
-        a, b = (_in_plane(tree, link) for link in pair)
-        m, yy, x, z, *place = (0.5 * (a + b)).tolist()
+        m, yy, x, z, px, pz = np.mean([_in_plane(tree, link) for link in pair], axis=0).tolist()
         for name in pair:
-            link = tree.links[name]
+            link, joint = links[name], joints[name]
+            joints[name] = replace(joint, origin=(px, joint.origin[1], pz))
             if body := link.inertial:
                 body = body.scaled("inertia", yy / body.inertia[3] if yy else 1.0)
-                link = replace(link, inertial=replace(body, mass=m, com=(x, body.com[1], z)))
-            joints = (
-                replace(j, origin=(place[0], j.origin[1], place[1])) if j.child == name else j
-                for j in tree.joints
-            )
-            tree = replace(tree, links={**tree.links, name: link}, joints=tuple(joints))
+                body = replace(body, mass=m, com=(x, body.com[1], z))
+                links[name] = replace(link, inertial=body)
     worst = max(gaps, key=lambda pair: gaps[pair])
     text = f"legs: the mean of both; they differ by {gaps[worst]:.2%} at most, in {list(worst)}"
-    return tree, (Note("assumed", text),)
+    return replace(tree, links=links, joints=tuple(joints.values())), (Note("assumed", text),)
 
 
 def text_of(values: tuple[float, ...]) -> str:
