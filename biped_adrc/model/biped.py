@@ -92,21 +92,22 @@ class Biped(Shown):
     def check(self) -> None:
         """Build both models; raise ModelError for wrong numbers, unequal legs or motors without a twin.
 
-        Relabelling at impact is right only for equal legs. Tested at one state: with the base at rest the
-        kinetic energy must not change when the legs exchange their roles, nor the distance between the feet.
+        Relabelling at impact is right only for equal legs. Tested at one state: when the legs exchange their
+        roles, neither the kinetic energy with the base at rest may change, nor the COM's height above a foot.
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
         q, v = 0.3 * np.arange(1.0, self.n + 1.0), np.cos(np.arange(float(self.n)))
-        lengths, energies = [], []
-        for x, w in ((q, v), (self.relabel(q), self.R @ v)):
-            lengths.append(float(np.linalg.norm(self.swing_foot(x))))
-            energies.append(float(w @ self.floating.inertia_on_fixed_base(x) @ w))
-        if not (math.isclose(*energies, rel_tol=1e-9) and math.isclose(*lengths, rel_tol=1e-9)):
+        x, w, D = self.relabel(q), self.R @ v, self.floating.inertia_on_fixed_base
+        energies = float(v @ D(q) @ v), float(w @ D(x) @ w)
+        before, after = (self.potential_energy(y) / self.weight for y in (q, x))
+        same = math.isclose(before - self.swing_foot(q)[1], after, rel_tol=1e-9, abs_tol=1e-9)
+        if not (math.isclose(*energies, rel_tol=1e-9) and same):
             raise ModelError(
                 f"'{self.tree.source}': the legs differ in mass or length, as in the links "
-                f"{unlike(self.tree, self.description.feet)}, or in a link fixed to one leg; they change over "
-                "at impact, so make them equal"
+                f"{[(*x, f'{gap:.3g}') for x, gap in unlike(self.tree, self.description.feet).items()]} "
+                "(largest relative difference), or in a link fixed to one leg; they change over at impact, so "
+                "make them equal"
             )
         _ = self.swap
 

@@ -1,5 +1,6 @@
 """Robots from MJCF: MuJoCo's own mass matrix and bias, projected on the joints that are kept."""
 
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import gymnasium
@@ -78,6 +79,34 @@ def test_inertia_and_bias_are_those_of_mujoco(own):
             np.testing.assert_allclose(biped.bias(q, v), Omega, rtol=0, atol=1e-9 * size)
 
 
+def test_places_in_the_world_are_places_in_the_bodies(tmp_path):
+    """An old Walker2d: each place in a body is the sum of those of the bodies above it and its own."""
+    root = ET.fromstring(WALKER2D.read_text())
+
+    def raise_by(body, above):
+        place = above + np.array(body.get("pos").split(), dtype=float)
+        for e in (body, *(x for x in body if x.tag in ("joint", "geom"))):
+            own = np.array(e.get("pos", "0 0 0").split(), dtype=float)
+            e.set("pos", " ".join(map(repr, (place if e is body else place + own).tolist())))
+        for below in body.findall("body"):
+            raise_by(below, place)
+
+    raise_by(root.find("worldbody/body"), np.zeros(3))
+    root.find("compiler").set("coordinate", "global")
+    old = tmp_path / "old.xml"
+    old.write_text(ET.tostring(root, encoding="unicode"))
+    one, own = derive(WALKER2D).biped, derive(old).biped
+    random = np.random.default_rng(5)
+    for _ in range(3):
+        q, v = random.uniform(-np.pi, np.pi, 5), random.normal(0.0, 3.0, 5)
+        np.testing.assert_allclose(own.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(own.bias(q, v), one.bias(q, v), rtol=0, atol=1e-10)
+        np.testing.assert_allclose(own.swing_foot(q), one.swing_foot(q), rtol=0, atol=1e-12)
+    old.write_text(old.read_text().replace('name="leg"', 'name="leg" euler="0 1 0"'))
+    with pytest.raises(ModelError, match="global coordinates"):
+        derive(old)
+
+
 def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path):
     derived = derive(own)
     d = derived.biped.description
@@ -136,9 +165,31 @@ def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
     np.testing.assert_allclose(biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], atol=1e-12)
 
 
+def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
+    """Two thin legs of 0.8 m below a trunk: with the places of their ends they are a compass."""
+    leg = (
+        '<body name="{0}"><joint name="{0}h" axis="0 1 0"/>'
+        '<geom type="capsule" size=".03" fromto="0 0 0 0 0 -.8"/></body>'
+    )
+    slides = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    path = tmp_path / "legs.xml"
+    path.write_text(
+        f'<mujoco><worldbody><body name="trunk">{slides}<joint axis="0 1 0"/>'
+        f'<geom size=".1" pos="0 0 .3"/>{leg.format("l")}{leg.format("r")}</body></worldbody></mujoco>'
+    )
+    with pytest.raises(ModelError, match=r"legs\.xml \(MJCF\)'.*--set tip=x,y,z"):
+        derive(path)
+    derived = derive(path, Hints(("l", "r"), tip=(0.0, 0.0, -0.8)))
+    q = np.array([0.3, -0.2, 0.1])
+    place = 0.8 * (np.exp(0.4j) - np.exp(-0.1j))  # z + i x of the feet below the hip
+    np.testing.assert_allclose(derived.biped.swing_foot(q), [place.imag, place.real], atol=1e-12)
+    assert derived.record["urdf"] == "legs.xml"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "word"),
     [
+        ('range="-120 0"', 'range="-120 0.1."', "'range' Element 'joint'"),
         ("</actuator>", "</actuator><equality><joint joint1='left_hip'/></equality>", "equality"),
         ('"left_knee" pos', '"left_knee" axis="1 0 0" pos', "left_knee"),
         (

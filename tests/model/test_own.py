@@ -175,12 +175,20 @@ def top(kind):
     return f'<joint name="top" type="{kind}">{ends}</joint>'
 
 
+def ramp(slope):
+    """The slides on a ground that is turned about y and welded to a world which is not there."""
+    weld = '<joint name="weld" type="fixed"><parent link="world"/><child link="ground"/>'
+    turn = f'<origin rpy="0 {slope} 0"/></joint><link name="ground"/>'
+    return weld + turn + SLIDES.replace('"world"', '"ground"')
+
+
 @pytest.mark.parametrize(
     "text",
     [
         two_legs("space"),
         two_legs(SLIDES),
         two_legs(HEAVY + SLIDES),
+        two_legs(ramp(0.0)),
         two_legs('<link name="world"/>' + top("planar")),
         two_legs(top("planar")),
         two_legs(top("floating")),
@@ -191,6 +199,7 @@ def top(kind):
         "namespace",
         "world",
         "heavy world",
+        "ground",
         "planar",
         "own world",
         "floating",
@@ -209,6 +218,93 @@ def test_form_does_not_change_the_physics(urdf, text):
         ):
             size = np.max(np.abs(expected))
             np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * size)
+
+
+def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
+    one, derived = (
+        biped_from_urdf(urdf(two_legs())),
+        derive(urdf(two_legs(ramp(0.04)), "ramp.urdf")),
+    )
+    own, turn = derived.biped, np.array([0.0, 0.0, 0.04])
+    assert (own.description.base, own.description.unactuated) == (("x", "z"), "pitch")
+    for q, v in states(3):
+        np.testing.assert_allclose(own.inertia(q), one.inertia(q + turn), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(own.bias(q, v), one.bias(q + turn, v), rtol=0, atol=1e-11)
+        np.testing.assert_allclose(own.swing_foot(q), one.swing_foot(q + turn), rtol=0, atol=1e-12)
+    (said,) = (note.text for note in derived.notes if "slope" in note.text)
+    assert "0.04 rad" in said
+    box = (
+        mass("box", 5, 0)
+        + '<joint name="at" type="fixed"><parent link="{}"/><child link="box"/></joint>'
+    )
+    derived = derive(urdf(two_legs(ramp(0.04) + box.format("ground")), "box.urdf"))
+    np.testing.assert_array_equal(derived.biped.inertia(q), own.inertia(q))
+    assert any("'box': 5.0" in note.text for note in derived.notes if note.kind == "left out")
+    with pytest.raises(
+        ModelError, match=r"has mass in \{'box': 5.0\} kg.* 1% of the robot's 11 kg"
+    ):
+        derive(urdf(two_legs(ramp(0.04) + box.format("a")), "boom.urdf"))
+    parallel = SLIDES.replace('"0 0 1"', '"1 0 0"')
+    with pytest.raises(ModelError, match="two prismatic joints in the plane"):
+        derive(urdf(two_legs(parallel), "parallel.urdf"))
+
+
+def test_light_carriages_of_a_base_are_left_out_by_name(urdf):
+    """Two of 0.054 kg on a robot of 11 kg; two of 0.056 kg are more than 1 % of it."""
+
+    def carried(m):
+        text = two_legs(SLIDES)
+        for name in ("a", "b"):
+            text = text.replace(f'<link name="{name}"/>', mass(name, m, 0.1))
+        return urdf(text, "carried.urdf")
+
+    derived, one = derive(carried(0.054)), biped_from_urdf(urdf(two_legs()))
+    for q, v in states(3, 3):
+        np.testing.assert_allclose(derived.biped.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(derived.biped.bias(q, v), one.bias(q, v), rtol=0, atol=1e-11)
+    (said,) = (x.text for x in derived.notes if x.kind == "left out" and "slide" in x.text)
+    assert "{'a': 0.054, 'b': 0.054}" in said
+    with pytest.raises(ModelError, match=r"'a': 0.056, 'b': 0.056\} kg"):
+        derive(carried(0.056))
+
+
+def leg(text, side, m=2.0, c=COM, yy=0.03, length=HIP):
+    """The text of `two_legs` with another leg: mass, COM below the hip, moment and length."""
+    moments = f'<inertia ixx="0.02" iyy="{yy}" izz="0.012"/>'
+    foot = f'{side}_foot"/><origin xyz="0 0 {{}}"'
+    changes = (
+        (mass(f"{side}_leg", 2, -COM), mass(f"{side}_leg", m, -c, moments)),
+        (foot.format(-HIP), foot.format(-length)),
+    )
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def test_legs_that_differ_slightly_are_the_mean_of_both(urdf):
+    other = {"m": 1.984, "c": 0.3015, "yy": 0.0297, "length": 0.7952}
+    mean = {"m": 1.992, "c": 0.30075, "yy": 0.02985, "length": 0.7976}
+    derived = derive(urdf(leg(two_legs(), "right", **other)))
+    one = biped_from_urdf(urdf(leg(leg(two_legs(), "right", **mean), "left", **mean), "mean.urdf"))
+    for q, v in states(3, 5):
+        np.testing.assert_allclose(derived.biped.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(derived.biped.bias(q, v), one.bias(q, v), rtol=0, atol=1e-11)
+        np.testing.assert_allclose(derived.biped.swing_foot(q), one.swing_foot(q), atol=1e-12)
+    (said,) = (note.text for note in derived.notes if "mean of both" in note.text)
+    assert "1.00% at most, in ['left_leg', 'right_leg']" in said
+    assert not any("mean of both" in note.text for note in derive(urdf(two_legs())).notes)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "gap"),
+    [("m", 2.03, 0.0148), ("c", 0.305, 0.0164), ("yy", 0.0304, 0.0132), ("length", 0.81, 0.0123)],
+)
+def test_legs_that_differ_by_more_than_one_percent_are_refused_with_the_number(
+    urdf, key, value, gap
+):
+    with pytest.raises(ModelError, match=f"legs differ.*_(leg|foot)', '{gap}'"):
+        derive(urdf(leg(two_legs(), "right", **{key: value})))
 
 
 @pytest.mark.parametrize("inertia", ["", '<inertia ixx="0" iyy="0" izz="0"/>'])
@@ -329,6 +425,20 @@ def test_a_tree_that_hangs_from_a_leg_is_the_same_robot(urdf, root):
         close(own.bias(Q, V)[order] * sign, one.bias(q, v))
         close(own.swing_foot(Q), one.swing_foot(q))
         close(own.impact(Q, V).v[order] * sign, one.impact(q, v).v)
+
+
+def test_each_foot_may_have_a_tip_of_its_own(urdf):
+    """The frame of the left shin lies at its foot, that of the right one at its knee."""
+    text = hung("left_shin")
+    legs, tip = ("left_shin", "right_shin"), (0.0, 0.0, 0.0, 0.0, 0.0, -SHIN)
+    one = derive(urdf(text), Hints(("left_shin", "right_foot"))).biped
+    own = derive(urdf(text), Hints(legs, tip=tip)).biped
+    for q, v in states(5, 3):
+        close(own.swing_foot(q), one.swing_foot(q))
+        close(own.impact(q, v).v, one.impact(q, v).v)
+    for wrong in (tip[:4], (0.0, math.nan, 1.0)):
+        with pytest.raises(ModelError, match="of one after the other"):
+            derive(urdf(text), Hints(legs, tip=wrong))
 
 
 def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):

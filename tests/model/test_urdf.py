@@ -32,6 +32,11 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
         (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive semidefinite"),
         (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive semidefinite"),
         (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
+        (
+            FIRST_AXIS,
+            FIRST_AXIS + '<limit lower="-1.57." upper="1.57"/>',
+            "joint 'torso_pitch' <limit>: lower='-1.57.', expected 1 number",
+        ),
         ('name="left_hip" type="revolute"', 'name="left_hip" type="screw"', "'screw'"),
         ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
         (HIP, HIP.replace("torso", "pelvis"), "links ['pelvis'] that are not there"),
@@ -157,7 +162,7 @@ def test_twins_that_differ_are_named(biped):
         joints = tuple(replace(j, **change) if j.name == "right_knee" else j for j in tree.joints)
         return replace(biped, tree=replace(tree, joints=joints))
 
-    assert urdf.unlike(tree, d.feet) == []
+    assert urdf.unlike(tree, d.feet) == {}
     with pytest.raises(ModelError, match=r"legs differ.*'right_shin'"):
         changed(origin=(0.0, 0.0, 0.5)).check()
     other = changed(axis=(0.0, 1.0, 0.0))

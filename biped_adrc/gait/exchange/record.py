@@ -151,14 +151,21 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
 def onto_ground(
     along: Coordinates, biped: Biped, slope: float
 ) -> tuple[Coordinates, dict[str, str]]:
-    """Bezier curves of a step that ends with the foot on the ground, with the same slopes at both ends."""
-    dq, remark = foot_down(biped, along.curve(1.0)[0], slope)
+    """Bezier curves of a step that ends with the foot on the ground, dq/dTheta there as before; that at the
+    start changes as the one after the impact does. Other curves stay as they are.
+    """
+    q, d, _ = along.curve(1.0)
+    dq, remark = foot_down(biped, q, slope)
     if not remark or not isinstance(along.curve, Bezier):
         return along, {}
-    a, first, level = along.curve.coefficients, biped.R @ dq, 0.0 * dq
-    curve = Bezier(a + Bezier.between(first, level, level, dq, a.shape[1] - 1))
-    plus, minus = along.theta_plus + along.phase @ first, along.theta_minus + along.phase @ dq
-    return Coordinates(curve, along.phase, float(plus), float(minus), along.turns), remark
+    a, c, first = along.curve.coefficients, along.phase, biped.R @ dq
+    plus, minus = float(along.theta_plus + c @ first), float(along.theta_minus + c @ dq)
+    spans = along.theta_minus - along.theta_plus, minus - plus
+    hits = biped.impact(q, d).v, biped.impact(q + dq, d).v
+    before, after = (span * v / (c @ v) for span, v in zip(spans, hits, strict=True))
+    last = (spans[1] / spans[0] - 1.0) * d
+    curve = Bezier(a + Bezier.between(first, after - before, last, dq, a.shape[1] - 1))
+    return Coordinates(curve, c, plus, minus, along.turns), remark
 
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:

@@ -1,11 +1,14 @@
 """The planar base of a robot: two slides along x and z, then the pitch of the trunk, q_N.
 
-The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints along x
-and z and one revolute joint about y, in this order from the root, with no mass in between. The stance contact
-determines its position, so only the pitch remains as a coordinate. A robot without a base floats on its
-root link; the base put there turns in the sense of its other joints, as the one in place of a `floating` joint
-or of a `planar` joint does, which has a sense of its own. A robot that the file pins to the ground by
-a revolute joint gets slides below the pin. Places along y do not enter planar motion, and stay as they are.
+The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints in the
+plane x-z and one revolute joint about y, in this order from the root. A mass in between does not turn, and one
+on the first slide moves in one direction only, which no D_s of a pinned robot has: light ones are left out by
+name, others refused. Slides that the file turns, as on a ramp, are put along x and z, and the zero of the pitch
+turns with them. The stance contact determines its position, so only the pitch remains as a coordinate. A
+robot without a base floats on its root link; the base put there turns in the sense of its other joints, as the
+one in place of a `floating` joint or of a `planar` joint does, which has a sense of its own. A robot that
+the file pins to the ground by a revolute joint gets slides below the pin. Places along y do not enter planar
+motion, and stay as they are.
 `import_robot.derive` calls `on_planar_base` first.
 """
 
@@ -14,12 +17,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from biped_adrc.core.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
-_Y = 1
+_NAMES = ("base_x", "base_z", "base_pitch")
+LIGHT = 0.01
+"""Largest share of the robot's mass that the slides of its base may have, and which is left out."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +58,7 @@ def on_planar_base(tree: Tree) -> PlanarBase:
     slides = [joint for joint in tree.joints if joint.type == "prismatic"]
     root = next(link for link in tree.links if tree.joint_above(link) is None)
     top = _top(tree, root)
-    if top is not None:
+    if top is not None and not (slides and top.type in ("fixed", "revolute")):
         on_base = _released(tree, root, top)
     else:
         on_base = _own(tree, slides) if slides else added(tree, root)
@@ -60,19 +67,20 @@ def on_planar_base(tree: Tree) -> PlanarBase:
 
 
 def _in_plane(tree: Tree, joint: Joint) -> Joint:
-    """The joint with its axis rounded to the nearest allowed one. Raises ModelError if it is not near one."""
+    """The joint with its axis rounded to y, or that of a slide into the plane x-z. Raises ModelError if it
+    is not near.
+    """
     if joint.type in ("fixed", "floating"):
         return joint
-    x, _, z = map(abs, joint.axis)
-    along = _Y if joint.type != "prismatic" else 0 if x > z else 2
-    axis = [0.0, 0.0, 0.0]
-    axis[along] = math.copysign(1.0, joint.axis[along])
+    x, y, z = joint.axis
+    slides = joint.type == "prismatic"
+    axis = (x, 0.0, z) if slides else (0.0, math.copysign(1.0, y), 0.0)
     if math.dist(axis, joint.axis) < PLANAR:
-        return replace(joint, axis=(axis[0], axis[1], axis[2]))
+        return replace(joint, axis=axis)
     raise ModelError(
         f"'{tree.source}', joint '{joint.name}': its axis is {text_of(joint.axis)} in the frame of the "
-        f"world at zero angles, expected along {'y' if along == _Y else 'x or z'}; the robot must walk in the "
-        "plane x-z, so make the joint 'fixed'"
+        f"world at zero angles, expected {'in the plane x-z' if slides else 'along y'}; the robot must walk in "
+        "the plane x-z, so make the joint 'fixed'"
     )
 
 
@@ -96,65 +104,70 @@ def _top(tree: Tree, root: str) -> Joint | None:
 
 def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
     """The tree below `top` on a base added in its place; an axis of `top` is that of the pitch."""
-    names = tree.links_from(top.child)
-    joints = tuple(joint for joint in tree.joints if joint.parent in names)
-    rest = replace(tree, links={link: tree.links[link] for link in names}, joints=joints)
     turns = top.type in ("planar", "revolute")
-    on_base = added(rest, top.child, *((top.axis, top.name) if turns else ()))
-    other = sorted(set(tree.links) - {*names, root})
+    on_base = added(tree, top.child, *((top.axis, (*_NAMES[:2], top.name)) if turns else ()))
+    other = sorted(set(tree.links) - {*on_base.tree.links, root})
     text = f"{top.type} joint '{top.name}' to '{root}': the robot stands on its feet instead"
-    left = f"{text}; and {other}, which do not move with it" if other else text
-    return on_base.noting(Note("left out", left))
+    rest_of = f"; and {other}, which do not move with it" if other else ""
+    return on_base.noting(Note("left out", text + rest_of))
 
 
 def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
-    """The planar base that the URDF has already, its slides turned to the directions +x and +z.
+    """The planar base that the file has already, with slides along +x and +z; those of a file may be turned
+    in the plane, as on a slope.
 
     Raises ModelError where it is incomplete or has mass.
     """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
-    above = {joint.name: tree.path_to_root(joint.parent) for joint in turning}
-    tops = [j for j in turning if not any(a.type == "revolute" for a in above[j.name])]
-    carriers = above[tops[0].name] if tops else ()
-    heavy = [j.child for j in carriers if tree.links[j.child].inertial is not None]
-    along = {("x" if joint.axis[0] else "z"): joint.name for joint in slides}
-    complete = len(slides) == len(along) == 2 and all(joint in carriers for joint in slides)
-    if not complete or len(tops) != 1 or heavy:
+    tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
+    carriers = tree.path_to_root(tops[0].parent) if tops else ()
+    carried = tree.links_from(tops[0].child) if tops else []
+    masses = {x: body.mass for x, link in tree.links.items() if (body := link.inertial)}
+    still = {x: masses.pop(x) for x in list(masses) if x not in carried}
+    heavy = {x: m for x, m in still.items() if set(slides) & set(tree.path_to_root(x))}
+    robot = sum(masses.values())
+    flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
+    plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
+    plane = plane and set(slides) <= set(carriers) and len(tops) == 1
+    if not plane or sum(heavy.values()) > LIGHT * robot:
         raise ModelError(
             f"'{tree.source}': its base slides by {[j.name for j in slides]}, turns by "
-            f"{[j.name for j in tops]} and has mass in {heavy}; expected one prismatic joint along x, one "
-            "along z, then one revolute pitch about y, and no mass above the trunk. Complete the base, or "
-            "remove it and one is put there"
+            f"{[j.name for j in tops]} and has mass in {heavy} kg; expected two prismatic joints in the plane "
+            f"x-z, then one revolute pitch about y, and above the trunk at most {LIGHT:.0%} of the robot's "
+            f"{robot:.5g} kg. Complete the base, or remove it and one is put there"
         )
-    (pitch,), (x, z) = tops, (along["x"], along["z"])
-    forward = tuple(
-        replace(j, axis=(abs(j.axis[0]), 0.0, abs(j.axis[2]))) if j in slides else j
-        for j in tree.joints
+    (pitch,), x = tops, flat[0]
+    names = tuple(joint.name for joint in (*flat, pitch))
+    on_base = added(tree, pitch.child, pitch.axis, names)
+    text = "base: '{}' and '{}' slide, '{}' is the pitch of the trunk".format(*names)
+    slope = math.atan(-x.axis[2] / x.axis[0])
+    notes = (
+        ("read", True, f"{text} '{pitch.child}'"),
+        ("left out", still, f"masses [kg] that stand still, or only slide with the base: {still}"),
+        ("left out", abs(slope) > PLANAR, f"slope of '{x.name}', {slope:g} rad: see ground.slope"),
     )
-    text = f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
-    tree, note = replace(tree, joints=forward), Note("read", text)
-    return PlanarBase(tree, (x, z), pitch.name, pitch.child, (note,))
+    return replace(on_base, notes=tuple(Note(kind, text) for kind, found, text in notes if found))
 
 
 def added(
-    tree: Tree, root: str, axis: Vector | None = None, pitch: str = "base_pitch"
+    tree: Tree, root: str, axis: Vector | None = None, names: tuple[str, ...] = _NAMES
 ) -> PlanarBase:
-    """The tree with a base added above the root link; its pitch turns about `axis`, or in the sense of
-    the first revolute joint.
+    """The tree below link `root` with a base above it; its pitch turns about `axis`, or in the sense of the
+    first revolute joint.
     """
-    first = next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
-    axis = axis or first
-    names = ("base_x", "base_z", pitch, "world", "base_x_carriage", "base_z_carriage")
-    x, z, pitch, world, cart, lift = (free_name(tree, name) for name in names)
+    carried = {link: tree.links[link] for link in tree.links_from(root) or tree.links}
+    tree = replace(tree, links=carried, joints=tuple(j for j in tree.joints if j.parent in carried))
+    axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
+    every = (*names, "world", "base_x_carriage", "base_z_carriage")
+    x, z, pitch, world, cart, lift = (free_name(tree, name) for name in every)
     zero = (0.0, 0.0, 0.0)
     joints = (
         Joint(x, "prismatic", world, cart, zero, (1.0, 0.0, 0.0)),
         Joint(z, "prismatic", cart, lift, zero, (0.0, 0.0, 1.0)),
         Joint(pitch, "revolute", lift, root, zero, axis),
     )
-    links = {name: Link(name, None, ()) for name in (world, cart, lift)} | dict(tree.links)
-    turns = f"axis {axis[_Y]:+g} y"
-    text = f"base: '{x}', '{z}' and the pitch '{pitch}' ({turns}) were put above the trunk '{root}'"
+    links = {name: Link(name, None, ()) for name in (world, cart, lift)} | carried
+    text = f"base: '{x}', '{z}' and pitch '{pitch}' (axis {axis[1]:+g} y) put above '{root}'"
     tree = replace(tree, links=links, joints=joints + tree.joints)
     return PlanarBase(tree, (x, z), pitch, root, (Note("assumed", text),))
 

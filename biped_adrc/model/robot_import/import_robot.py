@@ -15,6 +15,7 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
     urdf_reader.read      links and joints, frames turned parallel at zero angles
     on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
     on_feet               feet that are points, legs that hang from a trunk
+    evened                the mean of legs that differ by less than 1 %
     anatomy               hip, order of the joints, phase variable
     drawable              shapes to draw, balls where there are none
     _motors, _torque      joints with a motor, and their torque limit
@@ -37,7 +38,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -129,36 +130,38 @@ class Hints:
     """Rotor inertia per motor, reflected to the joint [kg m^2]; None for that of the file."""
     gravity: float = GRAVITY
     """Gravity [m/s^2]."""
-    tip: tuple[float, float, float] | None = None
-    """Place of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins."""
+    tip: tuple[float, ...] | None = None
+    """Place (3,) of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins; or
+    (6,), of the stance foot, then of the swing foot."""
+
+
+class Motors(NamedTuple):
+    """The motors of a robot."""
+
+    joints: tuple[str, ...]
+    """Names of the joints q1, ..., qp."""
+    torque: float
+    """Torque limit of every motor [N m]."""
+    armature: Rotors
+    """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
 
 
 def record_of(
-    contents: Contents,
-    body: PlanarBase,
-    parts: Anatomy,
-    actuated: tuple[str, ...],
-    torque: float,
-    armature: Rotors,
-    hints: Hints,
+    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, motors: Motors, hints: Hints
 ) -> dict[str, Any]:
-    """The tables of the robot.toml that describes this robot, as plain values.
-
-    torque: limit of every motor [N m]. armature: of every motor, or of each [kg m^2].
-    """
+    """The tables of the robot.toml that describes this robot, as plain values; file: its name."""
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
         return {name: values[name] for name in moving if name in values}
 
-    source = f"The masses of {Path(contents.tree.source).name}."
     return {
         "name": contents.tree.name,
-        "urdf": Path(contents.tree.source).name,
+        "urdf": file,
         "default_preset": PRESET,
-        "actuated": list(actuated),
-        "passive": [name for name in moving if name not in actuated],
+        "actuated": list(motors.joints),
+        "passive": [name for name in moving if name not in motors.joints],
         "unactuated": body.pitch,
         "base": list(body.base),
         "stance_foot": parts.feet[0],
@@ -166,13 +169,13 @@ def record_of(
         "hip": parts.hip,
         "trunk": body.trunk,
         "phase": list(parts.phase),
-        "peak_torque": torque,
+        "peak_torque": motors.torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": source, "armature": armature}},
+        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": motors.armature}},
     }
 
 
@@ -237,7 +240,7 @@ def biped_from_urdf(
     hip: str | None = None,
     torque: float | None = None,
     armature: float | None = None,
-    tip: tuple[float, float, float] | None = None,
+    tip: tuple[float, ...] | None = None,
 ) -> Biped:
     """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
 
@@ -261,13 +264,16 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     hints = Hints() if hints is None else hints
     contents, feet = _with_tips(path, hints)
     body, pair = on_feet(on_planar_base(contents.tree), feet, hints.actuated or ())
+    tree, of_legs = urdf.evened(body.tree, pair)
+    body = replace(body, tree=tree).noting(*of_legs)
     parts = anatomy(body, pair, hints.hip)
     tree, of_shapes = drawable(body.tree, parts.feet)
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     armature, of_rotors = _armature(contents, actuated, hints)
-    record = record_of(contents, body, parts, actuated, torque, armature, hints)
-    description = description_of(record, Path(path))
+    path, motors = Path(path), Motors(actuated, torque, armature)
+    record = record_of(path.name, contents, body, parts, motors, hints)
+    description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
@@ -289,9 +295,13 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
             f"'{path}': give the links with this tip by feet=(...) or --feet, found {feet}, the links "
             f"are {list(contents.tree.links)}"
         )
+    if len(hints.tip) not in (3, 6) or not all(map(math.isfinite, hints.tip)):
+        raise ModelError(
+            f"tip={hints.tip}, expected x, y, z of both feet or of one after the other"
+        )
     tree, tips = contents.tree, []
-    for foot in feet:
-        tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ np.array(hints.tip)))
+    for foot, place in zip(feet, np.resize(hints.tip, (len(feet), 3)), strict=True):
+        tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ place))
         tips.append(tip)
     return replace(contents, tree=tree), tuple(tips)
 
@@ -370,16 +380,13 @@ def _armature(
 
 def _remarks(contents: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
     """Sentences on friction: of the feet, and of the joints."""
-    notes = []
-    if hints.friction_coefficient is None:
-        text = f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
-        notes.append(Note("assumed", text))
-    for what, values, unit in (
-        ("viscous", contents.viscous, "N m s/rad"),
-        ("static", contents.static, "N m"),
-    ):
-        text = ", ".join(f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name))
-        if text:
-            text = f"{what} joint friction [{unit}]: {text}; it acts where hardware.friction is set"
-            notes.append(Note("read", text))
+    text = (
+        f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
+    )
+    notes = [Note("assumed", text)] if hints.friction_coefficient is None else []
+    units = ("viscous", contents.viscous, "N m s/rad"), ("static", contents.static, "N m")
+    for what, values, unit in units:
+        each = [f"{values[j.name]:g} on '{j.name}'" for j in moving if values.get(j.name)]
+        text = f"{what} joint friction [{unit}]: {', '.join(each)}; it acts where hardware.friction is set"
+        notes += [Note("read", text)] if each else []
     return tuple(notes)

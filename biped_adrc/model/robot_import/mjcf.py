@@ -13,6 +13,7 @@ between bodies are refused. Needs the extra `mujoco`.
 from __future__ import annotations
 
 import math
+import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
 """Types of joints, in MuJoCo's order."""
+_TURNS = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
 
 
 def read_mjcf(path: Path) -> Contents:
@@ -39,8 +41,8 @@ def read_mjcf(path: Path) -> Contents:
         import mujoco
     mujoco.set_mju_user_warning(lambda _: None)  # it would write a file
     try:
-        m = mujoco.MjModel.from_xml_path(str(path))
-    except ValueError as error:
+        m = _compiled(mujoco.MjModel, path)
+    except (ValueError, ET.ParseError) as error:
         raise ModelError(
             f"MJCF '{path}' does not compile: {' '.join(str(error).split())}"
         ) from None
@@ -63,6 +65,24 @@ def read_mjcf(path: Path) -> Contents:
     turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
     tree, notes = _tree(m, d, names, path), _notes(m, hinges)
     return Contents(tree, torques, viscous, static, rotor, turns, notes)
+
+
+def _compiled(model: Any, path: Path) -> Any:
+    """The `model` of an MJCF, also of one with `coordinate="global"`, of MuJoCo before 2.3.4: with the frames
+    of all bodies at the world's origin, its places are those in the world. Raises ValueError.
+    """
+    try:
+        return model.from_xml_path(str(path))
+    except ValueError as error:
+        if "global coordinates" not in str(error):
+            raise
+        root = ET.fromstring(path.read_bytes().lstrip())
+        bodies = root.findall(".//body")
+        if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
+            raise
+    for element in (*root.iterfind("compiler"), *bodies):
+        element.attrib = {k: x for k, x in element.attrib.items() if k not in ("coordinate", "pos")}
+    return model.from_xml_string(ET.tostring(root, encoding="unicode"))
 
 
 def _name(m: Any, j: int) -> str:
@@ -99,7 +119,7 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             urdf.check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
-    tree = Tree(model or path.stem, links, tuple(joints), str(path))
+    tree = Tree(model or path.stem, links, tuple(joints), f"{path} (MJCF)")
     owners, at = (*m.geom_bodyid, *m.site_bodyid), (*d.geom_xpos, *d.site_xpos)
     shapes = [*map(m.geom, range(m.ngeom)), *map(m.site, range(m.nsite))]
     for b, place, shape in zip(owners, at, shapes, strict=True):

@@ -15,7 +15,8 @@ that count from a torso, and a combination for a hip that counts from the other 
 with spokes; it comes from the record.
 
 This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
-not. Twins are paired along the way from foot to foot, from both ends to its middle.
+not, and `evened` takes the mean of legs that nearly are. Twins are paired along the way from foot to foot,
+from both ends to its middle.
 """
 
 from __future__ import annotations
@@ -276,6 +277,9 @@ def check_inertial(inertial: Inertial, where: str) -> None:
 
 
 _EXACT = 1e-9  # largest residual of A R = P A, dimensionless
+_LEAST = 1e-6  # [kg], [kg m^2], [m], smaller numbers of the legs differ by round-off
+ALIKE = 0.01
+"""Largest relative difference of the legs in a file whose mean is taken, dimensionless."""
 
 
 def way(tree: Tree, feet: tuple[str, str]) -> list[tuple[Joint, str]]:
@@ -354,21 +358,46 @@ def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     return tuple(twins(tree, feet).items())[::2]
 
 
-def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:
-    """Pairs of twins that differ in mass, COM or inertia, or in their place on their parent."""
-    return [(one, other) for one, other in pairs(tree, feet) if not _alike(tree, one, other)]
+def unlike(tree: Tree, feet: tuple[str, str]) -> dict[tuple[str, str], float]:
+    """Pairs of twins that differ in the plane, each with the largest relative difference of mass, moment, COM
+    and place on the parent, dimensionless.
+    """
+    starts, gaps = (0, 1, 2, 4), dict[tuple[str, str], float]()
+    for pair in pairs(tree, feet):
+        a, b = (_in_plane(tree, link) for link in pair)
+        gap, *sizes = (np.sqrt(np.add.reduceat(x * x, starts)) for x in (a - b, a, b))
+        gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), _LEAST)))
+    return {pair: gap for pair, gap in gaps.items() if gap > _EXACT}
 
 
-def _alike(tree: Tree, one: str, other: str) -> bool:
-    """Whether two links have the same numbers in the plane, up to round-off."""
-    rows = []
-    for link in (one, other):
-        body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
-        joint = tree.joint_above(link)
-        place = (0.0, 0.0) if joint is None else joint.origin[::2]
-        rows.append((body.mass, body.inertia[3], *body.com[::2], *place))
-    a, b = np.array(rows)
-    return bool(np.allclose(a, b, rtol=_EXACT, atol=0.0))
+def _in_plane(tree: Tree, link: str) -> Array:
+    """Mass [kg], moment about y [kg m^2], COM (x, z) and place (x, z) on the parent [m] of a link, (6,)."""
+    body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
+    joint = tree.joint_above(link)
+    place = (0.0, 0.0) if joint is None else joint.origin[::2]
+    return np.array([body.mass, body.inertia[3], *body.com[::2], *place])
+
+
+def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
+    """The tree with the mean of both legs where they differ by at most ALIKE, as exports of CAD do, and a
+    sentence on it; otherwise the tree itself.
+    """
+    gaps = unlike(tree, feet)
+    if not gaps or max(gaps.values()) > ALIKE:
+        return tree, ()
+    links, joints = dict(tree.links), {joint.child: joint for joint in tree.joints}
+    for pair in gaps:
+        m, yy, x, z, px, pz = np.mean([_in_plane(tree, link) for link in pair], axis=0).tolist()
+        for name in pair:
+            link, joint = links[name], joints[name]
+            joints[name] = replace(joint, origin=(px, joint.origin[1], pz))
+            if body := link.inertial:
+                body = body.scaled("inertia", yy / body.inertia[3] if yy else 1.0)
+                body = replace(body, mass=m, com=(x, body.com[1], z))
+                links[name] = replace(link, inertial=body)
+    worst = max(gaps, key=lambda pair: gaps[pair])
+    text = f"legs: the mean of both; they differ by {gaps[worst]:.2%} at most, in {list(worst)}"
+    return replace(tree, links=links, joints=tuple(joints.values())), (Note("assumed", text),)
 
 
 def text_of(values: tuple[float, ...]) -> str:
