@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.gait_design import library
+from biped_adrc.analysis.gait_design import library, step_integrals
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.family import DECISION, load_family
 from biped_adrc.model.ground import Stones
@@ -169,3 +169,19 @@ def test_mistakes_with_footsteps(values, text):
     usual = {"controller": "footstep", "gait": "v0.6", "hardware.period": "1 ms"}
     with pytest.raises(InputError, match=text):
         ba.walk_scenario(ba.Scenario(**usual | values))
+
+
+def test_the_stored_map_is_that_of_the_integrals_over_a_step(biped):
+    """2 W and J of a step within the range, of equal and of changing members, by the quadratures."""
+    family = load_family("flat", biped)
+    low, high = np.array(family.low), np.array(family.high)
+    (v, L), (end, ahead) = 0.5 * (low + high), 0.45 * low + 0.55 * high
+    for x in ((v, L, L, v, L), (v, L, ahead, end, L)):
+        found = step_integrals(biped, family, *x)
+        at = dict(zip(("v", "before", "L", "end", "ahead"), x, strict=True))
+        stored = family.steps.to_impact(np.array([at[k] for k in ("v", "end", "L", "ahead")]))
+        decision = family.steps.to_decision(
+            np.array([at[k] for k in ("v", "before", "L", "ahead")])
+        )
+        assert found[-2:] == pytest.approx(stored, rel=2e-2)
+        assert found[:-2] == pytest.approx(decision, rel=5e-2, abs=0.05 * np.max(np.abs(decision)))
