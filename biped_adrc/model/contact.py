@@ -98,11 +98,6 @@ class FloatingDynamics:
         J_e[self.base[0], self.n] = J_e[self.base[1], self.n + 1] = 1.0
         return J_e
 
-    def inertia_on_fixed_base(self, q: Array) -> Array:
-        """Inertia matrix of the joints (n, n) with the base fixed [kg m^2]."""
-        M = pin.crba(self.model, self.data, self.configuration(q))
-        return M[np.ix_(self.angles, self.angles)]
-
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
         """Jacobian d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
         J: Array = pin.computeFrameJacobian(self.model, self.data, x, frame, WORLD_AXES)

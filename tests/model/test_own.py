@@ -451,7 +451,27 @@ def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):
         text += f'<link name="{side}_foot"/><joint name="{side}_tip" type="fixed">'
         text += f'<parent link="{side}_leg"/>'
         text += f'<child link="{side}_foot"/><origin xyz="0 0 -0.9"/></joint>'
-    own = biped_from_urdf(urdf(f'<robot name="welded">{text}</robot>'))
+    check_compass(biped_from_urdf(urdf(f'<robot name="welded">{text}</robot>')))
+
+
+def test_a_compass_that_hangs_from_its_stance_foot_has_equal_legs(urdf):
+    """The base at the foot; the legs are equal, although they hang on it in different ways."""
+    text = mass("hip", 9, 0, "") + mass("stance", 4, 0.5, "") + mass("swing", 4, -0.4, "")
+    turn = '<axis xyz="0 -1 0"/><limit effort="20" velocity="9"/>'
+    for name, kind, parent, child, z in (
+        ("weld", "fixed", "stance", "hip", 0.9),
+        ("pin", "continuous", "hip", "swing", 0.0),
+    ):
+        text += f'<joint name="{name}" type="{kind}">{turn}<parent link="{parent}"/>'
+        text += f'<child link="{child}"/><origin xyz="0 0 {z}"/></joint>'
+    hints = Hints(("stance", "swing"), tip=(0.0, 0.0, 0.0, 0.0, 0.0, -0.9))
+    derived = derive(urdf(f'<robot name="foot">{text}</robot>'), hints)
+    assert derived.broken == ()
+    check_compass(derived.biped)
+
+
+def check_compass(own):
+    """Its D_s and Goswami's, for points of 4 kg at a from the foot, b from the hip, and 9 kg at the hip."""
     a, b, length = 0.5, 0.4, 0.9
     for q, _ in states(2, 5):
         both = -4 * length * b * math.cos(q[0])
