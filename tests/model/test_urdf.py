@@ -99,7 +99,7 @@ def test_states_that_are_no_states(biped):
         ('urdf = "floating.urdf"', 'urdf = "linked.urdf"', "in its own folder or below"),
         ('"left_knee", "right_knee"]', '"left_knee", "left_knee"]', "a list of different names"),
         ('["left_thigh", "right_thigh"]', '["left_thigh", "thigh"]', r"\['thigh'\] in its links"),
-        ('torso = ["torso"]', "torso = []", r"links.torso is \[\], expected the names"),
+        ('torso = ["torso"]', "torso = []", r"links.torso is \[\], .* names, one at least"),
         ('"left_shin", "right_shin"', '"left_shin", "left_thigh"', "the links of all bodies"),
         ('swing_foot = "right_foot"', 'swing_foot = "left_foot"', "both feet"),
         ("mass = 12.0", "mass = true", "torso.mass is .True"),

@@ -32,7 +32,6 @@ import tomllib
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -176,6 +175,10 @@ class RobotDescription(Shown):
         return tree.with_inertials(inertials)
 
 
+KEYS = {f.name for f in fields(RobotDescription)} - {"viscous", "static"} | {"friction"}
+"""Keys of a robot.toml."""
+
+
 def robot_names() -> tuple[str, ...]:
     """Names of the robots that come with the package."""
     return tuple(sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml")))
@@ -206,25 +209,18 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        rubbing = ("viscous", "static")
-        _table(
-            "the record",
-            data,
-            {f.name for f in fields(RobotDescription)} - {*rubbing} | {"friction"},
-        )
-        friction = _table("friction", data.get("friction", {}), rubbing)
+        _table("the record", data, KEYS)
+        friction = _table("friction", data.get("friction", {}), ("viscous", "static"))
         ranges, links = _table("ranges", data.get("ranges", {})), _table("links", data["links"])
-        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in rubbing)
+        viscous, static = (dict(_table(x, friction.get(x, {}))) for x in ("viscous", "static"))
         _numbers("friction", rubs := [*viscous.values(), *static.values()], len(rubs), 0.0)
         actuated, base = (_names(key, data[key]) for key in ("actuated", "base"))
         passive = _names("passive", data.get("passive", ()))
         joints = (*actuated, *passive, data["unactuated"])
         _names("the list of all joints", (*joints, *base))
         _names("the list of both feet", (data["stance_foot"], data["swing_foot"]))
-        bodies = {body: _names(f"links.{body}", x) for body, x in links.items()}
-        _names("the list of the links of all bodies", (*chain(*bodies.values()),))
-        if empty := [body for body, names in bodies.items() if not names]:
-            raise ValueError(f"links.{empty[0]} is [], expected the names of its links")
+        bodies = {body: _names(f"links.{body}", x, 1) for body, x in links.items()}
+        _names("the list of the links of all bodies", [x for row in bodies.values() for x in row])
         if len(base) != 2:
             raise ValueError(f"base is {list(base)}, expected two joints, along x and z")
         texts = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
@@ -250,9 +246,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
             static=static,
             links=bodies,
             presets={
-                name: _preset(
-                    name, _table(f"presets.{name}", x, (*bodies, "armature", "source")), data
-                )
+                name: _preset(name, x, data)
                 for name, x in _table("presets", data["presets"]).items()
             },
             ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
@@ -266,15 +260,17 @@ def _name(key: str, value: object) -> str:
     return value
 
 
-def _names(key: str, values: Sequence[object]) -> tuple[str, ...]:
-    """Check a list of different names. Raises ValueError that names the key."""
-    if not isinstance(values, list | tuple) or len(set(map(str, values))) < len(values):
-        raise ValueError(f"{key} is {values!r}, expected a list of different names")
+def _names(key: str, values: Sequence[object], least: int = 0) -> tuple[str, ...]:
+    """Check a list of different names, at least so many. Raises ValueError that names the key."""
+    if not isinstance(values, list | tuple) or len(set(map(str, values))) < max(len(values), least):
+        raise ValueError(
+            f"{key} is {values!r}, expected a list of different names" + ", one at least" * least
+        )
     return tuple(_name(f"a name in {key}", x) for x in values)
 
 
 def _table(key: str, value: object, known: Collection[str] = ()) -> Mapping[str, Any]:
-    """Check a table, and that its keys are among the known ones, if any. Raises ValueError that names the key."""
+    """Check a table, and its keys where they are known. Raises ValueError that names the key."""
     if not isinstance(value, Mapping):
         raise ValueError(f"{key} is {value!r}, expected a table")
     for name in sorted(set(value) - set(known)) if known else ():
@@ -287,10 +283,8 @@ def _numbers(
     key: str, values: Sequence[Any], count: int, least: float = -math.inf
 ) -> tuple[float, ...]:
     """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
-    row = values if isinstance(values, list | tuple) else ()
-    numbers = tuple(
-        math.nan if type(x) is bool or not isinstance(x, int | float) else float(x) for x in row
-    )
+    row = values if isinstance(values, list | tuple) and bool not in map(type, values) else ()
+    numbers = tuple(float(x) if isinstance(x, int | float) else math.nan for x in row)
     if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
         above = f", at least {least:g}" if math.isfinite(least) else ""
         raise ValueError(f"{key} is {values!r}, expected {count} finite numbers{above}")
@@ -305,11 +299,12 @@ def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
     return low, high
 
 
-def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
+def _preset(name: str, table: object, data: Mapping[str, Any]) -> Preset:
     """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none. Raises
     ValueError.
     """
     bodies, where = {}, f"presets.{name}"
+    record = _table(where, table, (*data["links"], "armature", "source"))
     for body in data["links"] if any(body in record for body in data["links"]) else ():
         p = _table(f"{where}.{body}", record[body], ("mass", "com", "inertia"))
         bodies[body] = BodyParameters(
