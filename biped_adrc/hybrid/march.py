@@ -269,9 +269,8 @@ def overdue(r: Run, t0: float) -> int:
     watch(r, t0, r.x_e, r.tried)
     for guard in range(r.guards):
         fall = r.values[guard] - r.after[guard]
-        if guard == r.fired or r.values[guard] > 0.0 or not fall > 0.0:
-            continue
-        if not passed(r, guard, fall) and accepts(r, guard, t0):
+        low = guard != r.fired and r.values[guard] <= 0.0 < fall
+        if low and not passed(r, guard, fall) and accepts(r, guard, t0):
             r.t_event = t0
             return code_of(r, guard)
     return 0
@@ -294,8 +293,7 @@ def lift(r: Run, t0: float, s: float) -> int:
         if r.values[guard] == 0.0 > w and w < 3.0 * r.after[guard] and accepts(r, guard, t0):
             return EVENT_LIMIT
     copy(r.tried, r.after, r.guards)
-    code = overdue(r, t0)
-    code = code if code != 0 else crossed(r, t0, t0, s)
+    code = overdue(r, t0) or crossed(r, t0, t0, s)
     copy(r.after, r.values, r.guards)
     return code
 

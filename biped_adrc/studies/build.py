@@ -25,9 +25,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.registry import find, is_own
-from biped_adrc.disturbances.base import Disturbance, summands
-from biped_adrc.disturbances.force import OnLink
-from biped_adrc.disturbances.waves import TorqueNoise, TorquePulse, TorqueSine, TorqueStep
+from biped_adrc.disturbances.base import Disturbance, Windowed, summands
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.program import COMPILED, numbers_of
 from biped_adrc.engine.structure import structure
@@ -45,8 +43,6 @@ Record = Mapping[str, object]
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
 """Statuses that are no result of a walk: its values do not fit together, its function raised, its worker
 died."""
-WAVES = TorquePulse, TorqueStep, TorqueSine, TorqueNoise
-"""Disturbances that are their amplitude times a function of time."""
 NO_WALK = (REFUSED, RAISED, CRASHED)
 """All of them; such rows count neither as a success nor as a fall."""
 SEED, PLANT = "run.seed", "ground.plant"
@@ -138,8 +134,8 @@ class Trial(NamedTuple):
 def acting(disturbance: Disturbance | None) -> tuple[Disturbance, ...]:
     """The parts of a disturbance but waves of no amplitude, which are zero whatever their window."""
     parts = () if disturbance is None else summands(disturbance)
-    waves = [(part, part.wave if isinstance(part, OnLink) else part) for part in parts]
-    return tuple(x for x, w in waves if not isinstance(w, WAVES) or np.any(w.amplitude))
+    waves = ((x, getattr(x, "wave", x)) for x in parts)
+    return tuple(x for x, w in waves if not isinstance(w, Windowed) or np.any(w.amplitude))
 
 
 def differ(*trials: Trial) -> bool:

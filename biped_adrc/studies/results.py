@@ -41,7 +41,6 @@ from biped_adrc.studies.study import Point, Study
 
 MARKS = {"application_id": 0x62614453, "user_version": 1}
 """Of SQLite: a number by which a results file is told from other databases, and the form of its tables."""
-UNLIKE = "its values are the same, and its hash is not theirs: another program changed it"
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
 TABLES = [
@@ -148,7 +147,7 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     key, old, before = db.execute("SELECT hash, study, versions FROM study").fetchone()
     if key != study.hash:
         there, here = (flat(json.loads(text)) for text in (old, study.model_dump_json()))
-        why = differences(there, here) or UNLIKE
+        why = differences(there, here) or "its values are the same, and its hash is not theirs"
         return f"holds the rows of the study '{there['name']}', another one: {why}"
     other = differences(json.loads(before), versions)
     return other and f"was made with other versions, and numbers may differ: {other}"

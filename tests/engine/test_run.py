@@ -690,3 +690,14 @@ def test_a_controller_in_python_that_changes_its_reference(biped, gait):
         for engine in ("pinocchio", "compiled")
     )
     near(compiled.final_state, python.final_state, 1e-9)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_walk_that_starts_with_the_hip_too_low_and_sinking_falls_at_once(biped, gait, engine):
+    arc = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).trajectory.arcs[0]
+    q, v = np.split(arc.x[int(0.8 * len(arc.t)), :10], 2)
+    limit = (biped.hip(q)[1] + 1e-3) / np.linalg.norm(biped.hip(np.zeros(5)))
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), fall_height=float(limit))
+    run = ba.walk(walker, gait, 1, start=(q, v), engine=engine).trajectory
+    assert (run.status.name, run.t_end, len(run.events())) == ("FELL", 0.0, 1)
+    assert np.array_equal(run.final_state[:10], [*q, *v])
