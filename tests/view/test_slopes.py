@@ -18,7 +18,10 @@ from biped_adrc.view.placement import WalkScene, link_placements
 
 from .pinocchio_view import floating
 
-pytestmark = pytest.mark.filterwarnings("ignore:gait 'published' was made for a slope")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:gait 'published' was made for a slope"),
+    pytest.mark.filterwarnings("ignore:the start has the swing foot 6.25 mm below"),
+]
 METHOD = ba.RK4(2e-3)
 ALPHA = math.pi / 8
 NAMES = ("compass", "wheel", "slope", "down")
