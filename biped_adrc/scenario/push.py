@@ -17,6 +17,8 @@ import re
 from decimal import Decimal
 from typing import Any
 
+from pydantic import ConfigDict
+
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.registry import find
 from biped_adrc.scenario.records import OpenRecord, field
@@ -34,15 +36,17 @@ _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
 class Push(OpenRecord):
-    """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
+    """A torque on joints or a force on a link, of a shape in time.
 
-    Raises InputError for a shape that there is not and for a value out of its range.
+    values: further ones, those that the shape takes, by name. Raises InputError for a shape that there is not
+    and for a value out of its range.
 
     >>> push = ba.Push(torque=-60.0, joints="q1,q2", step=2, onset=0.1)
     >>> ba.walk_scenario(ba.Scenario("NPD", pushes=[push], run={"impacts": 2})).impacts
     2
     """
 
+    model_config = ConfigDict(defer_build=False)  # `help` shows the values only of a finished class
     SHORT = "shape"
     APART = (("force", "torque"), ("torque", "link"))
     shape: str = field("pulse", kind="disturbance")

@@ -126,12 +126,13 @@ class Walk(Shown):
     """
 
     walker: Walker
+    """The walker, with plant, controller and all the rest."""
     gait: Gait | None
-    """None for a robot without motors."""
+    """The gait it was to follow; None for a robot without motors."""
     trajectory: Trajectory
     """States over time, impacts, and the status with which the walk ended."""
     scenario: Scenario | None = None
-    """None for a walker made in Python."""
+    """The scenario that asked for it; None for a walker made in Python."""
     recorded: Signals | None = None
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Literal, Self
 
@@ -25,7 +25,7 @@ from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write
 from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, field
+from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, by_default, field
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
@@ -35,6 +35,8 @@ RESOLVED = 0.1
 """Of the ground's time constant: the longest step that resolves contact."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
+Values = Any
+"""A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
 
 class RobotRecord(Record):
@@ -242,11 +244,22 @@ class RunRecord(Record):
         return self
 
 
-class Scenario(Record):
-    """One walk in plain values, in records by what they are of; see the module.
+USUAL = by_default(ControllerRecord)
+"""The controller of a scenario that names none."""
 
-    A record may be given as a mapping, or as a text for its name. Lengths are in m, angles in rad, times in s,
-    torques in N m, or text with a unit. `replace` changes some values and keeps the others.
+
+class Scenario(Record):
+    """One walk in plain values, in records by what they are of.
+
+    Each record is itself, a mapping of its values, or a text for its name; the fields say its values. Lengths
+    are in m, angles in rad, times in s, torques in N m, or texts with a unit. `replace` changes some values
+    and keeps the others.
+
+    controller: the law, with observer and gains. robot: the one that walks. gait: the reference. hardware: its
+    sampling, sensors and motors. pushes: the torques and forces that disturb it, records or texts. errors: how
+    the plant differs from the controller's model. ground: the ground, or another plant. start: what is added
+    to the start. limits: what ground and motors can give. run: length, seed and numerics. dotted: single values
+    by dotted names, such as **{"run.seed": 3}.
 
     Raises InputError for an unknown name, a value out of its range, and one that cannot have an effect.
 
@@ -257,20 +270,38 @@ class Scenario(Record):
 
     SHORT = "controller"
     APART = (("hardware.delay_known", "controller.prediction"),)
-    controller: ControllerRecord = field(ControllerRecord.model_construct())
-    robot: RobotRecord = field(RobotRecord.model_construct())
-    gait: GaitRecord = field(GaitRecord.model_construct())
-    hardware: HardwareRecord = field(HardwareRecord.model_construct())
+    controller: ControllerRecord = field(USUAL)
+    robot: RobotRecord = field(by_default(RobotRecord))
+    gait: GaitRecord = field(by_default(GaitRecord))
+    hardware: HardwareRecord = field(by_default(HardwareRecord))
     pushes: tuple[Push, ...] = field(())
-    errors: ErrorRecord = field(ErrorRecord.model_construct())
-    ground: GroundRecord = field(GroundRecord.model_construct())
-    start: StartRecord = field(StartRecord.model_construct())
-    limits: LimitRecord = field(LimitRecord.model_construct())
-    run: RunRecord = field(RunRecord.model_construct())
+    errors: ErrorRecord = field(by_default(ErrorRecord))
+    ground: GroundRecord = field(by_default(GroundRecord))
+    start: StartRecord = field(by_default(StartRecord))
+    limits: LimitRecord = field(by_default(LimitRecord))
+    run: RunRecord = field(by_default(RunRecord))
 
-    def __init__(self, controller: object = None, **values: object) -> None:
-        named = {} if controller is None else {"controller": controller}
-        super().__init__(**nested({**named, **values}))
+    def __init__(
+        self,
+        controller: ControllerRecord | Values | None = None,
+        *,
+        robot: RobotRecord | Values = by_default(RobotRecord),
+        gait: GaitRecord | Values = by_default(GaitRecord),
+        hardware: HardwareRecord | Values = by_default(HardwareRecord),
+        pushes: Push | Values | Sequence[Push | Values] = (),
+        errors: ErrorRecord | Values = by_default(ErrorRecord),
+        ground: GroundRecord | Values = by_default(GroundRecord),
+        start: StartRecord | Values = by_default(StartRecord),
+        limits: LimitRecord | Values = by_default(LimitRecord),
+        run: RunRecord | Values = by_default(RunRecord),
+        **dotted: Any,
+    ) -> None:
+        records = {"controller": USUAL if controller is None else controller, "robot": robot}
+        records |= {"gait": gait, "hardware": hardware, "pushes": pushes, "errors": errors}
+        records |= {"ground": ground, "start": start, "limits": limits, "run": run}
+        usual = type(self).model_fields
+        others = {name: x for name, x in records.items() if x is not usual[name].default}
+        super().__init__(**nested(others | dotted))
 
     @field_validator("pushes", mode="before")
     @classmethod

@@ -73,9 +73,9 @@ Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
 class Stepper:
     """`count` walks of a scenario, or of a walker, in sampled time.
 
-    within: limits by which the single supports of a scenario are judged when they end, for `over`. Raises
-    InputError for continuous time, a scenario with `run.fine`, a robot without motors, and parts that do not
-    fit together.
+    what: a scenario or a walker, in sampled time. count: number of walks. within: limits by which the single
+    supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
+    scenario with `run.fine`, a robot without motors, and parts that do not fit together.
 
     >>> stepper = ba.Stepper(ba.Scenario("NPD", hardware={"period": 1e-3}), count=2)
     >>> stepper.reset(seed=1).t

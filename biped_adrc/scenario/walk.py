@@ -76,16 +76,25 @@ def walk(
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    Each of `Walk.remarks` is also a `WalkWarning`. A walker without a slope walks on that of its plant, or of
-    the gait. start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by
-    default that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
-    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
-    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
-    times too large under Table I), which a remark says; "compiled" takes 0.05 ms there. Every step of the
-    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the
-    walk ends, with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone
-    judges by them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as
-    MuJoCoPlant(biped, ground); then the walker acts at ticks, and there is no method. Raises InputError for
+    - walker: plant, controller and all the rest. A walker without a slope walks on that of its plant, or of
+      the gait.
+    - gait: whose orbit is the start, and from which errors are measured.
+    - impacts: the walk ends after so many.
+    - method: of integration; by default that of `methods_of`. Every step of it is kept, so that peaks and
+      certificates miss none.
+    - start: (q, v), each (n,) [rad, rad/s], in place of the gait's. first_step: number of the first single
+      support.
+    - progress: called after every event with the time [s] and the number of events.
+    - engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio"; the trajectory's
+      settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push the
+      default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
+      under Table I), which a remark says; "compiled" takes 0.05 ms there.
+    - within: the walk ends, with the status INFEASIBLE, where it would leave these limits; without,
+      `Walk.feasibility` alone judges by them.
+    - plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
+      ground); then the walker acts at ticks, and there is no method.
+
+    A fall is a status of the trajectory. Each of `Walk.remarks` is also a `WalkWarning`. Raises InputError for
     parts that do not fit together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
@@ -132,9 +141,9 @@ def walk_scenario(
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
-    progress: called as the walk goes on. controller: in place of the scenario's, such as an exported one; the
-    walk then keeps no scenario. A fall is a status of the trajectory, not an error.
-    Raises InputError for values that do not fit together.
+    s: the scenario. progress: called after every event with the time [s] and the number of events. controller:
+    in place of the scenario's, such as an exported one; the walk then keeps no scenario. A fall is a status of
+    the trajectory, not an error. Raises InputError for values that do not fit together.
 
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
     >>> walk.outcome.status
