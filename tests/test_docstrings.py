@@ -95,3 +95,20 @@ def test_each_parameter_of_a_public_name_is_in_its_docstring(name):
             assert re.search(r"\[|dimensionless|units", said[parameter]), said[parameter]
         if "Array" in annotation:
             assert re.search(r"\(\w+, ?\w*\)", said[parameter]), said[parameter]
+
+
+VERBS = re.compile(
+    r"\b(is|are|has|have|lie|gets?|acts?|goes|may|falls|drives?|takes?|ends?|lands|changes?|comes|begins?|"
+    r"lasts?|keep|fills|samples|follow|knows|compensates)\b"
+)
+"""Verbs of the texts; a text with another one adds it here."""
+
+
+@pytest.mark.parametrize("name", ba.Scenario.names())
+def test_the_text_of_a_value_is_a_sentence_with_a_subject(name):
+    text = ba.Scenario.field_of(name).text
+    assert re.match(
+        r"(?!The same|That |[A-Z][a-z]*: |On |In |Of |From |To |By |Over |Such )[A-Z]", text
+    )
+    assert text.endswith(".")
+    assert VERBS.search(re.split(r"[;:]", text)[0]), text
