@@ -97,6 +97,12 @@ def test_each_parameter_of_a_public_name_is_in_its_docstring(name):
             assert re.search(r"\(\w+, ?\w*\)", said[parameter]), said[parameter]
 
 
+def test_a_scenario_names_its_records():
+    """Python's own signature, before and after pydantic has read the class."""
+    names = [p.name for p in inspect.signature(ba.Scenario.__init__).parameters.values()]
+    assert names == ["self", *ba.Scenario.model_fields, "dotted"]
+
+
 VERBS = re.compile(
     r"\b(is|are|has|have|lie|gets?|acts?|goes|may|falls|drives?|takes?|ends?|lands|changes?|comes|begins?|"
     r"lasts?|keep|fills|samples|follow|knows|compensates)\b"

@@ -56,6 +56,9 @@ class Status(Enum):
     )
     """A step broke a limit of ground or motors (`analysis.feasibility`)."""
 
+    def __repr__(self) -> str:
+        return self.name
+
     @property
     def ok(self) -> bool:
         """True when the run did what was asked."""

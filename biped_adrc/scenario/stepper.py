@@ -32,6 +32,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.shown import call_text, one_line, short
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
@@ -64,6 +65,9 @@ class Sample(NamedTuple):
     """Numbers of the single supports (N,)."""
     status: NDArray[np.object_]
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
+
+    def __repr__(self) -> str:
+        return one_line(self)
 
 
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
@@ -127,6 +131,10 @@ class Stepper:
         self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
         """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
         `kernels.looks`."""
+
+    def __repr__(self) -> str:
+        fields = {"what": short(self.what), "count": str(len(self.walks))}
+        return call_text("Stepper", fields.items())
 
     @property
     def sample(self) -> Sample:

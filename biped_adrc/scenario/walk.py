@@ -21,6 +21,7 @@ from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
+from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, WalkWarning, check_count
 from biped_adrc.core.types import Array
@@ -63,7 +64,7 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
 
 def walk(
     walker: Walker,
-    gait: Gait = None,  # type: ignore[assignment]  # so that a scenario alone is answered in words
+    gait: Gait | None = None,
     impacts: int = 25,
     method: OneStepMethod | None = None,
     *,
@@ -78,7 +79,8 @@ def walk(
 
     - walker: plant, controller and all the rest. A walker without a slope walks on that of its plant, or of
       the gait.
-    - gait: whose orbit is the start, and from which errors are measured.
+    - gait: whose orbit is the start, and from which errors are measured. It may be None beside a `start`:
+      errors are then measured from the controller's own reference, which it must have on a robot with motors.
     - impacts: the walk ends after so many.
     - method: of integration; by default that of `methods_of`. Every step of it is kept, so that peaks and
       certificates miss none.
@@ -102,11 +104,14 @@ def walk(
     ('COMPLETED', 'COMPLETED')
     """
     check_part(walker, "what is to walk", Walker)
-    check_part(gait, "the gait of the walk", Gait)
+    tracks = walker.plant.p == 0 or own_reference(walker.controller) is not None
+    needless = (NoneType,) if start is not None and tracks else ()
+    check_part(gait, "the gait of the walk", Gait, *needless)
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
     check_count(first_step, f"the walk begins in single support {first_step}")
     if start is None:
+        assert gait is not None
         if (count := len(gait.q_minus)) != (n := walker.nominal.n):
             raise InputError(
                 f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
@@ -116,7 +121,7 @@ def walk(
         start = gait.start(walker.nominal)
     parts = tuple[WalkPart, ...]()
     if walker.slope is None:
-        walker = replace(walker, slope=getattr(plant, "slope", gait.slope))
+        walker = replace(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
