@@ -54,12 +54,12 @@ def test_a_class_of_ones_own_fits_too(gait):
 def test_a_status_is_shown_by_its_name(biped, gait):
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
     assert repr(walk.feasibility).startswith("Feasibility(status=COMPLETED, ")
-    assert repr([walk.trajectory.status]) == "[COMPLETED]"
+    assert repr([walk.trajectory.status]) == "[Status.COMPLETED]"
 
 
 def test_a_stepper_and_its_samples_are_one_line(biped, gait):
     stepper = ba.Stepper(ba.Walker(biped, ba.NPDController(gait.constraint), timing=TICKS), 2)
-    assert repr(stepper) == "Stepper(what=Walker(...), count=2)"
+    assert repr(stepper) == "Stepper(2 walks of Walker(...))"
     sample = stepper.reset(start=gait.start(biped))
     assert repr(sample).startswith("Sample(t=[0 0], x=array(2, ")
 

@@ -77,9 +77,8 @@ class Case(Shown):
         check_fields(self)
         if self.q is None or self.v is None:
             check_part(self.gait, "the gait of a case without q and v", Gait)
-            assert self.gait is not None
-            for name, x in zip("qv", self.gait.start(self.walker.nominal), strict=True):
-                object.__setattr__(self, name, x)
+            start = self.gait.start(self.walker.nominal)
+            vars(self).update(zip("qv", start, strict=True))
 
     @property
     def options(self) -> RunOptions:

@@ -56,8 +56,7 @@ class Status(Enum):
     )
     """A step broke a limit of ground or motors (`analysis.feasibility`)."""
 
-    def __repr__(self) -> str:
-        return self.name
+    __repr__ = Enum.__str__  # without its message, in lists and arrays
 
     @property
     def ok(self) -> bool:

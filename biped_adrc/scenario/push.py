@@ -17,8 +17,6 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from pydantic import ConfigDict
-
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.registry import find
 from biped_adrc.scenario.records import OpenRecord, field
@@ -35,7 +33,7 @@ _PUSH = re.compile(
 _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
-class Push(OpenRecord):
+class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finished class alone
     """A torque on joints or a force on a link, of a shape in time.
 
     values: further ones, those that the shape takes, by name. Raises InputError for a shape that there is not
@@ -46,7 +44,6 @@ class Push(OpenRecord):
     2
     """
 
-    model_config = ConfigDict(defer_build=False)  # `help` shows the values only of a finished class
     SHORT = "shape"
     APART = (("force", "torque"), ("torque", "link"))
     shape: str = field("pulse", kind="disturbance")

@@ -155,9 +155,8 @@ class Walk(Shown):
         robot = f"{plant.description.name} {plant.preset}"
         if plant.p == 0:
             return f"{robot} without motors, slope {self.walker.ground_slope:g} rad"
-        if gait is None:
-            return f"{self.controller_name} from a state, {robot}"
-        return f"{self.controller_name} on gait '{gait.name}', {robot}"
+        begun = "from a state" if gait is None else f"on gait '{gait.name}'"
+        return f"{self.controller_name} {begun}, {robot}"
 
     @cached_property
     def signals(self) -> Signals:

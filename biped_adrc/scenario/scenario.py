@@ -296,12 +296,10 @@ class Scenario(Record):
         run: RunRecord | Values = by_default(RunRecord),
         **dotted: Any,
     ) -> None:
-        records = {"controller": USUAL if controller is None else controller, "robot": robot}
-        records |= {"gait": gait, "hardware": hardware, "pushes": pushes, "errors": errors}
-        records |= {"ground": ground, "start": start, "limits": limits, "run": run}
-        usual = type(self).model_fields
-        others = {name: x for name, x in records.items() if x is not usual[name].default}
-        super().__init__(**nested(others | dotted))
+        here = vars() if controller is not None else vars() | {"controller": USUAL}
+        fields = type(self).model_fields.items()
+        records = {name: here[name] for name, x in fields if here[name] is not x.default}
+        super().__init__(**nested(records | dotted))
 
     @field_validator("pushes", mode="before")
     @classmethod

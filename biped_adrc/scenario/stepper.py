@@ -32,7 +32,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
-from biped_adrc.core.shown import call_text, one_line, short
+from biped_adrc.core.shown import one_line, short
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
@@ -133,8 +133,7 @@ class Stepper:
         `kernels.looks`."""
 
     def __repr__(self) -> str:
-        fields = {"what": short(self.what), "count": str(len(self.walks))}
-        return call_text("Stepper", fields.items())
+        return f"Stepper({len(self.walks)} walks of {short(self.what)})"
 
     @property
     def sample(self) -> Sample:

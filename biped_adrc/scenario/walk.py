@@ -105,8 +105,7 @@ def walk(
     """
     check_part(walker, "what is to walk", Walker)
     tracks = walker.plant.p == 0 or own_reference(walker.controller) is not None
-    needless = (NoneType,) if start is not None and tracks else ()
-    check_part(gait, "the gait of the walk", Gait, *needless)
+    check_part(gait, "the gait of the walk", Gait, *[NoneType] * (start is not None and tracks))
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
     check_count(first_step, f"the walk begins in single support {first_step}")
