@@ -4,6 +4,9 @@ They know `ba`, `np` and `dataclass`, the robot and the gait of README, and a fo
 """
 
 import ast
+import enum
+import inspect
+import re
 from dataclasses import dataclass
 from doctest import DocTestParser, DocTestRunner
 from importlib.util import find_spec
@@ -39,3 +42,79 @@ def test_the_example_of_a_public_name_runs(name, tmp_path, monkeypatch):
     DocTestRunner().run(example, out=said.append)
     assert example.examples
     assert not said, "".join(said)
+
+
+def fields_with_texts(cls):
+    """Texts below the fields of a class and of its bases, by the name of the field."""
+    found = {}
+    for base in reversed(cls.__mro__):
+        if base.__module__.startswith("biped_adrc"):
+            (node,) = (
+                node
+                for node in ast.parse(inspect.getsource(inspect.getmodule(base))).body
+                if getattr(node, "name", None) == base.__name__
+            )
+            for field, text in zip(node.body, node.body[1:], strict=False):
+                if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr):
+                    found[field.target.id] = text.value.value
+    return found
+
+
+def parameters(thing):
+    """Annotations of the parameters of a function or class, by name."""
+    if isinstance(thing, type) and issubclass(thing, enum.Enum | Exception):
+        return {}
+    return {p.name: str(p.annotation) for p in inspect.signature(thing).parameters.values()}
+
+
+def texts(name, thing):
+    """What docstrings say of each parameter: "name (shape) [unit]: text", or the text below a field."""
+    text = " ".join((docstring(name) or "").partition(">>>")[0].split())
+    aside = r"(?: (?:or )?(?:\([^)]*\)|\[[^\]]*\]))*"
+    heads = re.compile(rf"((?:\b\w+{aside}, )*\b\w+{aside}):(?= |$)")
+    ends = [*(found.start() for found in heads.finditer(text)), len(text)]
+    said = {}
+    for found, end in zip(heads.finditer(text), ends[1:], strict=True):
+        for word in re.findall(r"\w+", re.sub(r"\([^)]*\)|\[[^\]]*\]", "", found[1])):
+            said[word] = text[found.start() : end]
+    if hasattr(thing, "model_fields"):  # a record states its units beside its texts
+        each = {name: x for name, x in thing.model_fields.items() if x.description}
+        of_fields = {k: f"{x.description} [{x.json_schema_extra['unit']}]" for k, x in each.items()}
+    else:
+        of_fields = fields_with_texts(thing) if isinstance(thing, type) else {}
+    return of_fields | said
+
+
+@pytest.mark.parametrize("name", [name for name in ba.__all__ if callable(getattr(ba, name))])
+def test_each_parameter_of_a_public_name_is_in_its_docstring(name):
+    thing = getattr(ba, name)
+    said = texts(name, thing)
+    for parameter, annotation in parameters(thing).items():
+        assert parameter in said, parameter
+        if re.search(r"\b(float|Array|\w*Float)\b", annotation):
+            assert re.search(r"\[|dimensionless|units", said[parameter]), said[parameter]
+        if "Array" in annotation:
+            assert re.search(r"\(\w+, ?\w*\)", said[parameter]), said[parameter]
+
+
+def test_a_scenario_names_its_records():
+    """Python's own signature, before and after pydantic has read the class."""
+    names = [p.name for p in inspect.signature(ba.Scenario.__init__).parameters.values()]
+    assert names == ["self", *ba.Scenario.model_fields, "dotted"]
+
+
+VERBS = re.compile(
+    r"\b(is|are|has|have|lie|gets?|acts?|goes|may|falls|drives?|takes?|ends?|lands|changes?|comes|begins?|"
+    r"lasts?|keep|fills|samples|follow|knows|compensates)\b"
+)
+"""Verbs of the texts; a text with another one adds it here."""
+
+
+@pytest.mark.parametrize("name", ba.Scenario.names())
+def test_the_text_of_a_value_is_a_sentence_with_a_subject(name):
+    text = ba.Scenario.field_of(name).text
+    assert re.match(
+        r"(?!The same|That |[A-Z][a-z]*: |On |In |Of |From |To |By |Over |Such )[A-Z]", text
+    )
+    assert text.endswith(".")
+    assert VERBS.search(re.split(r"[;:]", text)[0]), text

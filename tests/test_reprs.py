@@ -11,6 +11,7 @@ from biped_adrc.analysis.stability import known_cycle
 from biped_adrc.core.shown import LONGEST, SHORT, short
 
 LINE = 120
+TICKS = ba.SampledTime(1e-3)
 
 
 def test_parts_and_walks_fit_a_line(biped, gait):
@@ -53,6 +54,14 @@ def test_a_class_of_ones_own_fits_too(gait):
 def test_a_status_is_shown_by_its_name(biped, gait):
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
     assert repr(walk.feasibility).startswith("Feasibility(status=COMPLETED, ")
+    assert repr([walk.trajectory.status]) == "[Status.COMPLETED]"
+
+
+def test_a_stepper_and_its_samples_are_one_line(biped, gait):
+    stepper = ba.Stepper(ba.Walker(biped, ba.NPDController(gait.constraint), timing=TICKS), 2)
+    assert repr(stepper) == "Stepper(2 walks of Walker(...))"
+    sample = stepper.reset(start=gait.start(biped))
+    assert repr(sample).startswith("Sample(t=[0 0], x=array(2, ")
 
 
 def test_values_are_shown_as_they_are(biped, gait):

@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
-from biped_adrc.core.errors import SimulationError
+from biped_adrc.core.errors import InputError, SimulationError
 from validation.passive import simplest, solved
 
 METHOD = ba.Adaptive()
@@ -116,3 +116,15 @@ def test_simplest_walker_against_its_own_equations() -> None:
     slope = (limit - heavy) / 1e-6
     assert slope == pytest.approx(9.9, rel=1e-3)
     assert limit - light == pytest.approx(1e-7 * slope, abs=5e-9)
+
+
+def test_a_walk_from_a_state_needs_no_gait(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    alone = ba.walk(walker, start=gait.start(biped), impacts=1)
+    beside = ba.walk(walker, gait, impacts=1)
+    assert np.array_equal(alone.trajectory.final_state, beside.trajectory.final_state)
+    assert np.array_equal(alone.signals.error, beside.signals.error)
+    assert alone.note == "NPD from a state, rabbit identified"
+    for start, controller in ((None, walker.controller), (gait.start(biped), ba.Passive())):
+        with pytest.raises(InputError, match="the gait of the walk is None, expected a Gait"):
+            ba.walk(ba.Walker(biped, controller), start=start)

@@ -114,11 +114,17 @@ def design_gait(
 ) -> DesignedGait:
     """Design the periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
 
-    robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
-    feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
-    q'-), each (n,) [rad, rad/s], the state before impact that the orbit has to pass, in place of speed and
-    step. curve: its kind by name, one that lies between its ends. degree: of the curves. nodes: at which
-    limits are kept. Raises GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
+    - robot: a robot, its name, or the path of its robot.toml; preset: of its parameters, by name.
+    - speed [m/s]: along the ground. step [m]: between the feet. One of the two may be left out and is free.
+    - slope [rad]: of the ground, positive downhill.
+    - objective: the cost that is minimised, "torque", "transport" or "peak".
+    - through: (q-, q'-), each (n,) [rad, rad/s], the state before impact that the orbit has to pass, in place
+      of speed and step.
+    - degree: of the curves, 4 to 12. nodes: the number of Gauss nodes at which limits are kept, 8 to 100.
+    - limits: what the step must keep; None: `StepLimits()`.
+    - curve: its kind by name, one that lies between its ends.
+
+    Raises GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
 
     >>> design = ba.design_gait("rabbit", speed=0.7, limits=ba.StepLimits(torque=100.0))
     >>> print(f"{design.speed:.3f} m/s, peak {design.certificate.peak_torque:.1f} N m")

@@ -254,6 +254,8 @@ class CycleStability(Shown):
 def cycle_stability(cycle: Cycle) -> CycleStability:
     """Find the fixed point of a cycle and its multipliers by every method.
 
+    cycle: the walker, with a start near its cycle, as `cycle_of` makes it from a scenario.
+
     The methods are independent of each other, the variational equation along the step and central differences
     of the return map. That they agree is the test of each.
 

@@ -119,8 +119,9 @@ def stride_response(
     """Linearise the map from step to step of a gait whose constraint is hybrid invariant, or
     made so by ReferenceReset.
 
-    direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length, GaitError where
-    the zero dynamics have no stable cycle.
+    gait: the one whose speed is corrected. biped: its robot. direction (p,) [1]: d, by which joints bend.
+    Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no stable
+    cycle.
 
     >>> response = ba.stride_response(gait, biped)
     >>> print(f"{response.static_gain:.2f} (m/s)/rad")

@@ -130,7 +130,10 @@ class ZeroDynamicsReport(Shown):
 def zero_report(
     biped: Biped, constraint: VirtualConstraint, limits: DomainLimits | None = None
 ) -> ZeroDynamicsReport:
-    """Make the report of a constraint; limits None: the friction of the robot's record, on level ground.
+    """Make the report of a virtual constraint: its orbits, their stability and speeds.
+
+    biped: the robot. constraint: h over the phase. limits: of the ground; None: the friction of the robot's
+    record, on level ground.
 
     Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
     curve does not end on the ground.

@@ -36,7 +36,9 @@ from biped_adrc.observers.base import Estimate
 
 
 class Mode(NamedTuple):
-    """The discrete state of a walk: single support `step` (from 1), which began at `start` [s].
+    """The discrete state of a walk.
+
+    step: number of the single support, from 1. start [s]: when it began.
 
     >>> ba.Mode(step=2, start=0.4)
     Mode(step=2, start=0.4)

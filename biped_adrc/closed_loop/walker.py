@@ -102,15 +102,24 @@ ON_GROUND = 1e-9
 class Walker(ClosedLoop[Biped]):
     """A planar biped under a controller on a plane with steps, as a hybrid system.
 
-    In addition to the fields of `ClosedLoop`:
-
-    - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
-      0.
+    - plant: the robot that moves. model: the robot as the controller knows it; None: the plant itself.
+    - controller: the law of the torques u (p,) [N m].
+    - timing: when the controller acts, in `ContinuousTime()` or in `SampledTime(period)`.
+    - disturbance: zeta (n,) [N m] and forces from outside; None: nothing disturbs.
+    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one asked for.
+    - sensors: what the controller measures; motors: how torques follow. Sampled time only; None: exactly.
+    - touchdown: how the controller notices one, in sampled time with restart=False; None: at once.
+    - runaway_speed [1], runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s, or the peak
+      torque of the robot's record; infinite for no end. A joint that turns by more than a whole turn ends it,
+      too.
+    - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q = 0.
     - max_step_time [s]: a longer single support ends as stalled.
-    - slope [rad]: of the ground, positive downhill; None is that of the gait that `walk` gets, else level.
-    - ground_steps: where it falls or rises by steps.
-    - stones: where feet may land, for the certificate of a step; the controller is told apart.
+    - slope [rad]: of the ground, positive downhill; None: that of the gait that `walk` gets, else level.
+    - ground_steps: where the ground falls or rises, as `StepDown` and `StepUp`.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
+    - stones: where feet may land, for the certificate of a step; the controller is told apart.
+
+    Raises InputError for values that do not fit together, such as sensors in continuous time.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
     >>> ba.walk(walker, gait, impacts=2).trajectory.status.name

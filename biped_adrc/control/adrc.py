@@ -41,8 +41,9 @@ from biped_adrc.observers.gpi import GPIObserver
 class ADRCController(ObservingController):
     """ADRC, eq. (20), with an observer that is its whole state; Table I and Table II by default.
 
-    gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as
-    printed. reset: what happens to the observer at impact.
+    reference: q_d, which the joints track. observer: of xi (p,) [rad/s^2], by default (17) with the poles of
+    Table I. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta'' (default), or drop h'
+    Theta'' as printed. reset: what happens to the observer at impact.
 
     >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts

@@ -59,7 +59,8 @@ class Measurement(NamedTuple):
     body: BodyTerms | None = None
     """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
-    """elsewhere(q, v) -> the measurement in another state, at the same time; None outside of a closed loop."""
+    """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at the same time; None outside of a
+    closed loop."""
     impulse: Array | None = None
     """Changes of the rates (n, 2) [1/(kg m)] for each N s on the striking foot, which errors leave out; None
     but for a controller inside `ImpactInvariant`, near a touchdown."""

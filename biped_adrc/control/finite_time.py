@@ -50,9 +50,9 @@ def _power(x: Array, exponent: float) -> Array:
 class FiniteTimeController(Controller):
     """A controller that brings the outputs y to exactly zero in finite time, by a continuous torque.
 
-    eps > 0 [s] is the time scale in which outputs come to rest, alpha (0 < alpha < 1) [1] the exponent: the
-    smaller, the more abruptly. Raises InputError outside these ranges; its torque raises SingularError where J
-    D^-1 B (p, p) is singular, J = dy/dq.
+    outputs: y (p,), which are brought to zero. eps [s]: the time scale in which they come to rest, above 0.
+    alpha [1]: the exponent, between 0 and 1; the smaller, the more abruptly. Raises InputError outside these
+    ranges; its torque raises SingularError where J D^-1 B (p, p) is singular, J = dy/dq.
 
     >>> from biped_adrc.gait.outputs import LinearOutputs
     >>> y = LinearOutputs(np.eye(4, 5), gait.constraint)  # q_b - h(Theta)

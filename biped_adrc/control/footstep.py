@@ -131,9 +131,11 @@ def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Ar
 class Footstep(OuterLoop):
     """The module's controller around `inner`; its state is a `StepState`.
 
-    speed: that is kept [m/s]. step: length of the steps where there are no stones [m]. stones: lengths of the
-    steps [m], the first one first. pole: of the error of y from step to step. bandwidth: omega [rad/s].
-    Sampled time. Raises GaitError for a speed, ReachError for a stone that no member reaches.
+    inner: the controller that tracks h. family: of gaits, from which each step is taken. speed [m/s]: that is
+    kept. step [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the first
+    one first. pole [1]: of the error of y from step to step. bandwidth [rad/s]: omega of its estimator.
+    period [s]: of the ticks, in sampled time. Raises GaitError for a speed, ReachError for a stone that no
+    member reaches.
 
     >>> controller = ba.Footstep.on_gait(ba.NPDController(gait.constraint), gait, biped, step=0.3)
     >>> force, clock = ba.HipForce(biped, (-12.0, 0.0), steps=(3, 99)), ba.SampledTime(1e-3)

@@ -71,9 +71,9 @@ class ReferenceReset(OuterLoop):
     """An outer loop that bends the constraint of `inner` to the state after each
     impact; its state is (a_0, a_1).
 
-    share: of the phase range after which the reference is h again, in (0, 1]. Nothing is corrected when an
-    impact leaves x < LEAST_REACH, or Theta running backwards: then the error is the inner controller's.
-    Raises InputError for another share.
+    inner: the controller that tracks the constraint. share [1]: of the phase range after which the reference is
+    h again, in (0, 1]. Nothing is corrected when an impact leaves x < LEAST_REACH, or Theta running backwards:
+    then the error is the inner controller's. Raises InputError for another share.
 
     >>> controller = ba.ReferenceReset(ba.NPDController(gait.constraint), share=0.4)
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts

@@ -93,8 +93,9 @@ class StridePI(OuterLoop):
     """An outer loop, the PI on the walking speed around `inner`; its state is a
     `StrideState`. Make it with `on_gait`.
 
-    speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError for a speed or length that is not
-    positive, and for a direction that has not p finite numbers.
+    inner: the controller that tracks the gait. speed [m/s]: v*. step_length [m]: L. direction (p,) [1]: d, by
+    which joints bend. gains: K_P, K_I [rad s/m] and the bound [rad] of the PI. Raises InputError for a speed or
+    length that is not positive, and for a direction that has not p finite numbers.
 
     >>> npd = ba.NPDController(gait.constraint)
     >>> gains = ba.stride_response(gait, biped).gains()

@@ -47,7 +47,9 @@ HIGHEST = 1e15
 
 @dataclass(frozen=True)
 class Gains(Shown):
-    """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint (p,).
+    """Gains of the feedback on the errors of angles and rates; those of Table II by default.
+
+    K_p [1/s^2], K_d [1/s]: on angles and on rates, one number for all joints or one per joint (p,).
 
     Raises InputError for numbers that are not positive.
 
@@ -118,6 +120,9 @@ def rate_error_change(r: ReferencePoint, a: Array) -> Array:
 def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
     """The feedback f = -K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2].
 
+    gains: K_p [1/s^2], K_d [1/s]. r: the reference now. x1 (p,) [rad], x2 (p,) [rad/s]: angles and rates,
+    measured or estimated.
+
     >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
     >>> ba.feedback(ba.Gains(100.0, 10.0), r, r.q_d + 0.01, r.dq_d)
     array([-1., -1., -1., -1.])
@@ -128,7 +133,8 @@ def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     """Solve (I - H_b - H_N A_N) a = drift + f + H_N a_N for the acceleration a (p,) [rad/s^2] of the joints.
 
-    f (p,) [rad/s^2]: the feedback; r has drift and H of q_d'', terms have A_N and a_N of q_N''.
+    r: the reference now, with drift and H of q_d''. terms: of the model, with A_N and a_N of q_N''. f (p,)
+    [rad/s^2]: the feedback.
     Raises SingularError when the matrix is exactly singular, with a pivot of 0.0; near that a grows
     without bound and without an error.
 

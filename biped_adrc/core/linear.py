@@ -40,10 +40,11 @@ dgesv = lapack.dgesv
 
 
 def solve(A: Array, B: Array, what: str) -> Array:
-    """Solve A X = B for X (k,) or (k, c), with A (k, k) and B of the shape of X.
+    """Solve A X = B for X (k,) or (k, c).
 
-    what: names A in the message, such as "the decoupling matrix". Raises SingularError when a pivot is exactly
-    zero; a badly conditioned A is solved without a warning.
+    A (k, k): the matrix, in any units. B (k,) or (k, c): the right-hand side, in any units. what: names A in
+    the message, such as "the decoupling matrix". Raises SingularError when a pivot is exactly zero; a badly
+    conditioned A is solved without a warning.
 
     >>> ba.solve(np.diag([2.0, 4.0]), np.array([2.0, 4.0]), "the inertia")
     array([1., 1.])

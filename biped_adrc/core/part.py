@@ -29,8 +29,8 @@ T = TypeVar("T")
 class derived(cached_property[T]):
     """A method whose value is computed once for each object, from its fields, and is read-only.
 
-    For numbers that machine code takes as they are: a pole placement is not run on
-    symbols, its gains are used.
+    func: the method, of `self` alone. For numbers that machine code takes as they are: a pole placement is
+    not run on symbols, its gains are used.
 
     >>> @dataclass(frozen=True)
     ... class Damped:

@@ -90,10 +90,11 @@ def stored(kind: str) -> Iterable[str]:
 def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
-    kind: "controller", "contact", "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot"
-    or "gait". words: for a reader. Records of scenarios write it as `module:Class`, so that other processes
-    find it. Raises InputError for an unknown kind, and for a name that is taken or reads as `module:Class`; a
-    thing of another kind raises it where it is used.
+    name: by which scenarios have it. thing: the class or function. kind: "controller", "contact", "observer",
+    "sensor", "touchdown", "disturbance", "plant", "curve", "robot" or "gait". words: for a reader. Records of
+    scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
+    kind, and for a name that is taken or reads as `module:Class`; a thing of another kind raises it where it is
+    used.
 
     >>> def soft_npd(reference):
     ...     return ba.NPDController(reference, ba.Gains(2500.0, 35.0))

@@ -210,6 +210,9 @@ class Windowed(Disturbance):
 class WindowedTorque(Windowed):
     """A torque amplitude * profile(time since onset) in its window: the shortest way to write one's own.
 
+    amplitude (n,) [N m]: on q1..qN. step: number of the single support, from 1; None: the window counts from
+    the start of the run. start [s], stop [s]: ends of the window.
+
     >>> @dataclass(frozen=True)
     ... class Decaying(ba.WindowedTorque):
     ...     def profile(self, s):

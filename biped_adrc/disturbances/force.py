@@ -38,10 +38,10 @@ AT_REST = np.zeros(3), np.zeros(3)
 
 @dataclass(frozen=True)
 class OnLink(Disturbance):
-    """A force and moment on a link: `wave` with amplitude (F_x, F_z, M) [N, N, N m] on
-    `link` of `biped`, the plant.
+    """A force and a moment from outside on a link, of a shape in time.
 
-    at: the point (x, z) [m] in the link's frame, as its URDF has it; its origin if None. M is
+    biped: the plant. link: its name. wave: a pulse, step, sine or noise of amplitude (F_x, F_z, M) (3,)
+    [N, N, N m]. at (2,) [m]: the point (x, z) in the link's frame, as its URDF has it; its origin if None. M is
     counter-clockwise with x to the right and z up. A link of the leg that the URDF draws as the stance leg is
     the stance leg's in every single support: the push changes legs at each impact, since coordinates do.
     Raises InputError for a wave that has not three amplitudes, ModelError for a link that the robot has not.
@@ -86,11 +86,12 @@ class OnLink(Disturbance):
 
 @dataclass(frozen=True)
 class HipForce(Disturbance):
-    """A constant force (F_x, F_z) [N] on the hip of `biped`, the plant.
+    """A constant force from outside on the hip.
 
-    steps: the first and the last single support (from 1) in which it acts; all of them if None. It switches at
-    impacts alone, so integrators have no times to stop at. Raises InputError for a force that is not two
-    finite numbers, or steps that do not count up from 1.
+    biped: the plant. force (2,) [N]: (F_x, F_z), forwards and up. steps: the first and the last single support
+    (from 1) in which it acts; all of them if None. It switches at impacts alone, so integrators have no times
+    to stop at. Raises InputError for a force that is not two finite numbers, or steps that do not count up from
+    1.
 
     >>> push = ba.HipForce(biped, (20.0, 0.0), steps=(4, 6))
     >>> push.net_force(2.0, 4, 1.9)

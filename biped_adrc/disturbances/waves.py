@@ -45,10 +45,12 @@ from biped_adrc.disturbances.base import Windowed
 
 @dataclass(frozen=True)
 class TorquePulse(Windowed):
-    """A torque pulse, the push of the paper: amplitude (n,) [N m] over [start, stop) [s] of one step.
+    """A torque pulse, the push of the paper: constant from start to stop in one single support.
 
-    rise [s]: the torque grows linearly from `start` to start + rise and falls from `stop` to stop + rise; 0
-    for vertical edges. Raises InputError for a rise that is negative or not finite.
+    amplitude (n,) [N m]: on q1..qN. step: number of the single support, from 1; None: the window counts from
+    the start of the run. start [s], stop [s]: ends of the window. rise [s]: the torque grows linearly from
+    `start` to start + rise and falls from `stop` to stop + rise; 0 for vertical edges. Raises InputError for a
+    rise that is negative or not finite.
 
     >>> push = ba.TorquePulse([-60.0, -60.0, 0.0, 0.0, 0.0], step=10, start=0.1, stop=0.3)
     >>> push.switching_times(10, 4.0)
@@ -94,10 +96,11 @@ class TorquePulse(Windowed):
 
 @dataclass(frozen=True)
 class TorqueStep(Windowed):
-    """A torque step: amplitude (n,) [N m] from `start` [s] of single support `step` (or of the
-    run) to the end of the run.
+    """A torque step, which stays to the end of the run.
 
-    Raises InputError for a stop that is not infinite.
+    amplitude (n,) [N m]: on q1..qN. step: number of the single support, from 1; None: the time counts from the
+    start of the run. start [s]: when it begins. stop [s]: infinite, for the torque has no end. Raises
+    InputError for a stop that is not infinite.
 
     >>> load = ba.TorqueStep([-10.0, -10.0, 0.0, 0.0, 0.0], step=5)
     >>> load.zeta(3.0, 5, 2.9, np.zeros(5), np.zeros(5))
@@ -120,9 +123,11 @@ class TorqueStep(Windowed):
 
 @dataclass(frozen=True)
 class TorqueSine(Windowed):
-    """A sinusoidal torque: amplitude (n,) [N m], frequency f [Hz], the window as in `Windowed`.
+    """A sinusoidal torque in its window, zero at onset.
 
-    Raises InputError for a frequency that is not positive.
+    amplitude (n,) [N m]: on q1..qN. step: number of the single support, from 1; None: the window counts from
+    the start of the run. start [s], stop [s]: ends of the window. frequency [Hz]: f. Raises InputError for a
+    frequency that is not positive.
 
     >>> sine = ba.TorqueSine([5.0, 5.0, 0.0, 0.0, 0.0], frequency=2.0)
     >>> sine.zeta(0.125, 1, 0.0, np.zeros(5), np.zeros(5))
@@ -138,9 +143,11 @@ class TorqueSine(Windowed):
 
 @dataclass(frozen=True)
 class TorqueNoise(Windowed):
-    """Band-limited noise of root mean square `amplitude` (n,) [N m], different on every coordinate.
+    """Band-limited noise, different on every coordinate.
 
-    The spectrum is flat up to `bandwidth` [Hz] and zero above it. The same seed, of frequencies and phases,
+    amplitude (n,) [N m]: its root mean square on q1..qN. step: number of the single support, from 1; None: the
+    window counts from the start of the run. start [s], stop [s]: ends of the window. bandwidth [Hz]: the
+    spectrum is flat up to it and zero above. seed: of frequencies and phases, a whole number from 0; the same
     gives the same noise. sines: K, their number per coordinate; the more, the closer to a normal distribution,
     and the slower to evaluate. Raises InputError for a bandwidth or a number that is not positive, or a seed
     that is no whole number >= 0.

@@ -22,13 +22,14 @@ import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.core.checks import PositiveInt, check_fields
+from biped_adrc.core.checks import PositiveInt, check_fields, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import STORE, simulate_by, simulate_compiled
 from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -44,32 +45,40 @@ AT_ONCE = 25
 
 @dataclass(frozen=True)
 class Case(Shown):
-    """One walk to be made, from q (n,) [rad], v (n,) [rad/s] at the start of single support `mode.step`.
+    """One walk to be made, from a state or from the orbit of a gait.
+
+    - walker: plant, controller and all the rest.
+    - q (n,) [rad], v (n,) [rad/s]: the state at the start of a single support; by default the gait's.
+    - method: of integration, with one step for all of the walk.
+    - impacts: the walk ends after so many.
+    - mode: the single support in which it starts.
+    - curve: the reference from which errors are measured in `BatchWalk.table`; None keeps none.
+    - gait: the one whose orbit is the start, in place of q and v.
+
+    Raises InputError for a part that is none, and without a start.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     >>> case = ba.Case(walker, *gait.start(biped), ba.RK4(1e-3), impacts=3)
-    >>> case.impacts
-    3
+    >>> bool(np.all(ba.Case(walker, gait=gait, method=ba.RK4(1e-3)).q == case.q))
+    True
     """
 
     walker: Walker
-    """Plant, controller and all the rest."""
-    q: Array
-    """Start (n,) [rad]."""
-    v: Array
-    """Start (n,) [rad/s]."""
-    method: OneStepMethod
-    """One-step method."""
+    q: Array = None  # type: ignore[assignment]  # until the gait gives it
+    v: Array = None  # type: ignore[assignment]
+    method: OneStepMethod = None  # type: ignore[assignment]  # refused, if it is left out
     impacts: PositiveInt = 25
-    """End after so many."""
     mode: Mode = Mode()  # noqa: RUF009
-    """Single support in which it starts."""
     curve: Reference | None = None
-    """Reference from which errors are measured in `BatchWalk.table`; None keeps none."""
+    gait: Gait | None = None
 
     def __post_init__(self) -> None:
-        """Raises InputError for a part that is none."""
+        """Take the start of the gait where q and v are left out; see the class."""
         check_fields(self)
+        if self.q is None or self.v is None:
+            check_part(self.gait, "the gait of a case without q and v", Gait)
+            start = self.gait.start(self.walker.nominal)
+            vars(self).update(zip("qv", start, strict=True))
 
     @property
     def options(self) -> RunOptions:

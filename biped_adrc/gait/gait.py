@@ -183,8 +183,9 @@ def gait_names(robot: str, preset: str) -> tuple[str, ...]:
 def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
     """Load a stored gait by name for this robot and preset, or a gait file by its path.
 
-    other_robot: accept a file that was made for another robot or preset. Raises GaitError that names the file,
-    the key, what was found and what was expected.
+    gait: its name, or the path of its file. biped: the robot that walks it. other_robot: accept a file that was
+    made for another robot or preset. Raises GaitError that names the file, the key, what was found and what was
+    expected.
 
     >>> ba.load_gait("v0.5", biped).name
     'v0.5'

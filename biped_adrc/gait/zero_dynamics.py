@@ -86,7 +86,9 @@ class ZeroDynamics(Shown):
     """
 
     biped: Biped
+    """The robot."""
     constraint: VirtualConstraint
+    """h over the phase."""
     theta: Array
     """Phases of the nodes (K,) [rad]."""
     weights: Array

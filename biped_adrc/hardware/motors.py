@@ -107,8 +107,9 @@ class TorqueLine:
 
 @dataclass(frozen=True)
 class Motors(Checked, Shown):
-    """Motors that are all alike: rate_limit [N m/s], None for none; lag: time constant tau [s], 0 for none.
+    """Motors that are all alike.
 
+    rate_limit [N m/s]: of the torque; None: no limit. lag [s]: time constant tau of the torque; 0: no lag.
     Raises InputError for a limit that is not positive and a lag below zero.
 
     >>> motors = ba.Motors(rate_limit=20000.0, lag=0.002)

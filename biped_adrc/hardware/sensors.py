@@ -52,12 +52,12 @@ CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < ma
 class Sensors(Shown, Sensor):
     """Encoders of the joints and the sensor of the pitch.
 
-    counts: of the joints' encoders per revolution, None for exact angles. pitch_resolution [rad]: of the
-    unactuated pitch; None: as the joints'. noise, pitch_noise [rad], rate_noise [rad/s] of measured rates:
-    standard deviations, drawn anew at every tick. velocity: "differences" of the angles, "measured", or
-    "gyro": differences, but for the pitch's own rate. filter_time [s]: time constant of the differences'
-    low-pass, 0 for none. seed: of the noise, a whole number from 0. Raises InputError for numbers that are
-    negative or not finite.
+    counts [1]: of the joints' encoders per revolution, None for exact angles. pitch_resolution [rad]: of the
+    unactuated pitch; None: as the joints'. noise [rad], pitch_noise [rad], rate_noise [rad/s]: standard
+    deviations of joint angles, the pitch and measured rates, drawn anew at every tick. velocity: "differences"
+    of the angles, "measured", or "gyro": differences, but for the pitch's own rate. filter_time [s]: time
+    constant of the differences' low-pass, 0 for none. seed: of the noise, a whole number from 0. Raises
+    InputError for numbers that are negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)

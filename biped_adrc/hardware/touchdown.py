@@ -221,7 +221,11 @@ class Gated(Shown, Touchdown):
 @dataclass(frozen=True)
 class ByKinematics(Gated):
     """A detector that fires when the swing foot, by the controller's model at the measured
-    angles, is below `height` [m].
+    angles, is low.
+
+    ahead [m]: least distance of the swing foot in front of the stance foot. after [s]: least time between two
+    detections. slope [rad]: of the ground as the controller assumes it, positive downhill. height [m]: of the
+    foot above that ground, below which it fires.
 
     With a height above zero it is early, by height / speed of the foot up to a tick; a step of the ground,
     which no angle shows, makes it late or early too.
@@ -250,8 +254,10 @@ class ByKinematics(Gated):
 class ByForce(Gated):
     """A detector that fires when the ground's force on the swing foot, low before, exceeds a threshold.
 
-    The foot was free (below `off` [N]), carries more than `on` [N], and never below `off` for
-    `debounce` [s]; it fires `delay` [s] later. A foot switch is one with its threshold and delay.
+    ahead [m]: least distance of the swing foot in front of the stance foot. after [s]: least time between two
+    detections. slope [rad]: of the ground as the controller assumes it, positive downhill. off [N]: the foot
+    was free, with less force than this. on [N]: it carries more than this. debounce [s]: and never less than
+    `off` for so long. delay [s]: it fires so much later. A foot switch is one with its threshold and delay.
     Raises InputError unless 0 <= off <= on.
 
     >>> detector = ba.ByForce(on=80.0, off=30.0, delay=2e-3)

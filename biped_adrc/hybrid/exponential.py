@@ -56,9 +56,9 @@ def matrices(half: Phi, phi: Phi, h: float) -> tuple[Array, ...]:
 
 @dataclass(frozen=True)
 class Exponential(OneStepMethod):
-    """ETD-RK4 with fixed step h [s], in the coordinates of the system's `split`; for continuous time.
+    """ETD-RK4 with a fixed step, in the coordinates of the system's `split`; for continuous time.
 
-    Raises InputError, when a run begins, for a system without such coordinates.
+    h [s]: length of the step. Raises InputError, when a run begins, for a system without such coordinates.
 
     >>> walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
     >>> ba.walk(walker, gait, impacts=1, method=ba.Exponential(5e-4)).impacts

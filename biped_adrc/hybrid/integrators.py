@@ -54,7 +54,9 @@ class OneStepMethod(ABC):
 
 @dataclass(frozen=True)
 class RK4(OneStepMethod):
-    """The classical explicit Runge-Kutta method of order 4 with fixed step h [s].
+    """The classical explicit Runge-Kutta method of order 4 with a fixed step.
+
+    h [s]: length of the step.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     >>> ba.walk(walker, gait, impacts=1, method=ba.RK4(5e-4)).impacts
@@ -161,6 +163,9 @@ class _SciPy(Solver):
 @dataclass(frozen=True)
 class Adaptive(_SciPy):
     """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853.
+
+    rtol [1], atol: bounds on the error of a step, relative to the state and in its units [rad, rad/s].
+    max_step [s]: length of the longest step.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     >>> method = ba.Adaptive(rtol=1e-8, atol=1e-8)

@@ -95,11 +95,12 @@ class FlownArc(NamedTuple):
 def simulate(
     system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
-    """Run `system` from (t0, x0, mode), x0 (nx,).
+    """Run a hybrid system from (t0, x0, mode).
 
-    options are those of `RunOptions`, of which t_end has to be given. Raises InputError for a start
-    that is not finite or a duration that is not positive. Whatever happens during the run is in the
-    trajectory's status.
+    system: such as a Walker. x0 (nx,): its state at the start, in SI units. mode: its discrete state there, as
+    `Mode()`. method: of integration. options: those of `RunOptions`, of which t_end [s] is required. Raises
+    InputError for a start that is not finite or a duration that is not positive. Whatever happens during the
+    run is in the trajectory's status.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     >>> x0 = walker.initial_state(*gait.start(biped))

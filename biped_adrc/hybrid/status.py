@@ -56,6 +56,8 @@ class Status(Enum):
     )
     """A step broke a limit of ground or motors (`analysis.feasibility`)."""
 
+    __repr__ = Enum.__str__  # without its message, in lists and arrays
+
     @property
     def ok(self) -> bool:
         """True when the run did what was asked."""

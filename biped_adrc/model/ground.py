@@ -102,10 +102,10 @@ class GroundStep(Checked):
 
 
 class StepDown(GroundStep):
-    """A step down: the ground on which single support `step` (from 1) ends lies `height`
-    [m] below its stance foot.
+    """A step down: a single support ends on ground below its stance foot.
 
-    Raises InputError for a height that is not positive; a step up is a `StepUp`.
+    step: number of that single support, from 1. height [m]: how much lower the ground lies. Raises InputError
+    for a height that is not positive; a step up is a `StepUp`.
 
     >>> ground = (ba.StepDown(step=2, height=0.01),)
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), ground_steps=ground)
@@ -176,13 +176,12 @@ def random_steps(seed: int, height: float, steps: int) -> tuple[StepDown | StepU
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
-    """Make random steps up and down, `steps` of them, with foothold heights of mean zero and
-    root mean square `rms` [m].
+    """Make random steps up and down, with heights of footholds of mean zero.
 
-    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at h_0 = 0,
-    and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began. After that the ground
-    is level. The same seed gives the same ground. Raises ValueError for an rms, a seed or a number of steps
-    below 0.
+    seed: of the heights, a whole number from 0. rms [m]: their root mean square. steps: how many. The heights
+    h_1, h_2, ... are independent and normally distributed. The first stance foot is at h_0 = 0, and single
+    support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began. After that the ground is level. The
+    same seed gives the same ground. Raises ValueError for an rms, a seed or a number of steps below 0.
 
     >>> ground = ba.uneven_ground(seed=1, rms=0.005, steps=20)
     >>> [edge.step for edge in ground[:3]]

@@ -44,13 +44,13 @@ class ModelErrors(Checked, Shown):
     """
 
     mass: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
-    """Errors of the mass by body or link; the inertia about the COM is not scaled with it."""
+    """Errors of the mass [1], by body or link; the inertia about the COM is not scaled with it."""
     com: Annotated[Mapping[str, float], FINITE] = field(default_factory=dict)
-    """Errors of the distance of the COM from the link's origin, by body or link."""
+    """Errors of the distance [1] of the COM from the link's origin, by body or link."""
     inertia: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
-    """Errors of the inertia about the COM, by body or link."""
+    """Errors of the inertia about the COM [1], by body or link."""
     friction: Annotated[Mapping[str, float], NOT_BELOW] = field(default_factory=dict)
-    """Errors of viscous and static friction alike, by joint."""
+    """Errors of viscous and static friction alike [1], by joint."""
 
     @classmethod
     def drawn(

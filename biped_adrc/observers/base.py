@@ -222,7 +222,8 @@ def check_chain(order: int, scale: float, what: str) -> None:
 class ChainObserver(Observer):
     """Base of observers with m extended states; z is (lead + m, p). Subclasses add the dynamics.
 
-    scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
+    m: number of the extended states. scale [rad/s]: near the bandwidth, so that the scaled states have numbers
+    of one size.
 
     >>> observer = ba.GPIObserver.from_bandwidth(300.0, m=2)
     >>> isinstance(observer, ba.ChainObserver), observer.order

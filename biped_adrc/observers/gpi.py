@@ -125,6 +125,9 @@ class GPIObserver(InjectedChain):
     """The GPI observer (17) with the same m + 2 poles for every joint. Make it with
     `from_poles` or `from_bandwidth`.
 
+    m: number of the extended states. scale [rad/s]: near the bandwidth, by which states are scaled. poles (m +
+    2,) [rad/s]: of the error dynamics.
+
     >>> ba.GPIObserver.from_bandwidth(300.0, m=1).gains
     array([9.0e+02, 2.7e+05, 2.7e+07])
     """

@@ -22,31 +22,31 @@ class EncoderRecord(Record):
 
     SHORT = ""
     counts: float | None = field(None, "1", ge=1)
-    """Per revolution; by default exact."""
+    """The encoders of the joints have so many counts per revolution; by default they are exact."""
     noise: float = field(0.0, "rad", ge=0, le=1.0)
-    """Standard deviation of the joints' angles."""
+    """The joints' angles have noise of this standard deviation."""
     pitch_noise: float = field(0.0, "rad", ge=0, le=1.0)
-    """That of the unactuated pitch."""
+    """The unactuated pitch has noise of this standard deviation."""
     rate_noise: float = field(0.0, "rad/s", ge=0, le=100.0)
-    """That of measured rates."""
+    """Measured rates have noise of this standard deviation."""
     velocity: Literal["measured", "differences", "gyro"] = field("measured")
-    """Rates: exact, from differences of angles, or so but for the pitch's."""
+    """Rates are exact, or differences of angles, or so but for the pitch's, which a gyro measures."""
     filter_time: float = field(0.0, "s", ge=0, le=1.0)
-    """Low-pass of the differences."""
+    """The low-pass of the differences has this time constant."""
 
 
 class SensorRecord(OpenRecord):
     """One more sensor behind the encoders, with its parameters."""
 
     name: str | None = field(None, kind="sensor")
-    """Of the registry, or module:Class."""
+    """One more sensor is behind the encoders, of the registry, or module:Class."""
 
 
 class TouchdownRecord(OpenRecord):
     """How the controller notices touchdowns, with parameters."""
 
     name: str | None = field(None, kind="touchdown")
-    """Of the registry ('faulty', 'force', 'kinematics'), or module:Class; by default at once."""
+    """The detector is 'faulty', 'force', 'kinematics' or module:Class; by default it is never late."""
 
 
 class HardwareRecord(Record):
@@ -54,24 +54,24 @@ class HardwareRecord(Record):
 
     SHORT = "profile"
     profile: Literal["none", "ideal", "rabbit"] = field("none")
-    """Fills in what is not given: none, ideal (1 kHz) or rabbit."""
+    """The profile fills in what is left out: none, ideal (1 kHz) or rabbit."""
     period: float | None = field(None, "s", ge=1e-5, le=0.1)
-    """Sampling period of the controller; by default continuous time."""
+    """The controller samples with this period; by default it works in continuous time."""
     delay: float = field(0.0, "s", ge=0, le=1.0)
-    """From a tick to the torque's effect."""
+    """The torque acts so long after its tick."""
     delay_known: bool = field(False)
-    """Whether the observer knows the delay."""
+    """The observer knows the delay."""
     encoders: EncoderRecord = field(EncoderRecord.model_construct())
     sensor: SensorRecord = field(SensorRecord.model_construct())
     touchdown: TouchdownRecord = field(TouchdownRecord.model_construct())
     torque_limit: float | None = field(None, "N m", gt=0)
-    """Of every motor."""
+    """Every motor has this torque at most."""
     rate_limit: float | None = field(None, "N m/s", gt=0)
-    """Of every motor's torque."""
+    """Every motor's torque changes by this at most."""
     lag: float = field(0.0, "s", ge=0, le=1.0)
-    """Time constant of the motors."""
+    """The motors follow with this time constant."""
     friction: bool = field(False)
-    """Joint friction of the robot's record in the plant."""
+    """The plant has the joint friction of the robot's record."""
 
     @model_validator(mode="before")
     @classmethod

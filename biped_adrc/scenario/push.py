@@ -33,10 +33,11 @@ _PUSH = re.compile(
 _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
-class Push(OpenRecord):
-    """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
+class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finished class alone
+    """A torque on joints or a force on a link, of a shape in time.
 
-    Raises InputError for a shape that there is not and for a value out of its range.
+    values: further ones, those that the shape takes, by name. Raises InputError for a shape that there is not
+    and for a value out of its range.
 
     >>> push = ba.Push(torque=-60.0, joints="q1,q2", step=2, onset=0.1)
     >>> ba.walk_scenario(ba.Scenario("NPD", pushes=[push], run={"impacts": 2})).impacts
@@ -46,29 +47,29 @@ class Push(OpenRecord):
     SHORT = "shape"
     APART = (("force", "torque"), ("torque", "link"))
     shape: str = field("pulse", kind="disturbance")
-    """In time: pulse, step, sine, noise, recorded, hip force, or module:Class."""
+    """The shape in time is pulse, step, sine, noise, recorded, hip force, or module:Class."""
     torque: float | dict[str, float] = field(0.0, "N m")
-    """On each of the joints, or by joint."""
+    """Each of the joints gets this torque; a table has one by joint."""
     joints: str = field("q1,q2,q3,q4")
-    """Such as 'q1,-q3' (minus is the other sign), or 'random' for drawn factors on all that are driven."""
+    """The push acts on these, as 'q1,-q3' (the other sign); 'random' draws factors for all with motors."""
     force: float = field(0.0, "N", ge=0, le=100000.0)
-    """On a link, or on the hip."""
+    """A link, or the hip, gets this force."""
     link: str | None = field(None)
-    """Link on whose origin the force acts."""
+    """The force acts on the origin of this link."""
     direction: float = field(0.0, "rad", ge=-7, le=7)
-    """Of a force, from forwards to up."""
+    """The force has this angle, from forwards to up."""
     step: int = field(3, ge=1, le=100000)
-    """Single support in which it begins."""
+    """The push begins in this single support."""
     onset: float | None = field(None, "s", ge=0, le=100)
-    """In that step; by default drawn, to end within it."""
+    """The push begins at this time in it; by default drawn, to end within it."""
     duration: float = field(0.2, "s", gt=0, le=100.0)
-    """Of a pulse, a sine or noise."""
+    """A pulse, a sine or noise lasts so long."""
     rise: float = field(0.0, "s", ge=0, le=10.0)
-    """Time that each edge of a pulse takes."""
+    """Each edge of a pulse takes this time."""
     frequency: float = field(5.0, "Hz", gt=0, le=1000.0)
-    """Of a sine; the highest of noise."""
+    """A sine has this frequency, and noise none above it."""
     across_impacts: bool | None = field(None)
-    """Whether it goes on over impacts; by default as its shape does."""
+    """The push goes on over impacts; by default as its shape does."""
 
     @property
     def over_impacts(self) -> bool:

@@ -40,6 +40,7 @@ from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.statistics import rms
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.errors import InputError, optional
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
@@ -126,12 +127,13 @@ class Walk(Shown):
     """
 
     walker: Walker
+    """The walker, with plant, controller and all the rest."""
     gait: Gait | None
-    """None for a robot without motors."""
+    """The gait it was to follow; None for a robot without motors, and for a walk from a state alone."""
     trajectory: Trajectory
     """States over time, impacts, and the status with which the walk ended."""
     scenario: Scenario | None = None
-    """None for a walker made in Python."""
+    """The scenario that asked for it; None for a walker made in Python."""
     recorded: Signals | None = None
     """Signals from the file of a stored walk."""
     stored_remarks: tuple[str, ...] = ()
@@ -151,18 +153,19 @@ class Walk(Shown):
         """One line on what walked: controller, gait, robot and preset; without motors robot and slope [rad]."""
         plant, gait = self.walker.plant, self.gait
         robot = f"{plant.description.name} {plant.preset}"
-        if gait is None:
+        if plant.p == 0:
             return f"{robot} without motors, slope {self.walker.ground_slope:g} rad"
-        return f"{self.controller_name} on gait '{gait.name}', {robot}"
+        begun = "from a state" if gait is None else f"on gait '{gait.name}'"
+        return f"{self.controller_name} {begun}, {robot}"
 
     @cached_property
     def signals(self) -> Signals:
         """References, errors, torques, estimates and forces over time, computed at the first call and kept."""
         if self.recorded is not None:
             return self.recorded
+        curve = own_reference(self.walker.controller) if self.gait is None else self.gait.constraint
         no_joints = TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
-        curve = no_joints if self.gait is None else self.gait.constraint
-        return signals(self.walker, self.trajectory, curve)
+        return signals(self.walker, self.trajectory, no_joints if curve is None else curve)
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Literal, Self
 
@@ -25,7 +25,7 @@ from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write
 from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
-from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, field
+from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, by_default, field
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
@@ -35,26 +35,28 @@ RESOLVED = 0.1
 """Of the ground's time constant: the longest step that resolves contact."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
+Values = Any
+"""A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
 
 class RobotRecord(Record):
     """Which robot walks."""
 
     name: str = field("rabbit", kind="robot")
-    """By name ('biped-adrc robot list'), the path of a robot.toml, or module:Class."""
+    """The robot has a name of 'biped-adrc robot list', or is the path of a robot.toml, or module:Class."""
     preset: str | None = field(None)
-    """Of its parameters; its record's default if not given."""
+    """The parameters are this preset of the robot; by default its record says which."""
 
 
 class GaitRecord(Record):
     """Which gait is the reference."""
 
     name: str = field("published", kind="gait")
-    """published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), a .json file, or module:Class."""
+    """The gait is published (through x*), recipe (section IV), v0.4 to v1.1, a .json file or module:Class."""
     continued: bool = field(False)
     """The constraint goes on smoothly past its ends."""
     other_robot: bool = field(False)
-    """Walk a gait that was made for another robot or preset."""
+    """The gait may be one that was made for another robot or preset."""
 
 
 class ObserverRecord(OpenRecord):
@@ -62,45 +64,45 @@ class ObserverRecord(OpenRecord):
 
     APART = (("bandwidth", "poles"), ("order", "poles"))
     name: str | None = field(None, kind="observer")
-    """Of the registry, or module:Class; by default the controller's own."""
+    """The observer is one of the registry, or module:Class; by default the controller's own."""
     bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
-    """All poles at minus this; by default the controller's own."""
+    """All poles lie at minus this; by default they are the controller's own."""
     order: int | None = field(None, ge=0, le=12)
-    """m of the observer."""
+    """The observer has so many extended states, m."""
     poles: tuple[float, ...] | None = field(None, "rad/s")
-    """m + 2 poles, comma separated; by default the controller's own."""
+    """The observer has these m + 2 poles, comma separated; by default the controller's own."""
     reset: Literal["none", "relabel", "measured", "model"] = field("model")
-    """At impact nothing, legs swapped, states from the measurement, or from the nominal model."""
+    """An impact changes nothing, swaps the legs, or resets the states by measurement or by nominal model."""
 
 
 class ContactRecord(OpenRecord):
     """What the controller does while contact settles after touchdown; further parameters by name."""
 
     name: str | None = field(None, kind="contact")
-    """A policy of the registry ('hold'), or module:Class."""
+    """The policy is one of the registry ('hold'), or module:Class."""
     window: float | None = field(None, "s", ge=0, le=1.0)
-    """Time after touchdown that it takes; by default the policy's own."""
+    """The policy acts for so long after touchdown; by default as long as it says itself."""
 
 
 class ControllerRecord(OpenRecord):
     """The controller; its further parameters by name."""
 
     name: str = field("ADRC", kind="controller")
-    """Of the registry, or module:Class."""
+    """The controller is one of the registry, or module:Class."""
     K_p: float | None = field(None, "1/s^2", gt=0)
-    """Proportional gain, PD's in N m/rad; by default the controller's own."""
+    """The proportional gain is this, PD's in N m/rad; by default the controller's own."""
     K_d: float | None = field(None, "1/s", gt=0)
-    """Derivative gain, PD's in N m s/rad; by default the controller's own."""
+    """The derivative gain is this, PD's in N m s/rad; by default the controller's own."""
     solve_theta: bool = field(True)
-    """Solve the loop through Theta''; if not, as printed."""
+    """The loop through Theta'' is solved; if not, the law is as printed."""
     observer: ObserverRecord = field(ObserverRecord.model_construct())
     contact: ContactRecord = field(ContactRecord.model_construct())
     prediction: float = field(0.0, "s", ge=0, le=0.1)
     """The controller gets the state so much ahead, by its model and the torques on their way."""
     feedforward: float = field(0.0, "1", ge=0, le=2)
-    """Share of the record's joint friction added to the torque, at the reference's rates."""
+    """The torque compensates this share of the record's joint friction, at the reference's rates."""
     inner: ControllerRecord | None = field(None)
-    """The controller inside an outer loop."""
+    """An outer loop has this controller inside."""
 
 
 class GroundRecord(OpenRecord):
@@ -109,31 +111,31 @@ class GroundRecord(OpenRecord):
     SHORT = "plant"
     APART = (("stone_range", "stones"),)
     plant: str = field("rigid", kind="plant")
-    """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
+    """The plant is rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
     friction: float = field(0.6, "1", gt=0, le=10)
-    """Of soft ground."""
+    """Soft ground has this coefficient of friction."""
     time_constant: float = field(2e-3, "s", ge=1e-5, le=1.0)
-    """Of soft ground: how fast a foot in it is driven out."""
+    """Soft ground drives a foot out with this time constant."""
     damping_ratio: float = field(1.0, "1", gt=0, le=100)
-    """Of soft ground."""
+    """Soft ground drives a foot out with this damping ratio."""
     plant_step: float | None = field(None, "s", ge=1e-6, le=0.01)
-    """Step of its engine; by default a tenth of the time constant, at most 0.2 ms."""
+    """The engine of soft ground takes this step; by default a tenth of the time constant, at most 0.2 ms."""
     slope: float | None = field(None, "rad", ge=-0.5, le=0.5)
-    """Of the ground, downhill; by default that for which the gait was made."""
+    """The ground falls at this angle, downhill; by default that for which the gait was made."""
     drop: float = field(0.0, "m", ge=-0.2, le=0.2)
     """The ground falls by this in one step."""
     drop_step: int = field(3, ge=1, le=100000)
-    """Single support in which it falls."""
+    """The ground falls in this single support."""
     rms: float = field(0.0, "m", ge=0, le=0.1)
-    """Unevenness, drawn."""
+    """The unevenness of the ground, drawn, has this root mean square."""
     step_height: float = field(0.0, "m", ge=0, le=0.1)
     """Each single support ends on ground up to so much higher or lower, drawn."""
     stones: tuple[float, ...] | None = field(None, "m")
-    """Lengths of the steps to the stones."""
+    """The steps to the stones have these lengths."""
     stone_range: tuple[float, ...] | None = field(None, "m")
-    """In place of stones: the least and the largest length, between which all are drawn."""
+    """All lengths are drawn between these two, the least and the largest, in place of stones."""
     stone_tolerance: float = field(0.025, "m", gt=0, le=1)
-    """Distance from the middle of a stone at which a foot still lands on it."""
+    """A foot still lands on a stone at this distance from its middle."""
 
     @property
     def engine_step(self) -> float:
@@ -155,23 +157,23 @@ class ErrorRecord(Record):
 
     SHORT = ""
     mass: dict[str, float] = field({}, "1")
-    """Relative errors of the plant's masses, by body: 0.2 is 20 % more."""
+    """The plant's masses have these relative errors, by body: 0.2 is 20 % more."""
     inertia: dict[str, float] = field({}, "1")
-    """Relative errors of its inertias about the COM, by body."""
+    """The plant's inertias about the COM have these relative errors, by body."""
     mass_width: float = field(0.0, "1", ge=0, lt=1)
-    """Half-width of relative errors of all masses, drawn."""
+    """All masses have relative errors, drawn, of this half-width."""
     com_width: float = field(0.0, "1", ge=0, lt=1)
-    """The same for centres of mass."""
+    """All centres of mass have relative errors, drawn, of this half-width."""
     inertia_width: float = field(0.0, "1", ge=0, lt=1)
-    """The same for inertias."""
+    """All inertias have relative errors, drawn, of this half-width."""
     friction_width: float = field(0.0, "1", ge=0, lt=1)
-    """The same for friction."""
+    """The friction of all joints has relative errors, drawn, of this half-width."""
     trunk_load: float = field(0.0, "1", gt=-1, le=10)
-    """Relative error of the torso's mass, not drawn."""
+    """The torso's mass has this relative error, not drawn."""
     friction: float = field(0.0, "1", ge=-1, le=10)
-    """The same of joint friction."""
+    """The friction of all joints has this relative error, not drawn."""
     impact_width: float = field(0.0, "1", ge=0, lt=1)
-    """Half-width of relative errors of rates after impact."""
+    """The rates after impact have relative errors, drawn, of this half-width."""
 
 
 class StartRecord(OpenRecord):
@@ -181,13 +183,13 @@ class StartRecord(OpenRecord):
     SHORT = ""
     _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)
     speed: float = field(0.0, "1", gt=-1, le=2)
-    """Relative change of all rates."""
+    """All rates change by this share."""
     speed_spread: float = field(0.0, "1", ge=0, le=1)
-    """Standard deviation of it, drawn."""
+    """All rates change by a share that is drawn, with this standard deviation."""
     spread: float = field(0.0, "rad", ge=0, le=1)
-    """Standard deviation added to all angles."""
+    """All angles have errors that are drawn, with this standard deviation."""
     rate_spread: float = field(0.0, "rad/s", ge=0, le=10)
-    """The same for rates."""
+    """All rates have errors that are drawn, with this standard deviation."""
 
     @classmethod
     def own_value(cls, name: str) -> Described:
@@ -201,9 +203,9 @@ class LimitRecord(Record):
 
     SHORT = ""
     friction: float | None = field(None, "1", gt=0, le=1)
-    """Friction of the ground; by default the robot's record."""
+    """The ground has this coefficient of friction; by default that of the robot's record."""
     window: float = field(5e-3, "s", gt=0, le=0.1)
-    """Over which the ground's force is averaged."""
+    """The ground's force is averaged over this time."""
 
 
 class RunRecord(Record):
@@ -211,27 +213,27 @@ class RunRecord(Record):
 
     SHORT = ""
     impacts: int = field(25, ge=1, le=10000)
-    """To walk (12.5 steps of the paper are 25)."""
+    """The walk ends after so many impacts (12.5 steps of the paper are 25)."""
     first_step: int = field(1, ge=1, le=100000)
-    """Number of the first single support."""
+    """The first single support has this number."""
     seed: int = field(0, ge=0, le=MOST_SEED)
-    """Of all that is drawn."""
+    """All that is drawn comes from this seed."""
     method: Literal["rk4", "exponential", "adaptive", "stiff"] | None = field(None)
-    """Of integration; by default what fits the walker."""
+    """The equations are integrated by this method; by default by what fits the walker."""
     h: float | None = field(None, "s", ge=1e-6, le=0.1)
-    """Step of rk4 and exponential; by default 1 ms or what fits."""
+    """The methods rk4 and exponential take this step; by default 1 ms or what fits."""
     fine: float | None = field(None, "s", ge=1e-6, le=0.1)
-    """The step where a push switches and in the single support after."""
+    """The step is this where a push switches and in the single support after."""
     tolerance: float = field(1e-9, "1", gt=0, le=1)
-    """Of adaptive and stiff."""
+    """The methods adaptive and stiff keep this tolerance."""
     engine: Literal["compiled", "pinocchio"] = field("compiled")
-    """compiled where it can run, or pinocchio, which it is checked against."""
+    """The engine is compiled, where it can run, or pinocchio, which it is checked against."""
     max_step_time: float = field(2.0, "s", gt=0, le=100)
     """A longer single support ends as stalled."""
     runaway_speed: float = field(20.0, "1", gt=0, le=1e9)
     """Rates beyond this multiple of 50 rad/s end a walk as run away."""
     runaway_torque: float = field(1000.0, "1", gt=0, le=1e9)
-    """The same of the peak torque in the robot's record."""
+    """Torques beyond this multiple of the peak torque in the robot's record end a walk as run away."""
 
     @model_validator(mode="after")
     def _own_step(self) -> Self:
@@ -242,11 +244,22 @@ class RunRecord(Record):
         return self
 
 
-class Scenario(Record):
-    """One walk in plain values, in records by what they are of; see the module.
+USUAL = by_default(ControllerRecord)
+"""The controller of a scenario that names none."""
 
-    A record may be given as a mapping, or as a text for its name. Lengths are in m, angles in rad, times in s,
-    torques in N m, or text with a unit. `replace` changes some values and keeps the others.
+
+class Scenario(Record):
+    """One walk in plain values, in records by what they are of.
+
+    Each record is itself, a mapping of its values, or a text for its name; the fields say its values. Lengths
+    are in m, angles in rad, times in s, torques in N m, or texts with a unit. `replace` changes some values
+    and keeps the others.
+
+    controller: the law, with observer and gains. robot: the one that walks. gait: the reference. hardware: its
+    sampling, sensors and motors. pushes: the torques and forces that disturb it, records or texts. errors: how
+    the plant differs from the controller's model. ground: the ground, or another plant. start: what is added
+    to the start. limits: what ground and motors can give. run: length, seed and numerics. dotted: single values
+    by dotted names, such as **{"run.seed": 3}.
 
     Raises InputError for an unknown name, a value out of its range, and one that cannot have an effect.
 
@@ -257,20 +270,36 @@ class Scenario(Record):
 
     SHORT = "controller"
     APART = (("hardware.delay_known", "controller.prediction"),)
-    controller: ControllerRecord = field(ControllerRecord.model_construct())
-    robot: RobotRecord = field(RobotRecord.model_construct())
-    gait: GaitRecord = field(GaitRecord.model_construct())
-    hardware: HardwareRecord = field(HardwareRecord.model_construct())
+    controller: ControllerRecord = field(USUAL)
+    robot: RobotRecord = field(by_default(RobotRecord))
+    gait: GaitRecord = field(by_default(GaitRecord))
+    hardware: HardwareRecord = field(by_default(HardwareRecord))
     pushes: tuple[Push, ...] = field(())
-    errors: ErrorRecord = field(ErrorRecord.model_construct())
-    ground: GroundRecord = field(GroundRecord.model_construct())
-    start: StartRecord = field(StartRecord.model_construct())
-    limits: LimitRecord = field(LimitRecord.model_construct())
-    run: RunRecord = field(RunRecord.model_construct())
+    errors: ErrorRecord = field(by_default(ErrorRecord))
+    ground: GroundRecord = field(by_default(GroundRecord))
+    start: StartRecord = field(by_default(StartRecord))
+    limits: LimitRecord = field(by_default(LimitRecord))
+    run: RunRecord = field(by_default(RunRecord))
 
-    def __init__(self, controller: object = None, **values: object) -> None:
-        named = {} if controller is None else {"controller": controller}
-        super().__init__(**nested({**named, **values}))
+    def __init__(
+        self,
+        controller: ControllerRecord | Values | None = None,
+        *,
+        robot: RobotRecord | Values = by_default(RobotRecord),
+        gait: GaitRecord | Values = by_default(GaitRecord),
+        hardware: HardwareRecord | Values = by_default(HardwareRecord),
+        pushes: Push | Values | Sequence[Push | Values] = (),
+        errors: ErrorRecord | Values = by_default(ErrorRecord),
+        ground: GroundRecord | Values = by_default(GroundRecord),
+        start: StartRecord | Values = by_default(StartRecord),
+        limits: LimitRecord | Values = by_default(LimitRecord),
+        run: RunRecord | Values = by_default(RunRecord),
+        **dotted: Any,
+    ) -> None:
+        here = vars() if controller is not None else vars() | {"controller": USUAL}
+        fields = type(self).model_fields.items()
+        records = {name: here[name] for name, x in fields if here[name] is not x.default}
+        super().__init__(**nested(records | dotted))
 
     @field_validator("pushes", mode="before")
     @classmethod

@@ -32,6 +32,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.shown import one_line, short
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
@@ -65,6 +66,9 @@ class Sample(NamedTuple):
     status: NDArray[np.object_]
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
 
+    def __repr__(self) -> str:
+        return one_line(self)
+
 
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
 """A walk where it is, for `Stepper.restore`: with its walker, and the code of its status."""
@@ -73,9 +77,9 @@ Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
 class Stepper:
     """`count` walks of a scenario, or of a walker, in sampled time.
 
-    within: limits by which the single supports of a scenario are judged when they end, for `over`. Raises
-    InputError for continuous time, a scenario with `run.fine`, a robot without motors, and parts that do not
-    fit together.
+    what: a scenario or a walker, in sampled time. count: number of walks. within: limits by which the single
+    supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
+    scenario with `run.fine`, a robot without motors, and parts that do not fit together.
 
     >>> stepper = ba.Stepper(ba.Scenario("NPD", hardware={"period": 1e-3}), count=2)
     >>> stepper.reset(seed=1).t
@@ -127,6 +131,9 @@ class Stepper:
         self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
         """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
         `kernels.looks`."""
+
+    def __repr__(self) -> str:
+        return f"Stepper({len(self.walks)} walks of {short(self.what)})"
 
     @property
     def sample(self) -> Sample:

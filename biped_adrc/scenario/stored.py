@@ -70,8 +70,8 @@ STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 def load_walk(path: Path | str) -> Walk:
     """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
 
-    Nothing of the user's is imported: signals, figures and pictures are those of the file, and a walk of an own
-    controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
+    path: of the file. Nothing of the user's is imported: signals, figures and pictures are those of the file,
+    and a walk of an own controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
     >>> ba.load_walk(walk.save(folder / "walk.npz")).impacts

@@ -21,6 +21,7 @@ from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
+from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, WalkWarning, check_count
 from biped_adrc.core.types import Array
@@ -63,7 +64,7 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
 
 def walk(
     walker: Walker,
-    gait: Gait = None,  # type: ignore[assignment]  # so that a scenario alone is answered in words
+    gait: Gait | None = None,
     impacts: int = 25,
     method: OneStepMethod | None = None,
     *,
@@ -76,16 +77,26 @@ def walk(
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
 
-    Each of `Walk.remarks` is also a `WalkWarning`. A walker without a slope walks on that of its plant, or of
-    the gait. start: (q, v), each (n,) [rad, rad/s]. first_step: number of the first single support. method: by
-    default that of `methods_of`. engine: "compiled", whose place Pinocchio takes where it cannot run, or
-    "pinocchio"; the trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under
-    ADRC and a push the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten
-    times too large under Table I), which a remark says; "compiled" takes 0.05 ms there. Every step of the
-    method is kept, so that peaks and certificates miss none. A fall is a status of the trajectory. within: the
-    walk ends, with the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone
-    judges by them. plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as
-    MuJoCoPlant(biped, ground); then the walker acts at ticks, and there is no method. Raises InputError for
+    - walker: plant, controller and all the rest. A walker without a slope walks on that of its plant, or of
+      the gait.
+    - gait: whose orbit is the start, and from which errors are measured. It may be None beside a `start`:
+      errors are then measured from the controller's own reference, which it must have on a robot with motors.
+    - impacts: the walk ends after so many.
+    - method: of integration; by default that of `methods_of`. Every step of it is kept, so that peaks and
+      certificates miss none.
+    - start: (q, v), each (n,) [rad, rad/s], in place of the gait's. first_step: number of the first single
+      support.
+    - progress: called after every event with the time [s] and the number of events.
+    - engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio"; the trajectory's
+      settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push the
+      default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
+      under Table I), which a remark says; "compiled" takes 0.05 ms there.
+    - within: the walk ends, with the status INFEASIBLE, where it would leave these limits; without,
+      `Walk.feasibility` alone judges by them.
+    - plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
+      ground); then the walker acts at ticks, and there is no method.
+
+    A fall is a status of the trajectory. Each of `Walk.remarks` is also a `WalkWarning`. Raises InputError for
     parts that do not fit together.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
@@ -93,11 +104,13 @@ def walk(
     ('COMPLETED', 'COMPLETED')
     """
     check_part(walker, "what is to walk", Walker)
-    check_part(gait, "the gait of the walk", Gait)
+    tracks = walker.plant.p == 0 or own_reference(walker.controller) is not None
+    check_part(gait, "the gait of the walk", Gait, *[NoneType] * (start is not None and tracks))
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
     check_count(first_step, f"the walk begins in single support {first_step}")
     if start is None:
+        assert gait is not None
         if (count := len(gait.q_minus)) != (n := walker.nominal.n):
             raise InputError(
                 f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
@@ -107,7 +120,7 @@ def walk(
         start = gait.start(walker.nominal)
     parts = tuple[WalkPart, ...]()
     if walker.slope is None:
-        walker = replace(walker, slope=getattr(plant, "slope", gait.slope))
+        walker = replace(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
@@ -132,9 +145,9 @@ def walk_scenario(
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
-    progress: called as the walk goes on. controller: in place of the scenario's, such as an exported one; the
-    walk then keeps no scenario. A fall is a status of the trajectory, not an error.
-    Raises InputError for values that do not fit together.
+    s: the scenario. progress: called after every event with the time [s] and the number of events. controller:
+    in place of the scenario's, such as an exported one; the walk then keeps no scenario. A fall is a status of
+    the trajectory, not an error. Raises InputError for values that do not fit together.
 
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
     >>> walk.outcome.status

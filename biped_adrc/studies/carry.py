@@ -42,11 +42,11 @@ def study(
 ) -> Results:
     """Make all walks of a study whose rows are not yet in the folder `out`, and hand out its results.
 
-    study: its TOML file, or the tables of one. workers: processes, one per core if None, or an executor.
-    cluster: address of a Dask scheduler in their place. progress: called now and then. function: rows of
-    records, walks if None. Raises InputError, also where no candidate of any case keeps all limits,
-    OutputError, WorkersError. After Ctrl-C or a kill what is finished is kept, and the same call goes on with
-    the same rows.
+    study: its TOML file, or the tables of one. out: the folder of its rows. workers: processes, one per core if
+    None, or an executor. cluster: address of a Dask scheduler in their place. progress: called now and then.
+    function: rows of records, walks if None. Raises InputError, also where no candidate of any case keeps all
+    limits, OutputError, WorkersError. After Ctrl-C or a kill what is finished is kept, and the same call goes
+    on with the same rows.
 
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> results = ba.study(

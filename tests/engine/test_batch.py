@@ -49,6 +49,14 @@ def plain(biped, gait, npd):
     return Case(ba.Walker(biped, npd), q, v, ba.RK4(2e-3), 2)
 
 
+def test_a_case_takes_a_gait_or_a_state(plain, gait):
+    of_gait = Case(plain.walker, gait=gait, method=plain.method, impacts=2)
+    assert np.array_equal(of_gait.q, plain.q)
+    assert np.array_equal(of_gait.v, plain.v)
+    with pytest.raises(InputError, match="gait of a case without q and v is None, expected a Gait"):
+        Case(plain.walker, method=plain.method)
+
+
 @pytest.fixture(scope="module")
 def mixed(biped, gait, npd, plain):
     """Robots, methods, time bases, starts and ends of all kinds."""

@@ -177,8 +177,9 @@ def export_c(
 ) -> Source:
     """Write the controller of a scenario, or of a walker, as C99 into a folder; returns the files written.
 
-    prefix: of all names in C. real: "float64" or "float32". fmu: with a functional mock-up unit (FMU) for
-    co-simulation by FMI 2.0 beside it, such as controller.fmu.
+    scenario: in sampled time. folder: empty, or of an earlier export. prefix: of all names in C. real:
+    "float64" or "float32". fmu: with a functional mock-up unit (FMU) for co-simulation by FMI 2.0 beside it,
+    such as controller.fmu.
 
     Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
     other files or cannot be written.

@@ -49,7 +49,9 @@ _COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
 
 
 def read_log(file: str | Path, biped: Biped) -> RobotLog:
-    """Read the log of this robot from a CSV file.
+    """Read the log of a robot from a CSV file.
+
+    file: its path. biped: the robot, whose joints name the columns.
 
     Raises InputError for a file that cannot be read, with the line or the column, what was found
     there and what was expected.

@@ -279,10 +279,11 @@ def replay(
 ) -> Replay:
     """Replay a log, or the CSV file of one, through the controller of a scenario.
 
-    The period is that of the scenario, or the log's where the scenario has none; a log with another period, or
-    an uneven one, is resampled, and the remarks say so. window [s]: time after a touchdown that counts as
-    contact. filter_time [s]: of rates that the log does not have; the scenario's if None. Raises InputError
-    for a log or a scenario that cannot be used, and for a log that fits the model in another reading.
+    log: itself, or the path of its file. scenario: with the controller and its period. The period is that of
+    the scenario, or the log's where the scenario has none; a log with another period, or an uneven one, is
+    resampled, and the remarks say so. window [s]: time after a touchdown that counts as contact.
+    filter_time [s]: of rates that the log does not have; the scenario's if None. Raises InputError for a log or
+    a scenario that cannot be used, and for a log that fits the model in another reading.
 
     >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))

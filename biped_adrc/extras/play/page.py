@@ -65,9 +65,9 @@ def play(
 ) -> Path:
     """Write a page on which a walk is pushed by hand, one file without server or network; returns its path.
 
-    scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to choose from, values of a
-    scenario by a name for each; OTHERS if None. The first of them is the ghost.
-    Raises InputError for what a page cannot walk, and OutputError.
+    path: of the page, .html. scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to
+    choose from, values of a scenario by a name for each; OTHERS if None. The first of them is the ghost. Raises
+    InputError for what a page cannot walk, and OutputError.
 
     >>> page = ba.play(folder / "walk.html", ba.Scenario("NPD", hardware="ideal"), others={})
     >>> page.name

@@ -52,6 +52,20 @@ class Objective(Enum):
 class StepLimits(Checked, Shown):
     """Limits of one step; None takes the robot's own from its record (`robot.toml`).
 
+    - friction [1]: largest |F_T| / F_N in single support. impulse_friction [1]: largest |F_T| / F_N of the
+      impulse; infinite for no limit.
+    - torque [N m]: limit of every motor.
+    - normal_force [1]: least F_N, as a share of the weight.
+    - clearance [1]: least height of the swing foot in mid-step, as a share of the leg; None: it may scuff at
+      first, as a leg without knees does.
+    - lift_off [m/s]: least vertical speed of the old foot after impact, and of the swing foot before it.
+    - ranges [rad]: of joints, (low, high) by name of the coordinate, besides those of the record and the URDF.
+    - multiplier [1]: largest delta^2 of the zero dynamics; the orbit is stable below 1.
+    - slowest [1]: least |Theta'| in the step, as a share of that before impact: a walk that nearly stops is
+      easily stopped.
+    - reserve [1]: share of friction, torque, rates and a quarter radian of ranges that is kept back between
+      the nodes.
+
     Raises InputError for a limit that is negative, zero where it divides, or a range without extent.
 
     >>> limits = ba.StepLimits(friction=0.5, torque=100.0, clearance=0.03)
@@ -60,25 +74,15 @@ class StepLimits(Checked, Shown):
     """
 
     friction: FrictionFloat | None = None
-    """|F_T| / F_N in single support."""
     impulse_friction: FrictionFloat | None = None
-    """|F_T| / F_N of the impulse; infinite for no limit."""
     torque: PositiveFloat | None = None
-    """Torque limit of every motor [N m]."""
     normal_force: NonNegativeFloat = 0.1
-    """Least F_N, share of the weight."""
     clearance: NonNegativeFloat | None = 0.02
-    """Height of the swing foot in mid-step, share of the leg; None: without knees it may scuff at first."""
     lift_off: NonNegativeFloat = 0.02
-    """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
     ranges: Annotated[Mapping[str, tuple[float, float]], LOW_FIRST] = field(default_factory=dict)
-    """Joint ranges (low, high) [rad] by name of the coordinate, besides those of the record and the URDF."""
     multiplier: NonNegativeFloat = 0.95
-    """Largest delta^2 of the zero dynamics."""
     slowest: NonNegativeFloat = 0.15
-    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops is easily stopped."""
     reserve: NonNegativeFloat = 0.02
-    """Share of friction, torque, rates and a quarter radian of ranges that is kept back between the nodes."""
 
     def of(self, biped: Biped) -> RobotLimits:
         """These limits with the robot's own in place of None, and what its URDF states of either leg's joints.

@@ -241,14 +241,15 @@ def import_gait(
 ) -> Gait:
     """Import a gait from arrays, or from a .json, .mat or .csv file, in any angle convention.
 
-    convention: of a file that does not state its own; "own" for the coordinates of the robot's record as they
-    are, needed for a robot whose legs and phase differ from the paper's. names: the file's names of its
-    entries where they differ from ours, such as {"coefficients": "alpha"}, or "R.alpha" in a struct. slopes:
-    also check that the slopes close through the impact of this robot; False accepts constraints that are not
-    hybrid-invariant. Without q_minus, v_minus or period these come from the zero dynamics.
+    gait: the record or its file. biped: the robot that walks it. convention: of a file that does not state its
+    own; "own" for the coordinates of the robot's record as they are, needed for a robot whose legs and phase
+    differ from the paper's. names: the file's names of its entries where they differ from ours, such as
+    {"coefficients": "alpha"}, or "R.alpha" in a struct. slopes: also check that the slopes close through the
+    impact of this robot; False accepts constraints that are not hybrid-invariant. Without q_minus, v_minus or
+    period these come from the zero dynamics.
 
-    To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted;
-    slope [rad]: of their ground.
+    To `Samples` of a step over time (t, q, and perhaps v) curves are fitted. degree: of these curves. slope
+    [rad]: of their ground, positive downhill.
 
     The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
@@ -369,8 +370,9 @@ def export_gait(
     """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention,
     for `import_gait` or MATLAB.
 
-    biped: its robot, needed where that is not one of the package. Raises InputError for another suffix,
-    convention or robot, and OutputError where the file cannot be written.
+    gait: the one to write. path: of the file, .json or .mat. convention: of its angles, by name. biped: its
+    robot, needed where that is not one of the package. Raises InputError for another suffix, convention or
+    robot, and OutputError where the file cannot be written.
 
     >>> ba.export_gait(gait, folder / "gait.mat", "frost")
     >>> ba.import_gait(folder / "gait.mat", biped).name

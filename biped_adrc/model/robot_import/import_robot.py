@@ -244,7 +244,10 @@ def biped_from_urdf(
 ) -> Biped:
     """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
 
-    torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
+    path: of the URDF. feet: links of the feet, stance first. actuated: joints with a motor. hip: the link at
+    which the legs hang. torque [N m]: limit of every motor. armature [kg m^2]: inertia of rotors on every
+    driven joint. tip (3,) [m]: the foot's point in its link. None: found in the file. Raises ModelError, with
+    the laws that do not hold.
 
     >>> ba.biped_from_urdf(biped.description.urdf).n
     5
