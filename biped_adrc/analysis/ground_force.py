@@ -97,6 +97,7 @@ class Known(NamedTuple):
     [rad]."""
 
 
+# `load` joins these texts in this order: a decorator has to stand before the function that uses it.
 LOOPS = (
     *(f"biped_adrc.engine.kernels.{name}" for name in ("record", "call")),
     "biped_adrc.analysis.demands",
@@ -125,6 +126,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     known = Known(
         window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
     )
+    # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it returns
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
     loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)

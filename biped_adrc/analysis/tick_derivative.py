@@ -42,6 +42,7 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
             "the derivative of a tick was asked for, found a walker in continuous time; give "
             "timing=SampledTime(period)"
         )
+    # the tick of the walk itself on symbols: a formula of its own would be a second text of every observer
     try:
         program, nx = Program(layout, numbers_of(walker)), layout.size
         function, K = _function(program), program.K

@@ -123,6 +123,8 @@ def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array)
     Where the nominal model is the plant, D_s and Omega are in `terms` already and are not computed
     a second time. Raises SingularError for a singular D_s.
     """
+    # whether the model is the plant is structure: the `if` is decided when the code is made. On symbols
+    # `solve_positive` is `engine.symbols.solve_positive`, as LAPACK takes no symbols
     if loop.exact:
         return solve_positive(terms.D, force - terms.Omega, "D_s")
     return loop.plant.acceleration(q, v, force)
@@ -157,6 +159,7 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     line, zeta = tail.line, loop.external(t, q, v, mode)
     dx[:n] = v
     dx[n : 2 * n] = loop.plant.acceleration(q, v, applied(motor_torque(line), zeta))
+    # a slice from the names of the fields is the same for arrays and symbols, and follows when a field is added
     if line.u_m is not None:  # tau u_m' = u - u_m
         dx[loop.layout_of(x).place("tail", "line", "u_m")] = k.motors.speed * (line.u - line.u_m)
     return dx
@@ -172,7 +175,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
-    if tail.belief is not None:
+    if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
         s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
         line = labelled(loop, b, line)
@@ -314,6 +317,7 @@ def noticed(
     foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
     look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
     d, fires = k.touchdown.notice(old.d, look)
+    # fires is 1.0 or 0.0, on symbols an expression: arithmetic in place of `if fires: other = 1 - other`
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires
     start = chosen(fires, t, old.start)
@@ -332,6 +336,8 @@ def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
 
 def labelled(loop: Loop, b: Belief, line: Line) -> Line:
     """Torques of the plant's joints in the labels of a belief b, and back: the same exchange of the legs."""
+    # both are computed and one is chosen, here and below: on symbols b.other has no value that an `if` could
+    # ask
     result: Line = chosen(b.other, line.relabelled(loop.swap), line)
     return result
 

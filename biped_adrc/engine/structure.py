@@ -29,6 +29,8 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
     Raises NotCompiled for an object whose content cannot be compared.
     """
+    # a float is a symbol in the code, so its value does not count; an int decides a size or a branch, so it
+    # does
     if isinstance(tree, REALS) and not exact:
         return float
     if isinstance(tree, np.ndarray):

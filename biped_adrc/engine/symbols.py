@@ -116,6 +116,8 @@ class Scalar:
     __gt__, __ge__ = _binary(ca.OP_LT, reflected=True), _binary(ca.OP_LE, reflected=True)
 
 
+# set from outside, since a type checker refuses an __eq__ that returns no bool; with Python's own, x == 0.0
+# would be False for every symbol, and a law would be compiled with that answer
 setattr(Scalar, "__eq__", _binary(ca.OP_EQ))  # noqa: B010
 setattr(Scalar, "__ne__", _binary(ca.OP_NE))  # noqa: B010
 

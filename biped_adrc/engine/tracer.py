@@ -64,6 +64,7 @@ COPIED = "__on_symbols__"
 
 
 class _OfFloat(type):
+    # a law that asks isinstance(x, float) means "is it a number", and a symbol stands for one
     def __instancecheck__(cls, x: object) -> bool:
         return isinstance(x, float | Scalar)
 
@@ -125,6 +126,8 @@ class Tracer:
             (np.random.default_rng, random),
             (stdlib_random, random),
         ]
+        # by identity, since a law may have imported np.sin under any name; `old` is kept so that its id stays
+        # taken
         self._substitutes = {id(old): (old, new) for old, new in pairs}
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
@@ -142,12 +145,15 @@ class Tracer:
         if f.__globals__.get(COPIED) is self:
             return f
         if f not in self._copies:
+            # The code object stays, its globals are others: in the copy `np` names the twin. Patching NumPy
+            # itself would reach other threads, and the original goes on working on arrays.
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
             copy: Any = types.FunctionType(
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
+            # a `try` may swallow the NotCompiled of a branch on a symbol, and its other way would be compiled
             if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
@@ -199,6 +205,8 @@ class Tracer:
         if known or cls.__module__.startswith(NO_METHODS):
             return cls
         if cls not in self._twins:
+            # a subclass, so that isinstance(twin, Controller) holds; twins of the bases come first, or super()
+            # in a method would reach the methods for numbers
             twins = map(self.twin, cls.__bases__)
             bases = (twin for twin in twins if twin not in cls.__bases__)
             subclass = types.new_class(cls.__name__, (*bases, cls))

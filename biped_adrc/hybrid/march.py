@@ -19,11 +19,19 @@ import math
 import numpy as np
 
 from biped_adrc.core.types import Array
+
+# The stars bring `flow`, `add`, `Run`, .. in as bare names. `engine.kernels.load` leaves these imports out of
+# the text that numba compiles, and the same names are then those of `engine.kernels.operations`. With a prefix
+# (`on_arrays.flow`) the march would need a text for each engine, and the two could find different events.
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.on_arrays import *
 from biped_adrc.hybrid.relaxation import relaxation
 
+# `relaxation` is plain Python and imports nothing of this; compiled code can call decorated functions alone.
 weights = inner(relaxation)
+
+# The annotations of a `unit` are its signature in machine code (`engine.kernels.call`). A wrong one breaks the
+# compiled engine alone, and a run in Python does not show it.
 
 
 # -- steps -----------------------------------------------------------------------------------------
@@ -139,6 +147,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
 @inner
 def reach(r: Run, t: float, x: Array, dx: Array, s: float) -> None:
     """x_e and `tried`: state and event functions at s [s], one step from (t, x) with the slope dx (nx,)."""
+    # numba compiles both branches, so `operations` has a `dense` too, though no compiled run gets there
     if r.kind == SOLVER:
         dense(r, s)
     else:
@@ -165,6 +174,8 @@ def brent(
     The guard's event function is fa at ta [s] and fb at tb [s]; states in between are one step from (base, x).
     Secant or inverse quadratic steps, bisection where those do not shrink the bracket.
     """
+    # written out, since compiled code cannot call SciPy; with two root finders the engines would find two
+    # times of one event, and every number after it would differ
     before, f_before, now, f_now = ta, fa, tb, fb
     other, f_other = before, f_before
     last = step = now - before
@@ -440,6 +451,7 @@ def through(r: Run, t_next: float) -> int:
     t0 = t = r.t
     skipped, steps, code = 0, 0, 0
     r.limit = left(t_next)
+    # np.ceil gives a float in both engines; math.ceil would give an int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t)
     keep(r, t, r.x0, r.dx0)

@@ -34,6 +34,9 @@ def inner(function: _Function) -> _Function:
 unit = inner
 """The function itself; compiled, it becomes a function of its own."""
 
+# Each function below has a twin of the same name and arguments in `engine.kernels.operations`. Sizes are handed
+# over (`size`, r.nx) although NumPy knows them, because the twin gets pointers, which have no length.
+
 
 @dataclass(frozen=True)
 class Calendar:
@@ -249,6 +252,7 @@ def watch(r: Run, t: float, x: Array, out: Array) -> None:
 
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
     """True: a step longer than RESOLUTION is always taken again at its interior points."""
+    # the compiled twin may look at a cubic first: it knows that the events of a walker depend on q and t alone
     return True
 
 

@@ -11,6 +11,9 @@ from __future__ import annotations
 import math
 
 from biped_adrc.core.types import Array
+
+# Stars, as in `hybrid.march`: in the joined text these imports are gone, and bare names are what is left. The
+# `type: ignore[arg-type]` below are for the type checker, to which `march.travel` takes the Run of `on_arrays`.
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, Ints, Run

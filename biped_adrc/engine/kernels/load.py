@@ -89,6 +89,8 @@ def source(text: str, files: tuple[str, ...]) -> str:
     """The text of files, one after the other, without their imports of each other and of the march's operations
     of Python.
     """
+    # `from hybrid.on_arrays import *`, if it stayed, would put Python's operations in place of the compiled
+    # ones of the same names. `__future__` has to stand first, where it is put back.
     left_out = ("__future__", *files, "biped_adrc.hybrid.on_arrays")
     kept = [
         statement
@@ -106,20 +108,28 @@ def _written(text: str) -> str:
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
     module = ModuleType("biped_adrc_kernels")
     sys.modules[module.__name__] = module  # where numba looks for what a unit names
+    # executed and not imported: the joined text is no file, and its imports of each other are gone
     exec(compile(text, module.__name__, "exec"), vars(module))
     names, linked = dict[str, str](), None
     for name, (symbol, signature, function) in module.UNITS.items():
         made: Any = cfunc(signature, error_model="numpy")(function)
+        # while it compiles a unit that calls this one, numba links it, by this name
         binding.add_symbol(symbol, made.address)
         names |= {symbol: name, made.native_name: name}
+        # without numba's target the text serves this processor and WebAssembly alike
         part = re.sub(r"^target .*$", "", made.inspect_llvm(), flags=re.MULTILINE)
+        # numba's names count the functions of a process; another process finds a unit by its own name
         for theirs, ours in names.items():
             part = re.sub(rf'@"?{re.escape(theirs)}"?\(', f"@{ours}(", part)
+        # numba's variables are `common`, a kind that LLVM has not for WebAssembly; `weak` ones may be linked
+        # too
         one = binding.parse_assembly(part.replace(" = common ", " = weak "))
         if linked is None:
             linked = one
         else:
             linked.link_in(one)
+    # numba_nextafter is in numba's library, which is not loaded where the text is on disk; C's gives the same
     found = re.sub("numba_nextafter", "nextafter", str(linked))
+    # what would raise an error in Python is never called, but would be missing where the text is linked
     found = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", found)
     return f"{found}\ndeclare void @llvm.trap()\n"

@@ -148,6 +148,8 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
 @inner
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
     """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
+    # the last p numbers of x are `hardware.motors.Line.u`, as it is the last field: one behind it would be
+    # read here
     for i in range(r.p):
         aim = x[r.nx - r.p + i]
         out[r.lags + i] = aim + weight * (x[r.lags + i] - aim)
@@ -275,6 +277,8 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- breaks ----------------------------------------------------------------------------------------
+# `hybrid.constants` is plain Python, and compiled code calls decorated functions alone. Both engines compute a
+# sample instant by this one expression: another order of its operations would miss a tick by round-off.
 at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 
@@ -336,6 +340,8 @@ def due(r: Run) -> int:
     if r.part > 0.0:
         begin = clock_start(r) + r.part
         if r.t >= begin and at_tick(r.t, begin, r.period):
+            # the same as `semantics.release`: `waiting` and `u` are the last two fields of
+            # `hardware.motors.Line`
             for i in range(r.p):
                 x[nx - r.p + i] = x[nx - 2 * r.p + i]
     return 0
@@ -350,6 +356,7 @@ def measure(r: Run, x: Array) -> None:
 
 
 # -- a solver's steps, which are Python's ----------------------------------------------------------
+# The march names both, so the compiled text needs them; runs with SciPy's solvers never come here.
 @inner
 def solve(r: Run, t_next: float) -> float:
     """No step: the march then ends as STEP_FAILED."""

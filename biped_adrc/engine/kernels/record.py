@@ -174,6 +174,8 @@ TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 ROWS = (*("inp", "out", "load", "one"), *("values", "after", "tried"), *(*X_ROWS, *Y_ROWS))
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
 at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`."""
+# The annotations are strings ("int", "Array"), which `call` turns into numba's types. The order of the fields
+# is the layout of the memory: nothing else says where r.t is.
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}
