@@ -112,7 +112,8 @@ def test_peaks_lie_between_the_nodes():
     assert pushed.away_from(usual, 0.0) == pytest.approx(1.0, abs=1e-3)
 
 
-def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
+def test_a_sparse_walk_keeps_all_nodes_of_the_push_and_of_the_support_after_it():
+    """Of later supports less than a quarter of the nodes is left, and the outcome is the same."""
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run(
         "NPD", **{"run.h": 1e-4}
     )

@@ -80,7 +80,7 @@ def _function(program: Program) -> ca.Function:
 
 
 def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-    """The same by central differences of the tick in Python."""
+    """The tick in Python, with its derivative by central differences."""
     d = DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)

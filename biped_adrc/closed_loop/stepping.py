@@ -83,7 +83,9 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @cached_property
     def squares(self) -> tuple[float, float]:
-        """Squares of sums below which all angles, and all angles and rates, are within the bounds."""
+        """Two numbers for a quick test: all angles are within their bounds where the sum of their squares is
+        below the first, and all rates where that of the plant's whole row (q, q', own) is below the second.
+        """
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
 
     @property
@@ -135,7 +137,11 @@ class SteppingLoop(ClosedLoop[Any]):
         return x
 
     def with_plant(self, x: Array, row: Array) -> Array:
-        """x (nx,) with the plant in another state, its row (2 n + k,), all else kept."""
+        """A copy of x (nx,) in which the plant has the state `row` = (q, q', own) (2 n + k,).
+
+        own are the k numbers that the plant keeps besides q and q'; controller, sensors and torques stay as in
+        x.
+        """
         x, n = x.copy(), self.plant.n
         x[: 2 * n], x[self.own_places(x)] = row[: 2 * n], row[2 * n :]
         return x
@@ -176,7 +182,7 @@ class SteppingLoop(ClosedLoop[Any]):
         return end, x, self.found(end, x, mode, contacts, landed) if contacts else None
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
-        """What acts from outside in a row of the plant at t [s], read-only."""
+        """The forces from outside on the plant in the state `row` at t [s], read-only."""
         n = self.plant.n
         zeta = self.external(t, frozen(row[:n]), frozen(row[n : 2 * n]), mode)
         return frozen(Load(zeta, self.resultant(t, mode)))
@@ -260,9 +266,10 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
 def advanced(
     plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
 ) -> tuple[float, Array, tuple[Contact, ...], Array | None]:
-    """What `plant.advance` gives, its row checked and copied, its time `until` [s] without round-off.
+    """Call `plant.advance` and check its result: the time [s], a copy of the row, contacts, and the row after
+    them.
 
-    Raises InputError for what breaks the contract.
+    A time within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract.
     """
     moved = plant.advance(t, row, u, load, until)
     if type(moved) is not Moved or type(moved.contacts) is not tuple:

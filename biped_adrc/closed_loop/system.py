@@ -47,7 +47,7 @@ RUNAWAY_RATE = 50.0
 
 
 class Bounds(NamedTuple):
-    """Of angles, rates and torques."""
+    """The largest angles, rates and torques that a run may have."""
 
     farthest: float
     """Angle of a joint or of the pitch [rad]; infinite for none."""
@@ -196,7 +196,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return HeldParts.of(n, p, time, self.sensors, self.motors, self.own, self.touchdown)
 
     def __getstate__(self) -> dict[str, object]:
-        """Without what is made again where it is needed."""
+        """The fields without cached values, which another process computes again where it needs them."""
         return {name: value for name, value in vars(self).items() if name not in MADE_AGAIN}
 
     @property
@@ -243,7 +243,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
-        """What x (nx,) is made of, found once from the controller's state at a start in its (q, v)."""
+        """The layout of x (nx,), found once by starting the controller at the (q, v) in x."""
         layout: Layout | None = vars(self).get("layout")
         if layout is None:
             n, mode = self.plant.n, Mode()
@@ -281,7 +281,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
+        """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
         Raises InputError for sensors that show something else, NotFiniteError for NaN or infinity.
         """

@@ -56,7 +56,7 @@ def _like(kind: Any, parts: list[Any]) -> Any:
 
 
 class Layout(NamedTuple):
-    """What a tree is made of, without its numbers."""
+    """The classes and shapes of a tree without its numbers, and the order in which `flatten` has these."""
 
     kind: type | None
     """Class of a tuple or of None; None for an array or a number."""

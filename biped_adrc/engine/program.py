@@ -65,12 +65,12 @@ class Program(Equations):
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the code, but that of readings."""
+        """The structure that decides all code of the program except that of readings."""
         return self.layout, structure(self.numbers._replace(curve=None))
 
     @cached_property
     def machine(self) -> LoadedCode:
-        """Its functions in memory, compiled when they are asked for.
+        """The program's functions in memory, each compiled when it is asked for first.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """

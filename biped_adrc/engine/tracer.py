@@ -70,14 +70,16 @@ class _OfFloat(type):
 
 
 class Float(metaclass=_OfFloat):
-    """In place of `float`: a number stays what it is, and an array of this type holds symbols."""
+    """A stand-in for `float` in copies: Float(x) leaves a symbol as it is, and an array with this dtype holds
+    symbols.
+    """
 
     def __new__(cls, x: Any = 0.0) -> Any:
         return float(x) if isinstance(x, str) else x
 
 
 class Unchangeable(list[Any]):
-    """In place of a list that a function finds: machine code keeps nothing."""
+    """A stand-in for a list of the user's that refuses changes, since machine code could not keep them."""
 
     def _refuse(self, *_: object, **__: object) -> Any:
         raise NotCompiled("the law changes a list")
@@ -219,7 +221,7 @@ class Tracer:
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:
-        """What stands in the twin for a method, property or other member of a class."""
+        """The form for symbols of one member of a class: a method, a property, or another value as it is."""
         if isinstance(value, types.FunctionType):
             return self(inspect.unwrap(value))
         if isinstance(value, property):
@@ -291,7 +293,7 @@ def catches(code: types.CodeType) -> bool:
 
 
 def _refused(code: types.CodeType) -> Any:
-    """In place of a method that catches exceptions."""
+    """A stand-in for a method that catches exceptions, which raises when it is called."""
     name, file = code.co_qualname.replace(".<locals>", ""), Path(code.co_filename).name
 
     def refuse(*_: object, **__: object) -> Any:

@@ -100,7 +100,8 @@ def motor_torque(line: Line) -> Array:
 def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
     """Start a user's sensors and call each of their methods once; returns their state w at the start.
 
-    Raises InputError where a method returns another class or shape.
+    Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
+    shapes than those of q and v.
     """
     w = returned_tree(sensors.start(q, v), None, sensors, "start")
     returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")

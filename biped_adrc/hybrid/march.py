@@ -347,7 +347,7 @@ def left(t: float) -> float:
 
 @inner
 def keep(r: Run, t: float, x: Array, dx: Array) -> None:
-    """A node at t [s], where they are kept."""
+    """Keep a node at t [s], unless this run keeps none."""
     if r.every > 0 or r.look != 0:
         node(r, t, x, dx)
 
@@ -368,8 +368,8 @@ def nodes(r: Run, t0: float, t1: float) -> None:
 
 @inner
 def begin(r: Run, t: float, h: float) -> None:
-    """What the first step after a break at t [s], h [s] long, starts from beside x0: dx0, for ETD-RK4 y0 and
-    N0.
+    """Compute what the first step after a break at t [s], h [s] long, needs besides x0: dx0, for ETD-RK4 y0
+    and N0.
 
     After a sample instant the slope is known already (r.sloped). ETD-RK4 needs it for nodes alone.
     """
@@ -416,7 +416,7 @@ def fixed(r: Run, t: float, t1: float, last: int) -> int:
 
 @inner
 def pass_on(r: Run) -> None:
-    """The end of a step becomes the start of the next: x1, dx1 (nx,), and for ETD-RK4 y1, N1."""
+    """Make the end of a step the start of the next one: x1, dx1 (nx,), and for ETD-RK4 y1, N1."""
     copy(r.x1, r.x0, r.moving)
     copy(r.dx1, r.dx0, r.moving)
     if r.kind == ETD:
@@ -426,9 +426,10 @@ def pass_on(r: Run) -> None:
 
 @inner
 def stop(r: Run, code: int) -> int:
-    """x0 (nx,) and t at the event just found, kept as a node with its slope from the left; its code.
+    """Set x0 (nx,) and t to the event just found, and keep a node with its slope from the left; returns its
+    code.
 
-    A status, and all as before, where the state is not finite.
+    Where the state is not finite, x0 and t do not change, and the status says so.
     """
     te = r.t_event
     if not finite(r.x_e, r.nx):
@@ -443,7 +444,7 @@ def stop(r: Run, code: int) -> int:
 
 @unit
 def through(r: Run, t_next: float) -> int:
-    """From x0 at t to t_next [s], over which all is smooth; a code, 0 at t_next.
+    """March from x0 at t to t_next [s], without a break in between; returns a code, 0 at t_next.
 
     Steps are counted and their length not added up, so round-off does not grow. More than MOST_STEPS steps,
     or a step of no length, end as STEP_FAILED.
@@ -481,7 +482,7 @@ def through(r: Run, t_next: float) -> int:
 
 @inner
 def travel(r: Run) -> int:
-    """From x0 at t to the first event or t_end; a code, COMPLETED at t_end.
+    """March from x0 at t to the first event or to t_end; returns a code, COMPLETED at t_end.
 
     Each round: the sample instants that are due, then steps to the next break, a sample instant or a switching
     time of an input. x0 (nx,) and t [s] are left where it ended.

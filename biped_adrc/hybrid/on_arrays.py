@@ -221,13 +221,17 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
 
 
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
-    """What relaxes, in out (nx,): what it goes to, and `weight` [1] of what x has beyond it."""
+    """Set the numbers that relax in out (nx,) to their limit plus `weight` [1] times their distance from it in
+    x.
+    """
     at, to = r.relaxing.at, r.relaxing.to
     out[at] = x[to] + weight * (x[at] - x[to])
 
 
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """dx of what relaxes: `steep` [1/s] times what x (nx,) has beyond what it goes to."""
+    """Set the slopes of the numbers that relax to `steep` [1/s] times their distance from their limit in x
+    (nx,).
+    """
     at, to = r.relaxing.at, r.relaxing.to
     dx[at] = steep * (x[at] - x[to])
 

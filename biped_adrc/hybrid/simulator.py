@@ -112,7 +112,9 @@ def simulate(
 def run(
     system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
 ) -> Trajectory:
-    """As `simulate`, from x0 (nx,) with options as a record; a system with a mover needs no method."""
+    """Simulate a system from x0 (nx,) with options as a record; a system with a mover of its own needs no
+    method.
+    """
     label = "steps of the plant's own" if method is None else method.label
     return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
 

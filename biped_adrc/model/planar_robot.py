@@ -153,7 +153,7 @@ class PlanarRobot:
 
     @property
     def sparse(self) -> PlanarRobot:
-        """The same with a plain 0 for what is not `present`; on symbols the terms of those then vanish."""
+        """A copy with a plain 0 for each number that is not `present`: its terms vanish from expressions."""
         numbers: tuple[Any, ...] = self.K
         pairs = zip(numbers, self.present, strict=True)
         kept: list[Any] = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]

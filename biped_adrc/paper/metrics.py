@@ -72,7 +72,7 @@ def last(name: str, o: Outcome) -> float:
 
 
 def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
-    """The same at both steps."""
+    """`last` at the integration step and at half of it."""
     return at_two(partial(last, name), o)
 
 
@@ -84,12 +84,12 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
-    """Of a cycle; NaN where none was found."""
+    """The largest |multiplier| of a cycle; NaN where no cycle was found."""
     return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
 
 
 def second_multiplier(found: PoincareResult) -> float:
-    """Of a cycle."""
+    """The second largest |multiplier| of a cycle."""
     return float(np.sort(np.abs(found.orbit.multipliers))[-2])
 
 
@@ -126,7 +126,7 @@ def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
-    """What the push adds to the error under ADRC over what it adds under NPD."""
+    """Ratio of the error that the push adds under ADRC to the error that it adds under NPD."""
     return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
 
 

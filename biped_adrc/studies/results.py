@@ -99,7 +99,7 @@ class Store:
 
 
 def checksum(row: Sequence[object]) -> str:
-    """Of a row of `walks`: the first 64 bits of SHA-256, in hexadecimal digits."""
+    """Checksum of a row of `walks`: the first 64 bits of SHA-256, in hexadecimal digits."""
     return hashlib.sha256(repr(tuple(row)).encode()).hexdigest()[:16]
 
 
@@ -177,7 +177,7 @@ SUFFIXES = (".csv", ".parquet")
 
 
 class Choice(NamedTuple):
-    """What a search found for a case."""
+    """The result of a search for one case: all its candidates, and the best of them, which were walked again."""
 
     candidates: tuple[Candidate, ...]
     """All of them by number, judged on the first set of walks."""
@@ -303,7 +303,7 @@ class Results(Shown):
         return tuple(note for note, holds in notes.items() if holds)
 
     def statuses(self) -> dict[str, tuple[int, str]]:
-        """By status how many walks ended so, and what the first of them says."""
+        """For each status the number of walks that ended so, and the text of the first of them."""
         details: dict[str, list[str]] = {}
         for _, row in self.results():
             details.setdefault(str(row["status"]), []).append(str(row.get("detail") or ""))
@@ -336,7 +336,7 @@ def check_table(path: Path) -> None:
 
 
 def _name(at: Mapping[str, Any]) -> str:
-    """What a table calls the walks of a case, and of a setting of it."""
+    """Name in tables of the walks of a case, or of one setting of it."""
     case, setting = str(at.get("case", "")), str(at.get("setting", ""))
     return ", ".join(x for x in (case, "" if case and setting == "chosen" else setting) if x)
 

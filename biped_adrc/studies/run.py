@@ -112,7 +112,9 @@ def _run_of(t: Trial) -> Callable[[], BatchWalk]:
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
-    """What a step makes of each item; a row that says why an earlier step raised is handed on."""
+    """Apply one step of a study to each trial. An item that is a row already, because an earlier step raised,
+    is passed on unchanged.
+    """
     return [x if isinstance(x, dict) else _attempt(step, x) for x in items]
 
 
@@ -176,8 +178,8 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
 
 
 def counted_in(walk: Walk, limits: Limits) -> WalkRow:
-    """As `counted`, of a walk with all its nodes; what its feet did on soft ground, and when touchdowns were
-    noticed.
+    """The columns of `counted` for a walk with all its nodes, and those of feet on soft ground and of detected
+    touchdowns where the walk has them.
     """
     return {
         **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),

@@ -112,7 +112,9 @@ Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(va
 
 
 class Search(Section):
-    """What is searched, and how candidates are judged."""
+    """A search: the variables that it changes, its objective and limits, and the walks by which it judges
+    them.
+    """
 
     variables: Variables = Field(min_length=1)
     objective: Aim

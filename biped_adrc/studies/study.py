@@ -69,7 +69,9 @@ class Point(NamedTuple):
 
 
 class Study(Section):
-    """What is varied and what is not, in SI units, checked; `read_study` makes it of a file or of tables."""
+    """The parameters that a study varies and those that it does not, in SI units, checked; `read_study` makes
+    it of a file or of tables.
+    """
 
     name: str = Field(min_length=1)
     description: str = ""
@@ -111,7 +113,7 @@ class Study(Section):
                 yield f"{name} is in '{a}' and in '{b}', expected one place"
 
     def _searched(self, search: Search) -> Iterator[str]:
-        """What a search does not go with."""
+        """Iterate over the faults of a study with a search, each as a sentence; none where they fit together."""
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]
@@ -149,7 +151,7 @@ class Study(Section):
 
     @property
     def every_seed(self) -> tuple[int, ...]:
-        """Its seeds, and those of the sets of a search."""
+        """The seeds of the study, and those of the sets of a search."""
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
@@ -174,7 +176,7 @@ class Study(Section):
 
     @property
     def measure(self) -> Measure:
-        """What the table and the page show: the objective of a search, or the median of the column."""
+        """The measure that table and page show: the objective of a search, or the median of the column."""
         return Measure(column=self.column) if self.search is None else self.search.objective
 
     @property
@@ -190,7 +192,7 @@ class Study(Section):
 
     @property
     def versions(self) -> dict[str, str]:
-        """By name the versions of packages, and hashes of the files and classes, that the study's walks use.
+        """Versions of the packages, and hashes of the files and classes, that the study's walks use, by name.
 
         Raises InputError for a class that cannot be imported.
         """

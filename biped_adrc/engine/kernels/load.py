@@ -65,14 +65,16 @@ _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
 
 
 def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """As `compiled`."""
+    """Load the units of modules as functions that Python can call; `arguments` as in `compiled`."""
     at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
 
 
 def loops(files: tuple[str, ...] = FILES) -> str:
-    """All units in one text for LLVM, each under its own name, from the disk where it is there."""
+    """The text for LLVM of all units, each under its own name: read from the disk, or made by numba and kept
+    there.
+    """
     root = Path(__file__).parents[3]
     paths = [*(root / f"{name.replace('.', '/')}.py" for name in files), Path(__file__)]
     *texts, own = [path.read_text(encoding="utf-8") for path in paths]

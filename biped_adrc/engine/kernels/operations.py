@@ -108,7 +108,7 @@ def set_time(r: Run, t: float) -> None:
 
 @unit
 def load_of(r: Run) -> None:
-    """As `disturb`, at the time in `inp`."""
+    """load = sum over the disturbance's terms of (zeta, force), at the time and (q, v) that `inp` has already."""
     size, K = r.n + 2, r.push
     for i in range(size):
         r.load[i] = 0.0
@@ -147,7 +147,9 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
 
 @inner
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
-    """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
+    """Set the torques of lagging motors in out (nx,) to the command plus `weight` [1] times their distance
+    from it in x.
+    """
     # the last p numbers of x are `hardware.motors.Line.u`, as it is the last field: one behind it would be
     # read here
     for i in range(r.p):
@@ -157,7 +159,7 @@ def relax(r: Run, x: Array, weight: float, out: Array) -> None:
 
 @inner
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """dx of lagging torques: `steep` [1/s] times what x (nx,) has beyond what is asked."""
+    """Set the slopes of lagging torques to `steep` [1/s] times their distance from the command in x (nx,)."""
     for i in range(r.p):
         dx[r.lags + i] = steep * (x[r.lags + i] - x[r.nx - r.p + i])
 
@@ -284,7 +286,7 @@ at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 @inner
 def clock_start(r: Run) -> float:
-    """Where the clock of this arc began [s]."""
+    """Time [s] at which the clock of the sample instants began that counts in this arc."""
     return r.t_arc if r.restart == 1 else r.t_first
 
 
