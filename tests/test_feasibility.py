@@ -139,7 +139,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
         ("impulse_ratio", "impulse"),
     ],
 )
-def test_each_number_that_is_none_is_a_reason_of_its_own(walker, number, reason):
+def test_nan_in_a_number_is_infeasible_and_the_reason_names_the_number(walker, number, reason):
     t = grid()
     good = judged(walker, t, np.full(len(t), WEIGHT))
     assert good.infeasible() == {}

@@ -90,7 +90,7 @@ def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
 
 def _finite(after: Array, J: Array) -> tuple[Array, Array]:
-    """Both. Raises NotFiniteError for NaN or infinity."""
+    """Check that x+ and J are finite, and return them. Raises NotFiniteError."""
     if not (np.all(np.isfinite(after)) and np.all(np.isfinite(J))):
         raise NotFiniteError("the derivative of a tick is not finite at this state of the gait")
     return after, J

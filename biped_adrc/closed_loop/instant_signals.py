@@ -143,7 +143,7 @@ def node_layout(p: int) -> Layout:
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """The reading at (t, x); arguments as of `signals_at`."""
+    """Compute the `StepReading` at (t, x); arguments as in `signals_at`."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p
     return StepReading(

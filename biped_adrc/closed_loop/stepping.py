@@ -110,8 +110,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
-        """A run from x0 (nx,); what happens on the way is in the status. Raises InputError for a
-        start that is none.
+        """Run the loop from x0 (nx,); the status of the result says how it ended. Raises InputError for an x0
+        that does not fit the loop.
         """
         mode = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, mode)
@@ -161,7 +161,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def move(
         self, t: float, x: Array, mode: Mode, until: float, record: Stretches
     ) -> tuple[float, Array, FoundEvent | None]:
-        """One stretch from x (nx,) at t [s] to `until` [s] or to a contact, as `hybrid.system.Mover`.
+        """Move from x (nx,) at t [s] to `until` [s] or to the first contact, for `hybrid.system.Mover`.
 
         Its end is recorded unless the state there is not finite (NotFiniteError) or beyond the bounds
         (RanAwayError).
@@ -206,7 +206,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """On stance and swing foot [N], as the plant says (`closed_loop.feet`)."""
+        """Forces of the ground on stance and swing foot [N], as the plant computes them (`closed_loop.feet`)."""
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
         forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
@@ -237,7 +237,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
 
 def check_swap(plant: SteppingPlant) -> None:
-    """Raise InputError for a relabelling that is none of p motors."""
+    """Raise InputError where `swap` of a plant does not relabel p motors."""
     swap = np.asarray(plant.swap)
     if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
@@ -323,10 +323,11 @@ class Stretches(Record):
         self.rows.append(row)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """Both ends of every stretch as one arc; of one that failed, its start.
+        """Join the stretches from tick to tick into one arc, whose nodes are both ends of each stretch.
 
-        Read are the motors' torque (p,) and zeta (n,) [N m]. Slopes of the rates are their differences, since
-        the plant does not give q''.
+        A stretch that failed has its start alone. The arc also has the motors' torque (p,) and zeta (n,) [N m]
+        at its nodes. The slope of the rates over a stretch is their difference by its duration, as the plant
+        does not compute q''.
         """
         if not self.rows:
             return super().arc(mode, event)

@@ -79,7 +79,7 @@ class Bounds(NamedTuple):
         )
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""
+        """Return u (p,) [N m] unchanged, or raise RanAwayError where it is beyond `strongest`."""
         # one product tests all of them, at every sample
         if u.dot(u) > self.strongest**2 and np.max(np.abs(u)) > self.strongest:
             raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
@@ -358,7 +358,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
 
 def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
-    """Raise InputError where a controller cannot be told of touchdowns by a part of its own."""
+    """Raise InputError where timing or model do not allow that a controller detects touchdowns itself."""
     if not isinstance(timing, SampledTime) or timing.restart:
         raise InputError(
             f"touchdowns are noticed at ticks of a clock that knows none of them, found {timing}; give "

@@ -132,11 +132,11 @@ class Controller(Part):
         return s
 
     def correct(self, s: Any, m: Measurement) -> Any:
-        """In sampled time: s corrected by the measurement of this sample instant."""
+        """Correct s by the measurement of this sample instant; sampled time only."""
         return s
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
-        """In sampled time: s at the next sample instant, under the applied torque u (p,) [N m]."""
+        """Predict s at the next sample instant, under the applied torque u (p,) [N m]; sampled time only."""
         return s
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:

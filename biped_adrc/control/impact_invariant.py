@@ -133,6 +133,6 @@ class ImpactInvariant(ContactWindow):
         return m._replace(impulse=impulse_response(m.terms.D, body, J))
 
     def near(self, m: Measurement, projected: Any, other: Any) -> Any:
-        """`projected` within T of a touchdown, else `other`."""
+        """Choose `projected` while a touchdown is less than T away, else `other`; both may be trees."""
         soon = chosen(self.expected(m), projected, other)
         return chosen(self.landed(m), projected, soon)

@@ -170,7 +170,7 @@ class CompiledBiped(Biped):
         return cast(Array, self._called("acceleration", q, v, force))
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
+        """Force of the ground on the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
         return cast(Array, self._called("ground_reaction", q, v, a))
 
 

@@ -130,7 +130,7 @@ class SymbolicLoop(NamedTuple):
         return semantics.on_stance_foot(self, self.force, t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself, kept for `lost`."""
+        """Return u (p,) [N m] unchanged, and remember it for `lost`, which tests all torques."""
         self.torques.extend(u)
         return u
 

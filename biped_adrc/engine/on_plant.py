@@ -94,14 +94,14 @@ class CompiledLoop(SteppingLoop):
 
     @cached_property
     def sample(self) -> Call:
-        """The function `tick` of the program, with room for what it is given."""
+        """The function `tick` of the program, with memory for its inputs."""
         assert self.program is not None
         code, nx = self.program.machine, self.program.nx
         return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after the sample instant at t [s]; Python says what is wrong with numbers that are not
-        finite.
+        """x (nx,) after the sample instant at t [s]. Where it is not finite, Python repeats the tick for its
+        error.
         """
         if self.program is None:
             return super().tick(t, x, mode)

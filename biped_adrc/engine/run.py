@@ -170,7 +170,8 @@ def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
-    """The detail of a run, with what Python says of its next steps where compiled code lost its numbers.
+    """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
+    Python.
 
     Machine code gives NaN without a name; the methods in Python name the class that gave it.
     """

@@ -104,7 +104,7 @@ class CompiledWalk:
 
     @property
     def at(self) -> At:
-        """Where it is."""
+        """Walker, time [s], state and mode of the walk now."""
         run = self.run
         return self.compiled.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
 
@@ -113,7 +113,7 @@ class CompiledWalk:
         return replace(self, run=self.run.copy())
 
     def law(self, view: Reading) -> int:
-        """Address of machine code for what `view` says."""
+        """Address of the machine code of `view`."""
         return self.compiled.program.reading(view).addresses["reading"]
 
 

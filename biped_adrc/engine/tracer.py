@@ -1,8 +1,9 @@
-"""Methods and functions that run on symbols: NumPy, math and the linear solves are replaced by their twins.
+"""Copies of laws that run on symbols in place of numbers, which is how the compiler gets their expressions.
 
-`Tracer` copies a function and every function that it reaches, and makes twins of parts, whose methods are such
-copies; `run` calls the copy and says in which function an error arose. The symbols themselves are in
-`engine.symbols`.
+A law is written for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the
+copies the names of NumPy's, math's and `linear`'s functions lead to twins that take symbols. Of a controller or
+another part (a dataclass of `core.part`) it makes a twin, whose methods are such copies. `run` calls a copy and
+says in which function an error arose. The symbols themselves are in `engine.symbols`.
 """
 
 from __future__ import annotations
@@ -96,7 +97,7 @@ class Tracer:
     """Copies of functions for symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
-        """The replacements, by identity of what methods name: NumPy, math, two functions of `linear`."""
+        """Make the table of replacements for functions of NumPy, math and `linear`."""
         self.solver, random = Solver(), Hidden("random numbers")
         scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
         numpy = {
@@ -135,9 +136,9 @@ class Tracer:
         self._twins: dict[type, type] = {}
 
     def __call__(self, f: Any) -> Any:
-        """The function for symbols, with every function that it reaches; what is no Python function stays as it
-        is, and so does one that is defined inside a copy or is for symbols anyhow.
+        """Copy a function, and every function that it reaches, for symbols.
 
+        Builtins, functions of the engine and those that a copy defines inside itself are returned unchanged.
         A copy shares the code object and has its own globals and closure, in which names are replaced; in a
         method that says `super()`, `__class__` is the twin. Copies are remembered before their names are
         replaced, so functions that call each other end.
@@ -259,7 +260,9 @@ class Located(NotCompiled):
 
 @contextmanager
 def located(f: object) -> Iterator[None]:
-    """Raise Located in place of any error, whatever NumPy says of an object that is no float."""
+    """Context that turns each error, such as NumPy's about objects that are no floats, into a Located with its
+    place.
+    """
     try:
         yield
     except Located:

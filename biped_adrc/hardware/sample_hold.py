@@ -62,7 +62,9 @@ class HeldParts(NamedTuple):
         own: int,
         touchdown: Touchdown | None,
     ) -> HeldParts:
-        """For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue."""
+        """Prepare sensors and motors for n coordinates, p motors and the ticks of `timing`, whose delay makes
+        the queue.
+        """
         motors = IDEAL if motors is None else motors
         sampled = None if sensors is None else sensors.sampled(n, p, timing.period)
         line, fraction = line_at_rest(p, motors.lag, timing.delay, timing.period)

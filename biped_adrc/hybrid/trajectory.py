@@ -113,7 +113,7 @@ class Record:
             self.read.setdefault(name, []).append(rows)
 
     def arc(self, mode: Any, event: Event | None) -> Arc:
-        """All nodes as one arc that ran in `mode` and ended in `event`."""
+        """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`."""
         read = {name: np.vstack(rows) for name, rows in self.read.items()}
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 

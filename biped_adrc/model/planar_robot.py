@@ -148,7 +148,7 @@ class PlanarRobot:
 
     @derived
     def present(self) -> tuple[NDArray[np.bool_], ...]:
-        """For each of K, which entries are different from zero (arrays of bool)."""
+        """For each number or array in K, arrays of bool that say which entries differ from zero."""
         return tuple(np.asarray(x) != 0.0 for x in self.K)
 
     @property

@@ -190,7 +190,7 @@ def periods(found: Mapping[str, float]) -> float:
 
 # -- what of (name, scenario) a verdict may depend on ------------------------------------------------
 def theta_of(name: str, o: MemberOutcome) -> str:
-    """The choice of Theta'' of a member, the one cause of what is left under ADRC."""
+    """The choice of Theta'' of a member: it alone causes the error that remains under ADRC."""
     return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
 
 
@@ -260,7 +260,7 @@ def torso(r: Runs) -> dict[str, Pair]:
 
 
 def lost_by_npd(r: Runs) -> dict[str, PushCell]:
-    """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
+    """The pushes of the map under which NPD does not make its steps, without those with a marginal outcome."""
     cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c

@@ -228,7 +228,7 @@ class PushCell(NamedTuple):
         return "marginal" not in map(word_of, (self.npd, self.adrc))
 
     def row(self) -> dict[str, object]:
-        """In plain values, for the figure and the summary."""
+        """The cell as a dictionary of plain values, for the figure and the summary."""
         result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility

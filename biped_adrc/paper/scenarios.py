@@ -230,7 +230,7 @@ class Member:
 
     @property
     def name(self) -> str:
-        """For a reader."""
+        """Name of the member for a reader."""
         gait = "" if self.gait == "published" else f"gait '{self.gait}', "
         return (
             f"{gait}{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from "

@@ -137,7 +137,7 @@ def of_needs(r: Runs) -> dict[str, object]:
 
 
 def of_starts(r: Runs) -> dict[str, object]:
-    """Which starts walk on."""
+    """Values about the starts from which the robot goes on walking."""
     every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]

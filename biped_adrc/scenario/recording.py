@@ -186,7 +186,7 @@ class Walk(Shown):
 
     @property
     def soft(self) -> bool:
-        """Whether it was made on another plant than the rigid one, with contact that takes time."""
+        """Whether the walk ran on a plant with soft contact, in which a double support takes time."""
         return "plant" in self.trajectory.settings
 
     @cached_property

@@ -130,7 +130,7 @@ class Stepper:
 
     @property
     def sample(self) -> Sample:
-        """Where the walks are."""
+        """Time, step and state of each walk now."""
         rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
         return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
 

@@ -128,7 +128,9 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
-    """Write the tables into an empty file; what is wrong with a file of something else, or empty."""
+    """Write the tables into an empty file; returns what is wrong with a file of another kind, else an empty
+    text.
+    """
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
     tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
     if not mark and not tables:

@@ -65,7 +65,7 @@ _PREPARING = Lock()
 def rows_of(
     function: Function, records: Sequence[Record], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
-    """For each record its row as JSON, and the row's status. Called in a worker.
+    """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
     folders: in which modules of the user's lie, by name (`registry.FOLDERS` of who calls).
     Where the function raises on a chunk it is called again with one record at a time; a record on which it
@@ -83,7 +83,8 @@ def rows_of(
 
 
 def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
-    """A row for each trial, in their order: the function that workers run. aside: with the column `rounding`.
+    """Walk the trials, and return a row for each in their order. aside: whether rows have the column
+    `rounding`.
 
     All trials take a step before the first one takes the next, as many as memory holds well: so a processor
     finds the code of a step in its cache, and takes a fifth less time than trial by trial.

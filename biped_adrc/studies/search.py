@@ -89,7 +89,9 @@ class Variable(Section):
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
-        """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
+        """Whether the variable has an effect beside these values of a scenario; free: names that may have any
+        value.
+        """
         return all(
             name in free or values.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
@@ -202,7 +204,7 @@ class Candidate(NamedTuple):
 
     @property
     def feasible(self) -> bool:
-        """Whether it was walked and keeps all limits."""
+        """Whether the candidate was walked and keeps all limits."""
         return self.walked and not any(self.missed)
 
 
@@ -220,7 +222,7 @@ WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 
 
 def optuna_library() -> Any:
-    """Optuna, which says warnings alone. Raises InputError where it or cmaes is missing."""
+    """Import Optuna, and let it print warnings only. Raises InputError where it or cmaes is missing."""
     with optional("study", "a search needs Optuna and cmaes, which are not installed"):
         import cmaes  # noqa: F401
         import optuna

@@ -47,7 +47,7 @@ LONGEST = 100
 
 
 def located(**names: object) -> dict[str, Any]:
-    """Names that locate a walk beside what is varied, but for empty ones.
+    """The names that tell a walk from others with the same values, without those that are empty.
 
     case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
     "before" (the case as it was).
@@ -141,7 +141,7 @@ class Study(Section):
         return self.count_of(frozenset())
 
     def count_of(self, undrawn: Undrawn) -> int:
-        """The number of its walks; of a search what it walks at most, but for candidates that no walk needs."""
+        """The number of walks of a study; for a search the largest number that it may need."""
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
@@ -305,7 +305,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
 
 
 def _problem(error: Any) -> str:
-    """One thing that is wrong in a file; an unknown key with the nearest ones."""
+    """Sentence on one fault of a file; for an unknown key it names the nearest known ones."""
     if error["type"] != "extra_forbidden":
         return problem(error)
     inside = (Search, WalkSets, Variable, Aim, Limit)

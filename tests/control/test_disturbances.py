@@ -222,7 +222,7 @@ def test_noise_repeats_by_its_seed_only():
 @pytest.mark.parametrize(
     "ground", [(StepUp(2, 0.01), StepDown(3, 0.01)), uneven_ground(2, 4e-3, 4)]
 )
-def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground):
+def test_the_foot_strikes_at_the_height_of_the_ground_below_it(bare, published, ground):
     law = ba.ReferenceReset(ba.NPDController(continued(published.constraint)))
     walker = ba.Walker(bare, law, ground_steps=ground)
     walk = ba.walk(walker, published, 5, ba.RK4(2e-3))

@@ -105,7 +105,7 @@ def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) ->
     assert frugal.certificate.cost_of_transport < 0.9 * level.certificate.cost_of_transport
 
 
-def test_through_x_star_it_is_the_gait_of_the_other_optimiser() -> None:
+def test_the_gait_through_x_star_is_that_of_the_other_optimiser() -> None:
     """Gauss-Newton on weighted residuals found the stored gait; the minimum is flat there."""
     biped = Biped.load("rabbit", "identified")
     q, v = onto_section(biped, X_STAR[:5]), np.array(X_STAR[5:])

@@ -138,7 +138,7 @@ def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
         (lambda records: sys.exit(3), "SystemExit: 3"),
     ],
 )
-def test_rows_that_are_none_have_the_reason(tmp_path, function, message):
+def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, message):
     found = plants.carried(plants.ROWS, tmp_path, function)
     ((status, (count, detail)),) = found.statuses().items()
     assert (status, count) == ("RAISED", 60)

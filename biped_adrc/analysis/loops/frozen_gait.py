@@ -205,8 +205,8 @@ def _acting(tick: TickMatrices) -> TickMatrices:
 
 
 def _released(layout: Layout, J: Array) -> Array:
-    """J (nx, nx) after the torque that waits for a part of the period has begun to
-    act, as `semantics.release`.
+    """J (nx, nx) at the later instant at which the waiting torque begins to act: its rows move as
+    `semantics.release` moves the numbers of x.
     """
     # `release` moves numbers and computes nothing, so its derivative moves the same rows
     u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))

@@ -44,7 +44,7 @@ ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re
 
 
 def kernels() -> Any:
-    """The march by the names of its units, `compiled`."""
+    """The functions of the compiled march that Python calls, by name: `stride`, `samples` and `looks`."""
     return compiled(FILES, stride=3, samples=7, looks=5)
 
 

@@ -85,7 +85,7 @@ def broken(r: Run) -> int:
 
 @inner
 def note(r: Run, out: Array, pivot: float) -> None:
-    """Make a function's result NaN where its last output says that it means nothing, and note the status."""
+    """Make a function's result NaN where its last output, `pivot`, is not positive, and note the status."""
     if pivot <= 0.0:
         r.lost = SINGULAR if pivot == 0.0 else RAN_AWAY
         out[0] = math.nan
@@ -120,8 +120,8 @@ def load_of(r: Run) -> None:
 
 @inner
 def disturb(r: Run, t: float) -> None:
-    """load: zeta (n,) [N m] and force from outside (2,) [N], the sum over the disturbance's terms at t [s] with
-    (q, v) in `inp`.
+    """load = sum over the disturbance's terms of zeta (n,) [N m] and force (2,) [N], at t [s]; (q, v) are in
+    `inp`.
     """
     set_time(r, t)
     if r.n_parts > 0:
@@ -262,7 +262,7 @@ def lower(r: Run) -> None:
 
 @unit
 def node(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Keep the next row of `nodes` at t [s]: of x and dx (nx,), or what `look` says."""
+    """Write the next row of `nodes` at t [s]: x and dx (nx,), or the result of the function `look`."""
     nx, row = r.nx, shift(r.nodes, r.count * r.width)
     row[0] = t
     if r.look == 0:
