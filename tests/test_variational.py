@@ -167,7 +167,7 @@ def directional(P, s, w, d):
     return (P(s + d * w) - P(s - d * w)) / (2.0 * d)
 
 
-def test_torque_limit(biped):
+def test_the_derivative_under_a_saturated_torque_is_that_by_differences(biped):
     """Saturated for a part of the step; the flow stays continuous there, so that nothing jumps.
 
     Differences have to be narrow here: wide ones move the corner over the stages of the method.

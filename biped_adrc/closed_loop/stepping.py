@@ -206,7 +206,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Forces of the ground on stance and swing foot [N], as the plant computes them (`closed_loop.feet`)."""
+        """Forces of the ground on stance and swing foot [N], as the plant has them (`closed_loop.feet`)."""
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
         forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])

@@ -1,6 +1,7 @@
-"""A run on NumPy arrays, and the operations that `hybrid.march` has on it: any `HybridSystem`, in Python.
+"""The operations of the march in Python: `hybrid.march` calls them to run any `HybridSystem` on NumPy arrays.
 
-Arrays that go to methods of the system are copies, since the march writes into its own.
+`Run` has the state of one arc and the work arrays of the march; the functions below it evaluate the system, add
+vectors, and look for breaks. Methods of the system get copies of arrays, since the march writes into its own.
 """
 
 from __future__ import annotations

@@ -184,7 +184,10 @@ FAILURES: Mapping[Status, type[Exception]] = {
 
 
 def status_of(error: Exception) -> tuple[Status, str]:
-    """How a run ends in which a part raises this, and the sentence. Raises the error where no part did."""
+    """The status and the sentence with which a run ends when a controller or another part raises `error`.
+
+    Raises the error again where it did not come from a part.
+    """
     for status, kind in FAILURES.items():
         if isinstance(error, kind):
             return status, str(error)

@@ -70,7 +70,7 @@ class Arc(Shown):
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
     def thinned(self, apart: float) -> Arc:
-        """A copy of the arc with nodes at least `apart` [s] apart; it keeps the ends and both sides of jumps."""
+        """A copy of the arc with nodes at least `apart` [s] apart; ends and both sides of jumps stay."""
         same = np.diff(self.t) == 0.0
         keep = np.append(same, True) | np.concatenate(([True], same))
         last = self.t[0]

@@ -166,7 +166,7 @@ class Walk(Shown):
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
-        """A certificate of each finished step: friction, torque, clearance and energy that a real robot needs."""
+        """A certificate of each finished step: friction, torque, clearance and energy that it needs."""
         return self.certified()
 
     @property

@@ -179,7 +179,7 @@ SUFFIXES = (".csv", ".parquet")
 
 
 class Choice(NamedTuple):
-    """The result of a search for one case: all its candidates, and the best of them, which were walked again."""
+    """The result of a search for one case: all candidates, and the best of them, walked again."""
 
     candidates: tuple[Candidate, ...]
     """All of them by number, judged on the first set of walks."""

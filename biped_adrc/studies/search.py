@@ -138,7 +138,7 @@ class Search(Section):
         return (self.objective, *self.limits)
 
     def count(self, sets: Mapping[str, int]) -> int:
-        """Walks of one case at most. sets: walks of a candidate, by name of the set."""
+        """Largest number of walks of one case. sets: name of a set -> walks of one candidate in it."""
         again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
         return self.budget * sets["search"] + again
 

@@ -113,7 +113,7 @@ class Study(Section):
                 yield f"{name} is in '{a}' and in '{b}', expected one place"
 
     def _searched(self, search: Search) -> Iterator[str]:
-        """Iterate over the faults of a study with a search, each as a sentence; none where they fit together."""
+        """Iterate over the faults of a study with a search, each as a sentence; none for a right one."""
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]

@@ -200,7 +200,7 @@ def test_a_hold_longer_than_a_step_is_the_law_of_the_model(biped, gait, h):
 
 
 # -- what is refused, and by name ----------------------------------------------------------------------
-def test_what_does_not_fit_is_refused(biped, gait, h):
+def test_wrong_inner_controllers_and_values_are_refused(biped, gait, h):
     for make in (
         lambda: ImpactInvariant(ba.Passive()),
         lambda: ImpactInvariant(ba.NPDController(h), innovation=True),

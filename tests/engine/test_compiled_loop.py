@@ -70,7 +70,7 @@ def test_the_same_walk_whatever_is_between(plant, gait, name):
     same(python, compiled, 1e-6)
 
 
-def test_over_a_touchdown(plant, gait):
+def test_both_engines_make_the_same_walk_over_a_touchdown(plant, gait):
     python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
     assert [event.guard for event in compiled.events()] == ["foot_strike"]
     same(python, compiled, 1e-6)
@@ -117,7 +117,7 @@ ENDS = {
 
 
 @pytest.mark.parametrize("name", ENDS)
-def test_the_same_ends(plant, gait, name):
+def test_both_engines_end_a_walk_with_the_same_status(plant, gait, name):
     controller, more, t_end, change, status = ENDS[name]
     controller = controller or ba.NPDController(gait.constraint)
     python, compiled = both(plant, gait, controller, t_end, change, **more)

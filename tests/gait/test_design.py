@@ -155,7 +155,7 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
 
 
 # -- bad input -------------------------------------------------------------------------------------
-def test_what_stands_in_the_way_is_named() -> None:
+def test_a_design_without_solution_names_the_limit_that_has_to_give() -> None:
     weak = StepLimits(torque=8.0, clearance=None)
     with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):
         design_gait("three_link", 0.9, 0.6, limits=weak)

@@ -105,7 +105,7 @@ def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
     assert marked.exists()
 
 
-def test_workers_that_die_now_and_then_do_not_end_it(tmp_path, monkeypatch):
+def test_workers_that_die_now_and_then_do_not_end_the_study(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
     cases = {x: {"controller.x": x, "controller.of": 0} for x in "ab"}
     base = {"controller.pause": 0.0, "controller.kill": 5}

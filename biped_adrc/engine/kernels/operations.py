@@ -108,7 +108,7 @@ def set_time(r: Run, t: float) -> None:
 
 @unit
 def load_of(r: Run) -> None:
-    """load = sum over the disturbance's terms of (zeta, force), at the time and (q, v) that `inp` has already."""
+    """load = sum over the disturbance's terms of (zeta, force), at the time and (q, v) in `inp`."""
     size, K = r.n + 2, r.push
     for i in range(size):
         r.load[i] = 0.0

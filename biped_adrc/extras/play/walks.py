@@ -277,8 +277,8 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
 def structure_numbers(
     walk: PageWalk, web: WebWalker, found: Mapping[str, tuple[Slider, dict[str, Form]]]
 ) -> dict[str, Any]:
-    """The numbers of one structure: its block, clock, limits of ground and motors, and the
-    indices of hand and sliders.
+    """The numbers of one walk for the page: the memory block of its run, clock, limits of ground and motors,
+    and the indices in the block of the numbers that the mouse and the sliders change.
     """
     s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
     if FRICTION in found:
