@@ -169,7 +169,7 @@ def change(i: str, j: str, figures: Sequence[float]) -> float:
 
 
 def figure(i: str, figures: Sequence[float]) -> float:
-    """|figure i|."""
+    """Absolute value of the i-th of the figures that the paper prints for a claim."""
     return abs(figures[int(i)])
 
 

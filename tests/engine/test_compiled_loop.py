@@ -78,7 +78,7 @@ def test_both_engines_make_the_same_walk_over_a_touchdown(plant, gait):
 
 @dataclass(frozen=True)
 class Written(ba.Controller):
-    """u = -K_d q_b' as a method, not a number from `lost` on."""
+    """u = -K_d q_b', and NaN from `lost` [s] on; the branch on time has no machine code."""
 
     lost: float = np.inf
 
@@ -86,7 +86,7 @@ class Written(ba.Controller):
         return np.full(4, np.nan) if m.t >= self.lost else -5.0 * m.v_b
 
 
-def test_a_controller_without_laws_runs_in_python_on_a_compiled_model(plant, gait):
+def test_a_controller_that_branches_on_time_runs_in_python_on_a_compiled_model(plant, gait):
     python, compiled = both(plant, gait, Written(), 0.05, disturbance=PUSH)
     assert compiled.settings["engine"] == "compiled model"
     assert "Written" in compiled.settings["why"]

@@ -94,12 +94,12 @@ def source(text: str, files: tuple[str, ...]) -> str:
     # `from hybrid.on_arrays import *`, if it stayed, would put Python's operations in place of the compiled
     # ones of the same names. `__future__` has to stand first, where it is put back.
     left_out = ("__future__", *files, "biped_adrc.hybrid.on_arrays")
-    kept = [
+    statements = [
         statement
         for statement in ast.parse(text).body
         if not (isinstance(statement, ast.ImportFrom) and statement.module in left_out)
     ]
-    return "from __future__ import annotations\n" + ast.unparse(ast.Module(kept, []))
+    return "from __future__ import annotations\n" + ast.unparse(ast.Module(statements, []))
 
 
 def _written(text: str) -> str:
@@ -114,12 +114,12 @@ def _written(text: str) -> str:
     exec(compile(text, module.__name__, "exec"), vars(module))
     names, linked = dict[str, str](), None
     for name, (symbol, signature, function) in module.UNITS.items():
-        made: Any = cfunc(signature, error_model="numpy")(function)
+        callback: Any = cfunc(signature, error_model="numpy")(function)
         # while it compiles a unit that calls this one, numba links it, by this name
-        binding.add_symbol(symbol, made.address)
-        names |= {symbol: name, made.native_name: name}
+        binding.add_symbol(symbol, callback.address)
+        names |= {symbol: name, callback.native_name: name}
         # without numba's target the text serves this processor and WebAssembly alike
-        part = re.sub(r"^target .*$", "", made.inspect_llvm(), flags=re.MULTILINE)
+        part = re.sub(r"^target .*$", "", callback.inspect_llvm(), flags=re.MULTILINE)
         # numba's names count the functions of a process; another process finds a unit by its own name
         for theirs, ours in names.items():
             part = re.sub(rf'@"?{re.escape(theirs)}"?\(', f"@{ours}(", part)
@@ -131,7 +131,7 @@ def _written(text: str) -> str:
         else:
             linked.link_in(one)
     # numba_nextafter is in numba's library, which is not loaded where the text is on disk; C's gives the same
-    found = re.sub("numba_nextafter", "nextafter", str(linked))
+    llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
-    found = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", found)
-    return f"{found}\ndeclare void @llvm.trap()\n"
+    llvm = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
+    return f"{llvm}\ndeclare void @llvm.trap()\n"

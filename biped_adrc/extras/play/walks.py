@@ -147,8 +147,8 @@ class PageWalk:
         return np.nan_to_num(result)  # whole numbers that are no floats
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
-        """The sliders of the walk, without that of the delay: name -> the slider, and the
-        forms of its numbers by name.
+        """The sliders of the walk, without that of the delay, by name: each with the numbers that it changes,
+        and their dependence on its value (a `Form`), by name.
         """
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
