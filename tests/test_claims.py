@@ -63,7 +63,7 @@ def test_the_set_is_balanced():
         assert len(set(count.values())) == 1, (one, other)
 
 
-def test_a_member_carried_out_is_what_it_says():
+def test_the_walks_of_a_member_have_the_choices_in_its_name():
     chosen = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
     run = chosen.run("ADRC")
     assert not run.controller.solve_theta
@@ -112,7 +112,8 @@ def test_peaks_lie_between_the_nodes():
     assert pushed.away_from(usual, 0.0) == pytest.approx(1.0, abs=1e-3)
 
 
-def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
+def test_a_sparse_walk_keeps_all_nodes_of_the_push_and_of_the_support_after_it():
+    """Of later supports less than a quarter of the nodes is left, and the outcome is the same."""
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run(
         "NPD", **{"run.h": 1e-4}
     )
@@ -169,7 +170,7 @@ def test_words_count_what_is_firm_and_the_share_has_no_interval():
         (member(npd=walk(0.0)), "depends"),  # NPD does not deviate: nothing to be rejected
     ],
 )
-def test_rejection(odd, word):
+def test_verdict_on_the_claims_of_rejection_and_tracking(odd, word):
     for name in ("rejection", "tracking"):
         row = judge(name, **with_member(odd))
         assert row.word == word
@@ -219,7 +220,7 @@ def test_a_critical_phase_is_judged_over_the_map(fates, word, number):
     [(0.999, "replicated"), (1.001, "depends"), (1.0, "depends"), (math.nan, "depends")],
 )
 @pytest.mark.parametrize(("name", "gait"), [("stable", "a"), ("recipe_stable", "b")])
-def test_stability(name, gait, multiplier, word):
+def test_verdict_on_the_claims_of_stability(name, gait, multiplier, word):
     row = judge(name, cycles={f"gait ({gait}), identified, odd": cycle(multiplier)})
     assert row.word == word
     assert claim_checks([row])[1].holds == (word == "replicated")

@@ -44,7 +44,7 @@ def test_the_peak_between_nodes_is_of_fourth_order():
     assert gaps[2] < 1e-6 < 1.0 - nodes
 
 
-def test_what_is_not_finite_has_no_peak_and_no_integral():
+def test_the_peak_and_the_integral_of_a_signal_with_nan_are_infinite():
     t, y = np.linspace(0.0, 1.0, 5), np.array([0.0, 1.0, np.nan, 1.0, 0.0])
     assert largest(t, y[:, None], y[:, None]) == math.inf
     assert integrate(t, y) == math.inf
@@ -89,7 +89,7 @@ def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
 
 @pytest.mark.parametrize("limit", [1.0, 0.0, -0.1])
 @pytest.mark.parametrize("order", [-1.0, 1.0, 3.0])
-def test_the_observed_order(limit, order):
+def test_the_observed_order_is_that_of_the_error(limit, order):
     """Of a quantity whose error is (h / h_0)^order."""
     one, half, quarter = (walked(peak_error=limit + 2.0 ** (-order * k)) for k in (1, 2, 3))
     o = replace(one, half=replace(half, half=quarter))

@@ -139,7 +139,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
         ("impulse_ratio", "impulse"),
     ],
 )
-def test_each_number_that_is_none_is_a_reason_of_its_own(walker, number, reason):
+def test_nan_in_a_number_is_infeasible_and_the_reason_names_the_number(walker, number, reason):
     t = grid()
     good = judged(walker, t, np.full(len(t), WEIGHT))
     assert good.infeasible() == {}
@@ -326,11 +326,13 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
 
 # -- the first violation ---------------------------------------------------------------------------
 LATER = {"torque": 0.0, "scuffs": 0.0, "F_N": 3.75e-3, "friction": 3.6e-3}
-"""[s] until the mean over 5 ms is outside the cone; torque and depth count at once."""
+"""Delay [s] from the beginning of a violation until it is found: forces are means over 5 ms, which leave the
+friction cone later; torque and depth count at once."""
 
 
 def beginning(walker, **begins):
-    """A single support at 300 N in which each violation begins at its time [s]."""
+    """Nodes of a feasible single support, the ground pushing with 300 N, except that from its time [s] on each
+    violation named in `begins` is there: beginning(walker, torque=0.1) asks for 151 N m from 0.1 s on."""
     t = grid()
 
     def since(name, before, after):
@@ -350,17 +352,18 @@ def first_in(walker, n, finished=True):
 
 @pytest.mark.parametrize("first", LATER)
 @pytest.mark.parametrize("second", [None, *LATER])
-def test_the_earliest_of_all_is_told(walker, first, second):
+def test_of_two_violations_the_earlier_one_is_reported(walker, first, second):
+    """`first` begins at 0.1 s and `second`, if any, at 0.2 s: the report has the kind and time of `first`."""
     begins = {first: 0.1} if second is None else {second: 0.2, first: 0.1}
     found = first_in(walker, beginning(walker, **begins))
     assert found.t == pytest.approx(0.1 + LATER[first], abs=2e-4)
     assert first in found.what
 
 
-def test_none_is_none_and_a_number_that_is_none_is_one(walker):
+def test_a_feasible_support_has_no_violation_and_nan_in_a_torque_is_one(walker):
     feasible = beginning(walker)
     assert first_in(walker, feasible) is None
-    feasible.rows[7, 9] = np.nan  # a torque
+    feasible.rows[7, 9] = np.nan  # u of the second joint at node 7
     assert first_in(walker, feasible).t == feasible.at.t[7]
 
 

@@ -288,7 +288,7 @@ class Gives(NPD):
     ("case", "timing"), [("complex", "ticks"), ("None", "continuous"), ("too many", "ticks")]
 )
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_torque_that_is_none(engine, timing, case, biped, gait):
+def test_a_torque_of_a_wrong_kind_is_refused_by_class_and_method(engine, timing, case, biped, gait):
     bad, expected = BAD[case]
     walker = ba.Walker(biped, Gives(gait.constraint, still, bad, 0.01), timing=TIMINGS[timing])
     sentence = said(walker, gait, engine=engine)

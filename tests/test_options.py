@@ -152,9 +152,15 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(("name", "option"), ROWS)
-def test_an_option_is_the_argument_it_says(name, option, folder):
+def test_an_option_on_the_command_line_arrives_as_its_argument(name, option, folder):
+    """With the option's words the function gets the row's value, and without them another one.
+
+    The second half keeps the row from passing when the option does nothing.
+    """
     command = COMMANDS[name]
     row, words = command.rows[option], command.words.split()
-    assert row.of(received([*words, *shlex.split(row.words)], command.at)) == row.value
+    with_option = received([*words, *shlex.split(row.words)], command.at)
+    assert row.of(with_option) == row.value
     if row.words:
-        assert row.of(received(words, command.at)) != row.value, "the row cannot fail"
+        without = received(words, command.at)
+        assert row.of(without) != row.value, "the value is the default: give the row another one"

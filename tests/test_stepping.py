@@ -190,7 +190,7 @@ def test_a_run_goes_on_where_another_ended():
     assert np.allclose(rest.final_state, whole.final_state, rtol=1e-12, atol=1e-12)
 
 
-def test_what_does_not_fit():
+def test_plants_that_break_the_contract_are_refused():
     with pytest.raises(InputError, match="controlled at ticks, found ContinuousTime"):
         loop(timing=ba.ContinuousTime())
     with pytest.raises(InputError, match="put the lag into the plant"):

@@ -167,7 +167,7 @@ def directional(P, s, w, d):
     return (P(s + d * w) - P(s - d * w)) / (2.0 * d)
 
 
-def test_torque_limit(biped):
+def test_the_derivative_under_a_saturated_torque_is_that_by_differences(biped):
     """Saturated for a part of the step; the flow stays continuous there, so that nothing jumps.
 
     Differences have to be narrow here: wide ones move the corner over the stages of the method.
@@ -260,7 +260,7 @@ def test_recipe_gait_without_invariance(biped):
 
 
 # -- the noise of differences ----------------------------------------------------------------------
-def test_differences_are_within_their_noise_and_it_is_no_blank_cheque():
+def test_differences_are_within_their_noise_and_their_noise_is_small():
     """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred: the bound has to hold, to fall
     with the step to the tolerance, and to be seen where d is small."""
     cycle = gait_cycle(ba.Scenario("NPD", gait="v0.8"))

@@ -53,7 +53,7 @@ def test_a_ratio_just_over_the_limit(ratio, count):
 
 
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
-def test_a_fall(controller):
+def test_a_fall_breaks_a_check_of_the_nominal_walk_alone(controller):
     fallen = outcome(controller, impacts=8, x_minus=np.tile(X_STAR, (8, 1)))
     assert broken(runs={f"1 kHz {controller}": fallen})
     found = broken(runs={f"nominal identified {controller}": fallen})

@@ -78,7 +78,7 @@ def test_a_number_changed_in_the_table_is_noticed() -> None:
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_rows_hold(name: str) -> None:
+def test_each_group_of_the_verification_holds(name: str) -> None:
     check(PARTS[name]())
 
 
@@ -129,7 +129,7 @@ def row(found: float, tolerance: float | None = 0.1, **more: object) -> Row:
         (at_most("s", "q", 1.0, math.nan, "source"), "DOES NOT HOLD"),
     ],
 )
-def test_verdicts(one: Row, verdict: str) -> None:
+def test_the_verdict_of_a_row_follows_from_its_numbers(one: Row, verdict: str) -> None:
     assert one.verdict == verdict
     assert one.holds == (verdict == "holds")
     assert len(one.cells()) == len(COLUMNS)

@@ -226,7 +226,9 @@ def supports(
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
-    """By how much each single support (S,) lands off its stone [m]; 0 where it did not end in an impact."""
+    """Distance (S,) [m] from its stone at which the foot of each single support lands; 0 where it did not end
+    in an impact.
+    """
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
         lengths = n.at.reading.swing_foot[n.last, 0] / math.cos(walker.ground_slope)

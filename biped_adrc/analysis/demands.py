@@ -27,6 +27,9 @@ WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8,
 """Where each part of `ground_force.Known` begins; its joints stand behind the S numbers of FALLS."""
 
 
+# numba alone compiles this text, and Python never runs it. The imports from the kernels are left out of the
+# text that numba gets (`engine.kernels.load.source`). A vector has no length here, and an index beyond it
+# reads other memory without an error: the places above have to follow `NodeRow` and `ground_force.Known`.
 @inner
 def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -> None:
     """out (6, count): at its first column the largest torque [N m], share of a limit of rates [1] and angle
@@ -38,7 +41,7 @@ def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -
         u, q, v = row[at[U] + i], row[at[Q] + i], row[at[V] + i]
         beyond = max(limit[1] - q, q - limit[2])
         for j, x in enumerate((abs(u), abs(v) / limit[0], beyond)):
-            if x > out[j * count] or x != x:
+            if x > out[j * count] or x != x:  # NaN too, or a walk that diverged would look harmless
                 out[j * count], out[(3 + j) * count] = x, i
 
 
@@ -88,7 +91,7 @@ def demands(
                 F_x = (P_x[k] - P_x[i] - share * (P_x[i + 1] - P_x[i])) / w
                 F_z = (P_z[k] - P_z[i] - share * (P_z[i + 1] - P_z[i])) / w + weight
                 F_N[k] = F_x * normal[0] + F_z * normal[1]
-                if not F_N[k] <= 0.0:
+                if not F_N[k] <= 0.0:  # so that NaN goes on into the ratio
                     ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
             height = row[foot + 1] + tangent * row[foot] + known[FALLS + s]
             if height > 0.0:

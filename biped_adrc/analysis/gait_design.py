@@ -312,7 +312,7 @@ def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple
 
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
-    """Of the periodic step of a member: speed, step length, friction, peak torque [N m], least F_N [N]."""
+    """Compute speed, step length, friction, peak torque [N m] and least F_N [N] of a member's periodic step."""
     orbit = ZeroDynamics.of(biped, h).cycle
     F_T, F_N = orbit.ground_reaction.T
     numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)

@@ -1,6 +1,8 @@
-"""Nodes of a walk, and what they demand of the ground: the force in the mean, the impulse of an impact.
+"""The ground force that a walk needs: its mean over a window at each node, and the impulse of each impact.
 
-The mean force is that of `analysis.demands`; the impulse is the change of the robot's momentum.
+A node is an instant at which a run keeps its state. `Nodes` holds the signals there, `demands` gives the mean
+forces by the momentum of the robot (equation in `analysis.demands`), with the largest torque, rate and angle of
+the joints. The impulse of an impact is the change of the robot's momentum (`impulse_ratios`).
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from biped_adrc.model.robots.limits import ENDS
 
 @dataclass(frozen=True)
 class Nodes:
-    """The signals of a walk that feasibility depends on, at its K nodes; forces and points are (x, z)."""
+    """The signals at the K nodes of a walk that decide whether it is feasible; forces and points are (x, z)."""
 
     rows: Array
     """(K, width), a `NodeRow` in each, as in `engine.batch.BatchWalk.table`."""
@@ -74,16 +76,16 @@ class Nodes:
 
 
 class Known(NamedTuple):
-    """What the loop over nodes knows beside them, in the order of `analysis.demands`."""
+    """Constants of the loop over nodes; `analysis.demands` reads them by their place in this order."""
 
     window: float
-    """Length of the window w [s]."""
+    """Length w [s] of the window over which the ground force is averaged."""
     weight: float
     """m g [N]."""
     tangent: float
-    """Of the ground's slope."""
+    """Tangent of the ground's slope, positive where it falls ahead [1]."""
     ends: float
-    """Share of a step that is near its ends."""
+    """Share of a single support at either end in which the depth of the swing foot does not count [1]."""
     along: Array
     """Unit vector along the ground (2,)."""
     normal: Array
@@ -97,6 +99,7 @@ class Known(NamedTuple):
     [rad]."""
 
 
+# `load` joins these texts in this order: a decorator has to stand before the function that uses it.
 LOOPS = (
     *(f"biped_adrc.engine.kernels.{name}" for name in ("record", "call")),
     "biped_adrc.analysis.demands",
@@ -104,19 +107,22 @@ LOOPS = (
 
 
 def loops() -> Any:
-    """The compiled loops over nodes."""
+    """The functions `demands` and `totals` of `analysis.demands`, compiled, to be called with addresses."""
     return compiled(LOOPS, demands=9, totals=6)
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
-    """F_N [N] and |F_T| / F_N in the mean over the window [s] that ends at each node, depth of the
-    swing foot below the ground [m], largest |u_i| [N m], largest |q_i'| as a share of its limit [1], largest
-    angle beyond a range [rad]; and which joint has that torque, share and angle, from 0: (9, K).
+    """Compute what each of the K nodes of a walk demands of ground and joints: rows (9, K).
 
-    F_N is inf and the ratio -inf where no window ends, the ratio also where the ground does not push. A
-    single support shorter than the window is averaged as a whole. The ground is taken at the height of the
-    lower of the two footholds. Depth counts once the foot has been above it, since it may come from lower
-    ground, and not near the ends of a single support, but at the end of one behind the first `impacts`.
+    0, 1: F_N [N] and |F_T| / F_N of the mean ground force over the window [s] that ends at the node; 2: depth
+    of the swing foot below the ground [m]; 3, 4, 5: over the joints the largest |u_i| [N m], |q_i'| over its
+    limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three.
+
+    Where no window ends at a node, F_N is inf and the ratio -inf; the ratio is -inf too where the ground does
+    not push. A single support shorter than the window is averaged as a whole. The ground has the height of the
+    lower of the two footholds. Depth counts from the first node with the foot above it, since the foot may
+    come from lower ground, and not near the ends of a single support. The end counts where no impact follows:
+    behind the first `impacts` supports.
     """
     slope, plant = walker.ground_slope, walker.plant
     along, normal = np.array(ground_axes(slope))
@@ -125,6 +131,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     known = Known(
         window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
     )
+    # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it returns
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
     loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
@@ -132,8 +139,10 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
 
 
 def totals(n: Nodes) -> list[float]:
-    """Largest |e_i| [rad]; root mean squares of e [rad] and u [N m] over nodes and joints, a jump weighing
-    nothing; int |u_i| |dq_i| and int u_i dq_i [J], summed over motors.
+    """Five numbers of a walk: the largest |e_i| [rad]; root mean squares of e [rad] and u [N m] over nodes and
+    joints; the integrals of |u_i| |dq_i| and of u_i dq_i [J], summed over motors.
+
+    Of the two nodes at a jump only the second counts in means and integrals.
     """
     out = np.zeros(6)
     loops().totals(*n.pointers, len(n.rows), out.ctypes.data)

@@ -264,7 +264,10 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
 
 # -- on another plant ---------------------------------------------------------------------------------
 def recorded(trajectory: Trajectory, name: str) -> Array | None:
-    """Reading `name` of the feet at all K nodes of a walk (K, 4); None for a walk on the rigid plant."""
+    """A reading of the feet by its name, such as their forces, at all K nodes of a walk (K, 4).
+
+    Plants with contacts of their own record it in each arc; None for a walk on the rigid plant, which does not.
+    """
     if any(name not in arc.read for arc in trajectory.arcs):
         return None
     return np.vstack([arc.read[name] for arc in trajectory.arcs])

@@ -42,6 +42,7 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
             "the derivative of a tick was asked for, found a walker in continuous time; give "
             "timing=SampledTime(period)"
         )
+    # the tick of the walk itself on symbols: a formula of its own would be a second text of every observer
     try:
         program, nx = Program(layout, numbers_of(walker)), layout.size
         function, K = _function(program), program.K
@@ -79,7 +80,7 @@ def _function(program: Program) -> ca.Function:
 
 
 def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-    """The same by central differences of the tick in Python."""
+    """The tick in Python, with its derivative by central differences."""
     d = DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)
@@ -89,7 +90,7 @@ def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
 
 def _finite(after: Array, J: Array) -> tuple[Array, Array]:
-    """Both. Raises NotFiniteError for NaN or infinity."""
+    """Check that x+ and J are finite, and return them. Raises NotFiniteError."""
     if not (np.all(np.isfinite(after)) and np.all(np.isfinite(J))):
         raise NotFiniteError("the derivative of a tick is not finite at this state of the gait")
     return after, J

@@ -79,7 +79,7 @@ def readings(loop: SteppingLoop, arc: Arc, apart: float | None = None) -> Readin
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """The same run with `NAMES` at its nodes, so that they are stored with it."""
+    """A copy of a run that also has the signals `NAMES` at its nodes, so that they are stored with it."""
     arcs = []
     for arc in run.arcs:
         r = readings(loop, arc)

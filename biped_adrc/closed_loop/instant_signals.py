@@ -104,7 +104,7 @@ def controller_inputs(
 
 
 class StepReading(NamedTuple):
-    """What verdicts and studies read of the closed loop at one instant.
+    """The signals of the closed loop at one instant that verdicts and studies read.
 
     Another signal is a line here, with its size in `node_layout`, and a line in `step_reading`.
     """
@@ -124,7 +124,7 @@ class StepReading(NamedTuple):
 
 
 class NodeRow(NamedTuple):
-    """What a node of a walk leaves: a row of numbers, or K rows with a leading axis of K."""
+    """The numbers that are kept at one node of a walk, or at K nodes with a leading axis of K."""
 
     t: Array
     """Time [s]."""
@@ -133,7 +133,7 @@ class NodeRow(NamedTuple):
     outside: Array
     """Resultant external force (2,) [N]."""
     reading: StepReading
-    """Of the closed loop."""
+    """Signals of the closed loop."""
 
 
 def node_layout(p: int) -> Layout:
@@ -143,7 +143,7 @@ def node_layout(p: int) -> Layout:
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """The reading at (t, x); arguments as of `signals_at`."""
+    """Compute the `StepReading` at (t, x); arguments as in `signals_at`."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p
     return StepReading(

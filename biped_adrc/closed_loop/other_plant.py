@@ -38,7 +38,7 @@ def stepping_loop(
     first_step: int = 1,
     kind: type[SteppingLoop] = SteppingLoop,
 ) -> SteppingLoop:
-    """All of a walker but its plant, around another one.
+    """Make a loop of another plant with the controller, sensors and clock of a walker.
 
     A lag of its motors and steps of its ground become the plant's, a rate limit stays where it is. first_step:
     number of the first single support, by which steps of the ground are counted. Raises InputError for a

@@ -130,7 +130,9 @@ class Loop(Protocol):
         """What a state x (nx,) is made of: a `semantics.State`."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s]: `measurement`."""
+        """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s]; see
+        `semantics.measurement`.
+        """
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
@@ -152,7 +154,7 @@ class Loop(Protocol):
 
 # -- plants that move by themselves ----------------------------------------------------------------
 class Load(NamedTuple):
-    """What acts from outside at one time."""
+    """The forces that act on a plant from outside at one instant."""
 
     zeta: Array
     """Generalised force (n,) [N m] of the coordinates q, with the stance foot held."""
@@ -172,7 +174,7 @@ class Contact(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """Where a plant came to."""
+    """The result of `advance`: the time that a plant has reached, and its state there."""
 
     t: float
     """`until`, or the time of the contacts [s]."""
@@ -243,7 +245,7 @@ class LaggingPlant(SteppingPlant, Protocol):
         """Time constant [s]; 0 for none."""
 
     def lagging(self, lag: float) -> SteppingPlant:
-        """The same plant with this lag [s]."""
+        """A copy of the plant whose motors have this lag [s]."""
 
     def motor_torque(self, own: Array, u: Array) -> Array:
         """Torque on the joints (.., p) [N m] where u (.., p) is asked of the motors, in states with `own`."""
@@ -255,10 +257,10 @@ class UnevenPlant(SteppingPlant, Protocol):
 
     @property
     def ground_steps(self) -> tuple[StepDown | StepUp, ...]:
-        """Where the ground falls or rises."""
+        """The steps of the ground, up and down."""
 
     def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> SteppingPlant:
-        """The same plant on these steps; its first single support is number `first_step`."""
+        """A copy of the plant on these steps of the ground; its first single support is number `first_step`."""
 
 
 def lag_of(plant: SteppingPlant) -> float:

@@ -11,9 +11,10 @@ Delta the impact map. Relabelling exchanges the legs: q becomes R q + r, with th
 and q' becomes R q'. The controller's terms come from the nominal model, the motion from the plant, and the two
 may differ.
 
-With a part of `hardware.touchdown` the controller detects touchdowns itself. It has a belief b = (other, step,
-start, d): other is 1 while its names of the legs differ from the plant's, else 0; step is the number of
-touchdowns noticed, start the time of the last one [s], d the memory of the detector.
+A walker with a part of `hardware.touchdown` detects touchdowns itself (function `noticed`). Its belief has four
+parts, b = (other, step, start, d). other is 1 while the controller's names of the legs differ from the plant's,
+else 0; step is the single support that the controller believes in, start the time [s] at which it detected its
+beginning, d the memory of the detector.
 
     true touchdown    other <- 1 - other, and d may change; controller, sensors and motors learn nothing of it
     sample instant    sensors measure (q, q') by the controller's names: (R q + r, R q') while other is 1
@@ -47,7 +48,7 @@ from biped_adrc.model.reduction import Reduction, unknown_force
 
 
 class Instant(NamedTuple):
-    """What acts at one state: everything between the state x and its slope x'."""
+    """Measurement, torque, forces and acceleration at one state x: all that leads to its slope x'."""
 
     measurement: Measurement
     """What the controller was given; in continuous time the true q and v."""
@@ -91,7 +92,7 @@ def measurement(
     body: bool,
     terms: Reduction | None = None,
 ) -> Measurement:
-    """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
+    """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
     The nominal model's `terms` are computed here once, where they are not known, and passed on; `body` adds
     gravity and ground force for controllers that ask for them (`Controller.needs_body`). All of it is
@@ -123,6 +124,8 @@ def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array)
     Where the nominal model is the plant, D_s and Omega are in `terms` already and are not computed
     a second time. Raises SingularError for a singular D_s.
     """
+    # whether the model is the plant is structure: the `if` is decided when the code is made. On symbols
+    # `solve_positive` is `engine.symbols.solve_positive`, as LAPACK takes no symbols
     if loop.exact:
         return solve_positive(terms.D, force - terms.Omega, "D_s")
     return loop.plant.acceleration(q, v, force)
@@ -157,6 +160,7 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     line, zeta = tail.line, loop.external(t, q, v, mode)
     dx[:n] = v
     dx[n : 2 * n] = loop.plant.acceleration(q, v, applied(motor_torque(line), zeta))
+    # a slice from the names of the fields is the same for arrays and symbols, and follows when a field is added
     if line.u_m is not None:  # tau u_m' = u - u_m
         dx[loop.layout_of(x).place("tail", "line", "u_m")] = k.motors.speed * (line.u - line.u_m)
     return dx
@@ -172,7 +176,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
-    if tail.belief is not None:
+    if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
         s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
         line = labelled(loop, b, line)
@@ -295,11 +299,12 @@ def time_left(longest: float, start: float, t: float) -> float:
 def noticed(
     loop: Loop, t: float, s: Any, tail: Tail, q: Array, v: Array, mode: Mode
 ) -> tuple[Measurement, Any, Any, Belief]:
-    """What a controller is given at a sample instant t [s], in the labels that it believes in, and s, the
-    sensors' state and the belief.
+    """The measurement at a sample instant t [s] of a controller that detects touchdowns itself, and the states
+    of controller, sensors and belief after it.
 
-    It senses q (n,) [rad], v (n,) [rad/s] in its labels. Where a touchdown is noticed these turn, a rate that
-    the sensors derive from differences is relabelled, and the controller jumps; a new belief begins.
+    The sensors measure q (n,) [rad], v (n,) [rad/s] by the controller's names of the legs. Where the detector
+    fires, these names are exchanged, the sensors continue their rate as after an impact, the controller jumps,
+    and the belief counts one more step, which starts now.
     """
     k = loop.held
     assert k is not None
@@ -314,6 +319,7 @@ def noticed(
     foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
     look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
     d, fires = k.touchdown.notice(old.d, look)
+    # fires is 1.0 or 0.0, on symbols an expression: arithmetic in place of `if fires: other = 1 - other`
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires
     start = chosen(fires, t, old.start)
@@ -325,21 +331,27 @@ def noticed(
 
 
 def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
-    """q (n,) [rad], v (n,) [rad/s] with the labels of the other foot where `other` is 1, else as they are."""
+    """q (n,) [rad] and v (n,) [rad/s] with the legs exchanged where `other` is 1, else unchanged."""
     model = loop.nominal
     return chosen(other, model.relabel(q), q), chosen(other, model.R @ v, v)
 
 
 def labelled(loop: Loop, b: Belief, line: Line) -> Line:
-    """Torques of the plant's joints in the labels of a belief b, and back: the same exchange of the legs."""
+    """The torques on their way, with the legs exchanged where the belief b has them the other way round.
+
+    One exchange serves both ways: from the plant's names to the controller's, and back.
+    """
+    # both are computed and one is chosen, here and below: on symbols b.other has no value that an `if` could
+    # ask
     result: Line = chosen(b.other, line.relabelled(loop.swap), line)
     return result
 
 
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
-    """The observer's estimate of xi (p,) [rad/s^2] for the plant's joints, m the measurement in their labels.
+    """The observer's estimate of xi (p,) [rad/s^2] for the plant's joints; None without an observer.
 
-    None without an observer.
+    m: the measurement by the plant's names of the legs. A controller with a belief gets it by its own names,
+    and its estimate is exchanged back.
     """
     b = tail.belief if tail else None
     if b is None:
@@ -355,6 +367,9 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
 
 
 def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:
-    """A belief b after a true touchdown at t [s] of which the controller knows nothing."""
+    """The belief after the plant's legs have exchanged names at a touchdown at t [s] that nobody has detected.
+
+    `other` changes, since the controller keeps its names; the detector's own memory may change too.
+    """
     other = 1.0 - b.other
     return b._replace(other=other, d=touchdown.touchdown(b.d, other, t))

@@ -83,7 +83,9 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @cached_property
     def squares(self) -> tuple[float, float]:
-        """Squares of sums below which all angles, and all angles and rates, are within the bounds."""
+        """Two numbers for a quick test: all angles are within their bounds where the sum of their squares is
+        below the first, and all rates where that of the plant's whole row (q, q', own) is below the second.
+        """
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
 
     @property
@@ -108,8 +110,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
-        """A run from x0 (nx,); what happens on the way is in the status. Raises InputError for a
-        start that is none.
+        """Run the loop from x0 (nx,); the status of the result says how it ended. Raises InputError for an x0
+        that does not fit the loop.
         """
         mode = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, mode)
@@ -135,7 +137,11 @@ class SteppingLoop(ClosedLoop[Any]):
         return x
 
     def with_plant(self, x: Array, row: Array) -> Array:
-        """x (nx,) with the plant in another state, its row (2 n + k,), all else kept."""
+        """A copy of x (nx,) in which the plant has the state `row` = (q, q', own) (2 n + k,).
+
+        own are the k numbers that the plant keeps besides q and q'; controller, sensors and torques stay as in
+        x.
+        """
         x, n = x.copy(), self.plant.n
         x[: 2 * n], x[self.own_places(x)] = row[: 2 * n], row[2 * n :]
         return x
@@ -155,7 +161,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def move(
         self, t: float, x: Array, mode: Mode, until: float, record: Stretches
     ) -> tuple[float, Array, FoundEvent | None]:
-        """One stretch from x (nx,) at t [s] to `until` [s] or to a contact, as `hybrid.system.Mover`.
+        """Move from x (nx,) at t [s] to `until` [s] or to the first contact, for `hybrid.system.Mover`.
 
         Its end is recorded unless the state there is not finite (NotFiniteError) or beyond the bounds
         (RanAwayError).
@@ -176,7 +182,7 @@ class SteppingLoop(ClosedLoop[Any]):
         return end, x, self.found(end, x, mode, contacts, landed) if contacts else None
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
-        """What acts from outside in a row of the plant at t [s], read-only."""
+        """The forces from outside on the plant in the state `row` at t [s], read-only."""
         n = self.plant.n
         zeta = self.external(t, frozen(row[:n]), frozen(row[n : 2 * n]), mode)
         return frozen(Load(zeta, self.resultant(t, mode)))
@@ -200,7 +206,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """On stance and swing foot [N], as the plant says (`closed_loop.feet`)."""
+        """Forces of the ground on stance and swing foot [N], as the plant has them (`closed_loop.feet`)."""
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
         forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
@@ -231,7 +237,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
 
 def check_swap(plant: SteppingPlant) -> None:
-    """Raise InputError for a relabelling that is none of p motors."""
+    """Raise InputError where `swap` of a plant does not relabel p motors."""
     swap = np.asarray(plant.swap)
     if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
@@ -260,9 +266,10 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
 def advanced(
     plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
 ) -> tuple[float, Array, tuple[Contact, ...], Array | None]:
-    """What `plant.advance` gives, its row checked and copied, its time `until` [s] without round-off.
+    """Call `plant.advance` and check its result: the time [s], a copy of the row, contacts, and the row after
+    them.
 
-    Raises InputError for what breaks the contract.
+    A time within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract.
     """
     moved = plant.advance(t, row, u, load, until)
     if type(moved) is not Moved or type(moved.contacts) is not tuple:
@@ -316,10 +323,11 @@ class Stretches(Record):
         self.rows.append(row)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """Both ends of every stretch as one arc; of one that failed, its start.
+        """Join the stretches from tick to tick into one arc, whose nodes are both ends of each stretch.
 
-        Read are the motors' torque (p,) and zeta (n,) [N m]. Slopes of the rates are their differences, since
-        the plant does not give q''.
+        A stretch that failed has its start alone. The arc also has the motors' torque (p,) and zeta (n,) [N m]
+        at its nodes. The slope of the rates over a stretch is their difference by its duration, as the plant
+        does not compute q''.
         """
         if not self.rows:
             return super().arc(mode, event)

@@ -47,7 +47,7 @@ RUNAWAY_RATE = 50.0
 
 
 class Bounds(NamedTuple):
-    """Of angles, rates and torques."""
+    """The largest angles, rates and torques that a run may have."""
 
     farthest: float
     """Angle of a joint or of the pitch [rad]; infinite for none."""
@@ -79,7 +79,7 @@ class Bounds(NamedTuple):
         )
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""
+        """Return u (p,) [N m] unchanged, or raise RanAwayError where it is beyond `strongest`."""
         # one product tests all of them, at every sample
         if u.dot(u) > self.strongest**2 and np.max(np.abs(u)) > self.strongest:
             raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
@@ -196,7 +196,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return HeldParts.of(n, p, time, self.sensors, self.motors, self.own, self.touchdown)
 
     def __getstate__(self) -> dict[str, object]:
-        """Without what is made again where it is needed."""
+        """The fields without cached values, which another process computes again where it needs them."""
         return {name: value for name, value in vars(self).items() if name not in MADE_AGAIN}
 
     @property
@@ -243,7 +243,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
-        """What x (nx,) is made of, found once from the controller's state at a start in its (q, v)."""
+        """The layout of x (nx,), found once by starting the controller at the (q, v) in x."""
         layout: Layout | None = vars(self).get("layout")
         if layout is None:
             n, mode = self.plant.n, Mode()
@@ -281,7 +281,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """What the controller is given at t [s], q (n,) [rad], v (n,) [rad/s].
+        """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
         Raises InputError for sensors that show something else, NotFiniteError for NaN or infinity.
         """
@@ -358,7 +358,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
 
 def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
-    """Raise InputError where a controller cannot be told of touchdowns by a part of its own."""
+    """Raise InputError where timing or model do not allow that a controller detects touchdowns itself."""
     if not isinstance(timing, SampledTime) or timing.restart:
         raise InputError(
             f"touchdowns are noticed at ticks of a clock that knows none of them, found {timing}; give "

@@ -133,11 +133,11 @@ class Controller(Part):
         return s
 
     def correct(self, s: Any, m: Measurement) -> Any:
-        """In sampled time: s corrected by the measurement of this sample instant."""
+        """Correct s by the measurement of this sample instant; sampled time only."""
         return s
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
-        """In sampled time: s at the next sample instant, under the applied torque u (p,) [N m]."""
+        """Predict s at the next sample instant, under the applied torque u (p,) [N m]; sampled time only."""
         return s
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
@@ -152,11 +152,15 @@ class Controller(Part):
         return None
 
     def sampled(self, period: float) -> Controller:
-        """The same controller for ticks every `period` [s]; itself where its `predict` needs no other form."""
+        """The controller in its form for ticks every `period` [s]; the same object where its `predict` needs
+        no other form.
+        """
         return self
 
     def at_ticks(self, period: float) -> Controller:
-        """What `sampled` returns. Raises InputError for a state that flows and that nothing predicts."""
+        """Call `sampled`, and check its result. Raises InputError for a controller whose state flows in
+        continuous time, but that has no `predict` for ticks.
+        """
         law = self.sampled(period)
         check_part(law, f"what {type(self).__name__}.sampled returned", Controller)
         for part in nested(law):

@@ -1,27 +1,30 @@
-"""A filter of the torque that keeps the swing foot on its way to the stone: exponential control barriers.
+"""A filter of the torque that brings the swing foot onto the next stone: exponential control barrier functions.
 
-The foot is x(q) ahead of the stance foot, a sum of turned vectors (`model.planar`), and x_r(Theta) where the
-reference in force has it, with c q_r = Theta. The corridor is about x_c, and ends on the stone L, also where
-the reference steps to L_r:
+x(q) [m] is how far the swing foot is ahead of the stance foot, and x_r(Theta) [m] how far the reference has it
+at the same phase Theta = c q. The reference makes steps of length L_r, the stone is at L. The barriers keep x
+within tol of a path x_c that leaves the reference smoothly and ends on the stone:
 
-    b_1 = tol - e,   b_2 = tol + e,   e = x - x_c,   x_c = x_r + (L - L_r) beta(x_r / L_r)
+    x_c = x_r + (L - L_r) beta(x_r / L_r),   e = x - x_c,   b_1 = tol - e >= 0,   b_2 = tol + e >= 0
 
-beta rises from 0 where the foot passes the stance foot to 1 at the end. With q_N'' = A_N q_b'' + a_N of (12),
+beta is a polynomial that rises from 0, where the foot passes the stance foot, to 1 at the end of the step. The
+angles q_N without a motor follow the actuated ones q_b, q_N'' = A_N q_b'' + a_N of (12), so that
 
     e'' = G q_b'' + g,   q_b'' = kappa u + xi^
 
-xi^ is the estimate of the observer inside, with all in it that the model does not know; without one it is the
-model's xi. The conditions b'' + 2 lambda b' + lambda^2 b >= 0 (both poles at -lambda) bound one number:
+xi^ is the estimate of the observer inside, which contains what the model does not know; without an observer it
+is the model's xi. Each barrier has to fulfil b'' + 2 lambda b' + lambda^2 b >= 0, with both poles at -lambda.
+The two conditions together bound one number:
 
     |e'' + 2 lambda e' + lambda^2 e| <= lambda^2 tol
 
-Of all torques that keep it that one acts whose q_b'' is nearest to that of the controller inside, a, by
-|q_b'' - a|^2: its error dynamics are double integrators of the joints, which count alike whatever their
-inertia. It is a quadratic program in closed form, q_b'' = a + G' d / |G|^2, where d is what is missing to the
-nearer bound, 0 inside.
+The controller inside asks for accelerations a of the joints. The filter changes them as little as the bound
+allows: it minimises |q_b'' - a|^2, a quadratic program with the solution q_b'' = a + G' d / |G|^2. The number d
+is by how much the bound is exceeded, with the sign that leads back, and 0 within it. Accelerations are compared
+and not torques, so that light and heavy joints count alike.
 
-The bounds never exclude each other, but the limit of the torque, which is not in the program, may. An instant
-at which the torque that acts does not keep them is *infeasible*; in sampled time the state counts them.
+One torque can always keep both bounds, but it may be beyond the torque limit, which the program does not know.
+An instant at which the torque that acts does not keep them is *infeasible*; in sampled time the state counts
+such instants.
 
 Nguyen, Hereid, Grizzle, Ames, Sreenath, 3D dynamic walking on stepping stones with control barrier functions,
 CDC 2016; Nguyen, Sreenath, Exponential control barrier functions, ACC 2016.
@@ -47,7 +50,7 @@ from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.observers.base import Estimate
 
 ROUND_OFF = 1e-6
-"""Of e'' [m/s^2]: what is missing by less counts as kept."""
+"""A bound on e'' that is exceeded by less than this [m/s^2] counts as kept."""
 
 
 class FootError(NamedTuple):
@@ -64,7 +67,7 @@ class BarrierState(NamedTuple):
     """State of a `FootBarrier`."""
 
     inner: Any
-    """Of the controller inside."""
+    """State of the controller inside."""
     infeasible: float
     """Number of infeasible instants so far."""
 

@@ -1,26 +1,31 @@
-"""Near a touchdown, a feedback error without the part that an impulse of the striking foot can change.
+"""Near a touchdown, an error of the feedback without the part that an impulse on the striking foot can change.
 
-    a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)          q'+ - q'- = a F for an impulse F of the ground (2,)
-    N = change of a quantity under q' + a F            (., 2)
-    P = 1 - N (N' N)^-1 N'                             P N = 0
+An impulse F (2,) [N s] of the ground changes the rates by a F. An error y of the feedback then jumps by N F,
+for any F, and says nothing of how well the robot tracks. P removes these two directions from it:
 
-F (2,) [N s] is the foot's impulse, a (n, 2) the change of q' for each N s of it, N the change of the quantity
-that is projected; J', N' are transposes, q', e' rates, D is D_s. a follows from the impact (7) where only the
-foot with the Jacobian J strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that
-struck is then the support, and q does not contain its place. J_m is the Jacobian of m p_com, m [kg] the
-robot's mass, t_step [s] the time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a
-touchdown is less than T [s] away (field `window`),
+    q'+ - q'- = a F,     a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)
+    y+ - y- = N F,       P = 1 - N (N' N)^-1 N',       P N = 0
 
-    rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a
-    innovation   that of the observer, y - y^, is P (y - y^); N is a_b for an observer of the joints, a_b - H a
-                 for one of their error, D a for one of the momentum D q'
+    a     (n, 2) change of the rates q' for each N s; a_b (p, 2) its rows of the p joints with motors
+    N     change of the error y for each N s, below; (p, 2), and (n, 2) for the momentum
+    D     (n, n) inertia matrix D_s of (11)
+    H     (p, n) slope of the reference, q_d'' = drift + H q''
+    J     (2, n) Jacobian of the striking foot, J_m that of m p_com, m [kg] the robot's mass
 
-since q_d' of a virtual constraint follows the measured rates and jumps with them. The last
-touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the
-phase: |Theta- - Theta| < T |Theta'|.
+J', N' are transposes, q', e' rates. a follows from the impact (7) where only the foot with the Jacobian J
+strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that struck is then the support,
+and q does not contain its place. While a touchdown is less than T [s] away (field `window`), the law takes
 
-This wrapper puts a into `Measurement.impulse`, and the law inside projects; a law says in `reads_impulse` in
-which of its methods it does.
+    rates        P e' for its rate error e' = q_b' - q_d', N = a_b - H a, as q_d' of a virtual constraint is a
+                 function of the measured rates and jumps with them
+    innovation   P (y - y^) for its observer's innovation; N = a_b where the observer estimates the joints'
+                 angles, a_b - H a where their error, D a where the momentum D q'
+
+The last touchdown was less than T ago (t_step < T), or the phase says that the next one comes in less than T:
+|Theta- - Theta| < T |Theta'|.
+
+This wrapper puts a into `Measurement.impulse`. The law inside computes N and P (`control.tracking`), and says
+in `reads_impulse` in which of its methods it does.
 
 The projection of the rate error is that of Yang and Posa, Impact invariant control with applications to
 bipedal locomotion, IROS 2021 (arXiv 2103.06907), and Autonomous Robots 49(35), 2025 (arXiv 2303.00817), shown
@@ -128,6 +133,6 @@ class ImpactInvariant(ContactWindow):
         return m._replace(impulse=impulse_response(m.terms.D, body, J))
 
     def near(self, m: Measurement, projected: Any, other: Any) -> Any:
-        """`projected` within T of a touchdown, else `other`."""
+        """Choose `projected` while a touchdown is less than T away, else `other`; both may be trees."""
         soon = chosen(self.expected(m), projected, other)
         return chosen(self.landed(m), projected, soon)

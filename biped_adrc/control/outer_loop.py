@@ -151,7 +151,9 @@ def reference_in_force(controller: Controller, s: Any) -> Constraint:
 
 
 def tracked_by(law: Controller, reference: Reference | OuterLoop) -> Reference | OuterLoop:
-    """What errors are measured from: an outer loop, which corrects its reference, or a reference."""
+    """The source of a controller's q_d: the outer loop that it is, which corrects the reference, or the
+    reference.
+    """
     return law if isinstance(law, OuterLoop) else reference
 
 

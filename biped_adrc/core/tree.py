@@ -26,6 +26,8 @@ def flatten(tree: Any) -> Array:
     if isinstance(tree, tuple):
         parts = [flatten(x) for x in tree if x is not None]
         return np.concatenate(parts) if parts else np.zeros(0)
+    # by `ndim` and not by class: a leaf may be an array, an array of symbols, NumPy's or Python's number, or a
+    # single symbol (`engine.symbols.Scalar`), which is no number and has no shape
     if hasattr(tree, "ndim") and tree.ndim > 0:
         vector: Array = tree.reshape(-1)
         return vector
@@ -37,6 +39,7 @@ def chosen(which: float, one: Any, other: Any) -> Any:
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
         return _like(type(one), parts)
+    # np.where and no `if`: on symbols both sides become code, and the choice is made when it runs
     return one if one is None else np.where(which > 0.5, one, other)
 
 
@@ -53,7 +56,7 @@ def _like(kind: Any, parts: list[Any]) -> Any:
 
 
 class Layout(NamedTuple):
-    """What a tree is made of, without its numbers."""
+    """The classes and shapes of a tree without its numbers, and the order in which `flatten` has these."""
 
     kind: type | None
     """Class of a tuple or of None; None for an array or a number."""

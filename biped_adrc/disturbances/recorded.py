@@ -1,4 +1,4 @@
-"""Torques from rows of numbers: a recording, interpolated linearly, and the forces of a hand.
+"""Torques from rows of numbers: a recording, interpolated linearly, and pushes by a person with the mouse.
 
     zeta_i(t) = zeta_ij + (s - t_j) (zeta_i,j+1 - zeta_ij) / (t_j+1 - t_j),   t_j <= s < t_j+1,   s = t - start
 
@@ -8,9 +8,10 @@ at the last, and steps end there.
 
     zeta(t) = tau_k + J(q)' F_k,     t_k <= t - t_start < t_k+1
 
-for a hand: torques on the coordinates, and a force on a point of a link, constant from row to row in one
-single support, whose end is the end of the last row. The page on which a walk is pushed (`extras.play`) writes
-it: one row for each sample in which the hand changed. Rows jump, so each is a switching time.
+for pushes by hand: torques on the coordinates, and a force on a point of a link, constant from row to row. The
+rows belong to one single support, and the last one lasts until its end. The page on which a person pushes a
+walking robot (`extras.play`) records them, one row for each sample in which the push changed. zeta jumps at
+each row, so each is a switching time.
 
 Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms of
 `PIECES` rows each, which share one machine code; of a recording one acts at a time.

@@ -53,7 +53,7 @@ def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
 
 @lru_cache(maxsize=1024)
 def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
-    """Where numbers of arrays of these shapes lie one after the other."""
+    """The slices of a vector in which arrays of these shapes stand one after the other."""
     ends = tuple(accumulate(map(math.prod, shapes)))
     return tuple(map(slice, (0, *ends), ends))
 
@@ -150,7 +150,7 @@ class CompiledBiped(Biped):
         return {}
 
     def _called(self, method: str, *arguments: Array) -> Any:
-        """What a method gives at q and v, each (n,), and more."""
+        """Call a method in machine code at q and v, each (n,), and at further arguments."""
         arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
         if method not in self._made:
             zeros = map(np.zeros_like, arguments)
@@ -170,7 +170,7 @@ class CompiledBiped(Biped):
         return cast(Array, self._called("acceleration", q, v, force))
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
+        """Force of the ground on the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
         return cast(Array, self._called("ground_reaction", q, v, a))
 
 

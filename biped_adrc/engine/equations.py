@@ -107,8 +107,8 @@ class SymbolicLoop(NamedTuple):
         return self.layout
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no method asks
-        for leaves no code.
+        """The measurement at q (n,) [rad], v (n,) [rad/s], always with the terms of the body: what no method
+        asks for leaves no code.
         """
         return semantics.measurement(self, t, q, v, mode, body=True)
 
@@ -130,13 +130,15 @@ class SymbolicLoop(NamedTuple):
         return semantics.on_stance_foot(self, self.force, t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself, kept for `lost`."""
+        """Return u (p,) [N m] unchanged, and remember it for `lost`, which tests all torques."""
         self.torques.extend(u)
         return u
 
     @property
     def lost(self) -> Scalar:
-        """What a function adds to its result: the least pivot; -1 where a finite torque is beyond the bound."""
+        """The number that each function returns behind its result: the least pivot, or -1 where a finite
+        torque is beyond the bound.
+        """
         least = self.trace.solver.least
         if not self.torques:
             return least
@@ -161,7 +163,9 @@ class SymbolicInstant(NamedTuple):
     """Single support and its start, symbols too."""
 
     def does(self, function: Callable[..., T], *more: object) -> T:
-        """What a function of `semantics`, or one with the same first arguments, gives here."""
+        """Call a function of `semantics`, or one with the same first arguments, on the symbols of this
+        instant.
+        """
         return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
@@ -276,7 +280,7 @@ class Equations:
         return self.function(at.inp, x, at.loop.lost, a)
 
     def view(self, read: Reading) -> SymbolicFunction:
-        """The parts of what `read` says, one after the other."""
+        """The function whose result is all that `read` returns, its arrays joined into one column."""
         at, curve = self.at(), self.symbols[1].curve
         tracked = None if curve is None else partial(run, at.loop.trace, tracked_point, curve)
         return self.function(at.inp, *at.does(read, tracked))

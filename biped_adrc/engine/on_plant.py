@@ -44,7 +44,9 @@ from biped_adrc.model.planar_robot import robot_of
 def stepping_loop(
     walker: Walker, plant: SteppingPlant, engine: str = COMPILED, first_step: int = 1
 ) -> SteppingLoop:
-    """As `other_plant.stepping_loop`; its sample instants compiled, or in Python."""
+    """Make the loop of `other_plant.stepping_loop`, with compiled sample instants where its parts have machine
+    code.
+    """
     kind = CompiledLoop if engine == COMPILED else SteppingLoop
     return other_plant.stepping_loop(walker, plant, first_step, kind)
 
@@ -55,7 +57,8 @@ COMPILED_MODEL = "compiled model"
 
 @dataclass(frozen=True)
 class CompiledLoop(SteppingLoop):
-    """As `SteppingLoop`, which says what its fields are: the same walk to round-off, much faster.
+    """A `SteppingLoop` in machine code, with the same fields: its walk is the same to round-off, and much
+    faster.
 
     What there is of it in machine code is made for each run, by `prepared`.
     """
@@ -66,7 +69,7 @@ class CompiledLoop(SteppingLoop):
     """Terms of its disturbance; None for Python."""
 
     def prepared(self, x: Array) -> tuple[CompiledLoop, dict[str, str]]:
-        """As `SteppingLoop.prepared`, with work space of its own.
+        """The loop for one run from x, with work space of its own, and the settings that say which engine runs.
 
         What cannot be compiled still gets the terms of its model and its references in machine code, where they
         have any.
@@ -91,14 +94,14 @@ class CompiledLoop(SteppingLoop):
 
     @cached_property
     def sample(self) -> Call:
-        """The function `tick` of the program, with room for what it is given."""
+        """The function `tick` of the program, with memory for its inputs."""
         assert self.program is not None
         code, nx = self.program.machine, self.program.nx
         return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after the sample instant at t [s]; Python says what is wrong with numbers that are not
-        finite.
+        """x (nx,) after the sample instant at t [s]. Where it is not finite, Python repeats the tick for its
+        error.
         """
         if self.program is None:
             return super().tick(t, x, mode)
@@ -114,7 +117,9 @@ class CompiledLoop(SteppingLoop):
         return super().tick(t, x, mode)
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
-        """As `SteppingLoop.load`; Python says what is wrong with numbers that are not finite."""
+        """The forces from outside, by machine code; where they are not finite, Python computes them again for
+        its error.
+        """
         if self.pushes is None:
             return super().load(t, row, mode)
         n = self.plant.n

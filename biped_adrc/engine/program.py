@@ -65,12 +65,12 @@ class Program(Equations):
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the code, but that of readings."""
+        """The structure that decides all code of the program except that of readings."""
         return self.layout, structure(self.numbers._replace(curve=None))
 
     @cached_property
     def machine(self) -> LoadedCode:
-        """Its functions in memory, compiled when they are asked for.
+        """The program's functions in memory, each compiled when it is asked for first.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
@@ -115,7 +115,7 @@ def numbers_of(
 
 
 def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
-    """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
+    """The numbers of a controller in sampled time and of its model, without plant and ground."""
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
     return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)
@@ -165,7 +165,8 @@ class CompiledWalker:
         reference: Reference | None = None,
         in_python: bool = False,
     ) -> CompiledWalker:
-        """For states of this layout (`ClosedLoop.layout_of`) and a run that begins at t_first [s].
+        """Make the tables of a run that begins at t_first [s], for states of this layout
+        (`ClosedLoop.layout_of`).
 
         reference: what readings of the program refer to. in_python: sample instants and impacts are those of
         `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor on disk. Raises

@@ -82,7 +82,10 @@ def simulate_by(
 
 
 def _with_step(run: Trajectory, method: OneStepMethod) -> Trajectory:
-    """The run, with its step in the detail where it ran away: a fixed step too long is the first suspect."""
+    """The run; where it ran away, with the integration step added to its text `detail`.
+
+    A fixed step that is too long for the controller's poles is the most frequent cause.
+    """
     if run.status is not Status.RAN_AWAY or not isinstance(method, RK4 | Exponential):
         return run
     return replace(run, detail=f"{run.detail} ({method.label})")
@@ -91,7 +94,8 @@ def _with_step(run: Trajectory, method: OneStepMethod) -> Trajectory:
 def run_compiled(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """As `hybrid.simulator.run` for a walker, from x0 (nx,), all compiled or on a compiled plant.
+    """Run a walker from x0 (nx,) as `hybrid.simulator.run` does, with all of it or its plant alone in machine
+    code.
 
     Raises InputError for a start that is not finite or parts that do not fit, ModelError for a robot that
     is no planar tree.
@@ -133,7 +137,7 @@ def simulate_compiled(
     run["every"] = options.store_every
 
     def flown(t: float, x: Array, mode: Mode, fired: Event | None) -> FlownArc:
-        """To the end or the first event, with the impact there."""
+        """Move one arc to the end of the run or to its first event, and make the impact there."""
         nx, event, outcome = run.nx, None, None
         status, strikes = run.stride(1)
         for t, *x in strikes:
@@ -166,7 +170,8 @@ def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
-    """The detail of a run, with what Python says of its next steps where compiled code lost its numbers.
+    """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
+    Python.
 
     Machine code gives NaN without a name; the methods in Python name the class that gave it.
     """

@@ -62,7 +62,7 @@ _trunk = once_each(lambda biped: link_point(biped, biped.description.trunk))
 
 
 def torque_place(program: Program) -> int:
-    """Where the torque from outside, the last number of the controller, is in K of a walker with inputs."""
+    """Index in K at which the torque from outside (p,) begins: the last numbers of a controller with inputs."""
     behind = program.numbers[program.numbers._fields.index("controller") + 1 :]
     return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
 
@@ -104,7 +104,7 @@ class CompiledWalk:
 
     @property
     def at(self) -> At:
-        """Where it is."""
+        """Walker, time [s], state and mode of the walk now."""
         run = self.run
         return self.compiled.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
 
@@ -113,7 +113,7 @@ class CompiledWalk:
         return replace(self, run=self.run.copy())
 
     def law(self, view: Reading) -> int:
-        """Address of machine code for what `view` says."""
+        """Address of the machine code of `view`."""
         return self.compiled.program.reading(view).addresses["reading"]
 
 
@@ -201,6 +201,6 @@ def joined(arcs: Sequence[Arc]) -> Arc:
 
 
 def reading(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
-    """What view(loop, t, x, mode, reference) says where a walk is, in one row, by Python."""
+    """Evaluate view(loop, t, x, mode, reference) at a walk's present state in Python, as one row."""
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])

@@ -1,10 +1,11 @@
-"""What decides generated code, to be found again in memory and on disk.
+"""The structure of a walker is all that decides its generated code; by it the engine finds that code again.
 
-Tracing takes a tenth of a second, and a study makes thousands of walkers with other numbers. So code in memory
-is found by the structure of what it was made from, floats replaced by their shapes. Methods that are compiled
-have to be pure, as in JAX: what they read besides their arguments and fields, a function or a constant of a
-module, is read once, when they are compiled. A class that is defined anew is another structure. Another process
-finds code by its structure where all of it is this package's own (`lasting`).
+The engine needs a tenth of a second to trace a walker, and a study makes thousands that differ in their
+numbers. So code in memory is stored under a structure: classes, integers and shapes of arrays, without the
+values of floats. Methods that are compiled have to be pure, as in JAX: what they read besides their arguments
+and fields, such as a function or a constant of a module, is read once, when they are compiled. A class that is
+defined a second time is another structure. Another process finds code on disk by the name that `lasting` makes
+of a structure, where all classes in it are this package's own.
 """
 
 from __future__ import annotations
@@ -25,10 +26,12 @@ from biped_adrc.engine.symbols import HIDDEN, LISTS, REALS, NotCompiled
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:
-    """All that decides the code of a tree of parts, tuples, arrays and numbers; exact: floats by value too.
+    """The structure of a tree of parts, tuples, arrays and numbers: two trees with equal ones share their code.
 
-    Raises NotCompiled for an object whose content cannot be compared.
+    exact: whether floats count by value too. Raises NotCompiled for an object whose content cannot be compared.
     """
+    # a float is a symbol in the code, so its value does not count; an int decides a size or a branch, so it
+    # does
     if isinstance(tree, REALS) and not exact:
         return float
     if isinstance(tree, np.ndarray):
@@ -54,8 +57,11 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
 
 def lasting(key: Hashable) -> str:
-    """Name for a structure, the same in every process of the same versions; empty for one with classes or
-    functions of the user's, or where one of this package's functions was replaced in this process."""
+    """Make a name of a structure that is the same in every process with the same versions of the libraries.
+
+    Empty for a structure with classes or functions of the user's, and in a process in which one of this
+    package's functions was replaced: nobody can say there that equal names mean equal code.
+    """
     try:
         return "" if _replaced() else hash_of(_spelled(key), str(numerical_versions()))
     except LookupError:

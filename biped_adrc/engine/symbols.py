@@ -35,7 +35,9 @@ T = TypeVar("T")
 
 
 class NotCompiled(InputError):
-    """What has no machine code, such as a method that branches on the value of a number; the text names it."""
+    """A method or part that cannot be compiled, such as one that branches on the value of a number; the text
+    names it.
+    """
 
 
 REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
@@ -116,6 +118,8 @@ class Scalar:
     __gt__, __ge__ = _binary(ca.OP_LT, reflected=True), _binary(ca.OP_LE, reflected=True)
 
 
+# set from outside, since a type checker refuses an __eq__ that returns no bool; with Python's own, x == 0.0
+# would be False for every symbol, and a law would be compiled with that answer
 setattr(Scalar, "__eq__", _binary(ca.OP_EQ))  # noqa: B010
 setattr(Scalar, "__ne__", _binary(ca.OP_NE))  # noqa: B010
 
@@ -137,7 +141,9 @@ class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     __hash__ = None
 
     def __array_wrap__(self, array: Array, *_: object) -> Any:
-        """What an operation gives: one number as itself, as NumPy does for its own arrays."""
+        """The result of an operation: an array of symbols, or the symbol itself where it is one, as NumPy
+        does.
+        """
         return array.item() if array.ndim == 0 else array.view(Symbols)
 
 
@@ -255,7 +261,9 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) ->
 
 
 class Hidden:
-    """In place of what has no symbols: a robot, complex or random numbers. Raises NotCompiled when used."""
+    """A stand-in for an object that has no symbols: a robot, complex or random numbers. Raises NotCompiled
+    when used.
+    """
 
     def __init__(self, what: str):
         self._what = what

@@ -1,8 +1,9 @@
-"""Methods and functions that run on symbols: NumPy, math and the linear solves are replaced by their twins.
+"""Copies of laws that run on symbols in place of numbers, which is how the compiler gets their expressions.
 
-`Tracer` copies a function and every function that it reaches, and makes twins of parts, whose methods are such
-copies; `run` calls the copy and says in which function an error arose. The symbols themselves are in
-`engine.symbols`.
+A law is written for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the
+copies the names of NumPy's, math's and `linear`'s functions lead to twins that take symbols. Of a controller or
+another part (a dataclass of `core.part`) it makes a twin, whose methods are such copies. `run` calls a copy and
+says in which function an error arose. The symbols themselves are in `engine.symbols`.
 """
 
 from __future__ import annotations
@@ -64,19 +65,22 @@ COPIED = "__on_symbols__"
 
 
 class _OfFloat(type):
+    # a law that asks isinstance(x, float) means "is it a number", and a symbol stands for one
     def __instancecheck__(cls, x: object) -> bool:
         return isinstance(x, float | Scalar)
 
 
 class Float(metaclass=_OfFloat):
-    """In place of `float`: a number stays what it is, and an array of this type holds symbols."""
+    """A stand-in for `float` in copies: Float(x) leaves a symbol as it is, and an array with this dtype holds
+    symbols.
+    """
 
     def __new__(cls, x: Any = 0.0) -> Any:
         return float(x) if isinstance(x, str) else x
 
 
 class Unchangeable(list[Any]):
-    """In place of a list that a function finds: machine code keeps nothing."""
+    """A stand-in for a list of the user's that refuses changes, since machine code could not keep them."""
 
     def _refuse(self, *_: object, **__: object) -> Any:
         raise NotCompiled("the law changes a list")
@@ -93,7 +97,7 @@ class Tracer:
     """Copies of functions for symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
-        """The replacements, by identity of what methods name: NumPy, math, two functions of `linear`."""
+        """Make the table of replacements for functions of NumPy, math and `linear`."""
         self.solver, random = Solver(), Hidden("random numbers")
         scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
         numpy = {
@@ -125,14 +129,16 @@ class Tracer:
             (np.random.default_rng, random),
             (stdlib_random, random),
         ]
+        # by identity, since a law may have imported np.sin under any name; `old` is kept so that its id stays
+        # taken
         self._substitutes = {id(old): (old, new) for old, new in pairs}
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
     def __call__(self, f: Any) -> Any:
-        """The function for symbols, with every function that it reaches; what is no Python function stays as it
-        is, and so does one that is defined inside a copy or is for symbols anyhow.
+        """Copy a function, and every function that it reaches, for symbols.
 
+        Builtins, functions of the engine and those that a copy defines inside itself are returned unchanged.
         A copy shares the code object and has its own globals and closure, in which names are replaced; in a
         method that says `super()`, `__class__` is the twin. Copies are remembered before their names are
         replaced, so functions that call each other end.
@@ -142,12 +148,15 @@ class Tracer:
         if f.__globals__.get(COPIED) is self:
             return f
         if f not in self._copies:
+            # The code object stays, its globals are others: in the copy `np` names the twin. Patching NumPy
+            # itself would reach other threads, and the original goes on working on arrays.
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
             copy: Any = types.FunctionType(
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
+            # a `try` may swallow the NotCompiled of a branch on a symbol, and its other way would be compiled
             if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
@@ -199,6 +208,8 @@ class Tracer:
         if known or cls.__module__.startswith(NO_METHODS):
             return cls
         if cls not in self._twins:
+            # a subclass, so that isinstance(twin, Controller) holds; twins of the bases come first, or super()
+            # in a method would reach the methods for numbers
             twins = map(self.twin, cls.__bases__)
             bases = (twin for twin in twins if twin not in cls.__bases__)
             subclass = types.new_class(cls.__name__, (*bases, cls))
@@ -211,7 +222,7 @@ class Tracer:
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:
-        """What stands in the twin for a method, property or other member of a class."""
+        """The form for symbols of one member of a class: a method, a property, or another value as it is."""
         if isinstance(value, types.FunctionType):
             return self(inspect.unwrap(value))
         if isinstance(value, property):
@@ -249,7 +260,9 @@ class Located(NotCompiled):
 
 @contextmanager
 def located(f: object) -> Iterator[None]:
-    """Raise Located in place of any error, whatever NumPy says of an object that is no float."""
+    """Context that turns each error, such as NumPy's about objects that are no floats, into a Located with its
+    place.
+    """
     try:
         yield
     except Located:
@@ -283,7 +296,7 @@ def catches(code: types.CodeType) -> bool:
 
 
 def _refused(code: types.CodeType) -> Any:
-    """In place of a method that catches exceptions."""
+    """A stand-in for a method that catches exceptions, which raises when it is called."""
     name, file = code.co_qualname.replace(".<locals>", ""), Path(code.co_filename).name
 
     def refuse(*_: object, **__: object) -> Any:

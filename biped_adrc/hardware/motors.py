@@ -57,7 +57,10 @@ class Line(NamedTuple):
 
 
 def line_at_rest(p: int, lag: float, delay: float, period: float) -> tuple[Line, float]:
-    """The line without torques of p motors with a lag [s] and a delay [s] of the clock, and the fraction f."""
+    """The line of p motors in which all torques are zero, and the fraction f of a period T in the delay.
+
+    lag [s]: time constant of the motors. delay [s]: (j + f) T, from a tick until its torque acts.
+    """
     j, fraction = whole_and_part(delay, period)
     none = np.zeros(p)
     u_m, waiting = none if lag > 0.0 else None, none if fraction > 0.0 else None
@@ -76,10 +79,10 @@ class TorqueLine:
     """Fraction f of a period in the delay."""
 
     def limit(self, line: Line, u: Array) -> Array:
-        """u (p,) [N m] within the rate limit, relative to the torque that was sent before it.
+        """Bound u (p,) [N m] so that it differs by at most `change` from the torque sent one tick before.
 
-        That is the last of the queue, or the command to the motors now: the waiting torque has
-        acted already, or never will.
+        That torque is the last one of the queue. Without a queue it is the command to the motors now, as a
+        torque that waited for a fraction of a period has begun to act by the next tick.
         """
         if self.change is None:
             return u

@@ -62,7 +62,9 @@ class HeldParts(NamedTuple):
         own: int,
         touchdown: Touchdown | None,
     ) -> HeldParts:
-        """For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue."""
+        """Prepare sensors and motors for n coordinates, p motors and the ticks of `timing`, whose delay makes
+        the queue.
+        """
         motors = IDEAL if motors is None else motors
         sampled = None if sensors is None else sensors.sampled(n, p, timing.period)
         line, fraction = line_at_rest(p, motors.lag, timing.delay, timing.period)
@@ -100,7 +102,8 @@ def motor_torque(line: Line) -> Array:
 def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
     """Start a user's sensors and call each of their methods once; returns their state w at the start.
 
-    Raises InputError where a method returns another class or shape.
+    Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
+    shapes than those of q and v.
     """
     w = returned_tree(sensors.start(q, v), None, sensors, "start")
     returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")

@@ -30,6 +30,9 @@ XTOL, XRTOL, ITERATIONS = 1e-15, 9e-16, 10_000
 """Tolerances [s] and [1] of the time of an event, and most iterations of its root finder: an event function
 that touches zero flatly takes more than 100."""
 
+# `on_arrays.Run` and `engine.kernels.record` both make their arrays from these names, so that the march finds
+# r.x_e in either run; a name in one of them alone would be an AttributeError in one engine and unknown in the
+# other.
 X_ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")
 """Arrays (nx,) of a run: state and slope at both ends of a step; state of a stage, and slopes of RK4; state and
 slope at the event, and after sub-steps towards it."""

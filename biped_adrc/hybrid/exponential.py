@@ -120,7 +120,7 @@ def phi_levels(h: float, A: Array) -> Array:
 
 @lru_cache(maxsize=64)
 def _phi_levels(h: float, data: bytes) -> Array:
-    """As `phi_levels`, with A as bytes."""
+    """Compute `phi_levels` from A as bytes, by which the results can be cached."""
     k = math.isqrt(len(data) // 8)
     A = np.frombuffer(data).reshape(k, k)
     fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))

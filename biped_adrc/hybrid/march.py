@@ -19,11 +19,19 @@ import math
 import numpy as np
 
 from biped_adrc.core.types import Array
+
+# The stars bring `flow`, `add`, `Run`, .. in as bare names. `engine.kernels.load` leaves these imports out of
+# the text that numba compiles, and the same names are then those of `engine.kernels.operations`. With a prefix
+# (`on_arrays.flow`) the march would need a text for each engine, and the two could find different events.
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.on_arrays import *
 from biped_adrc.hybrid.relaxation import relaxation
 
+# `relaxation` is plain Python and imports nothing of this; compiled code can call decorated functions alone.
 weights = inner(relaxation)
+
+# The annotations of a `unit` are its signature in machine code (`engine.kernels.call`). A wrong one breaks the
+# compiled engine alone, and a run in Python does not show it.
 
 
 # -- steps -----------------------------------------------------------------------------------------
@@ -139,6 +147,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
 @inner
 def reach(r: Run, t: float, x: Array, dx: Array, s: float) -> None:
     """x_e and `tried`: state and event functions at s [s], one step from (t, x) with the slope dx (nx,)."""
+    # numba compiles both branches, so `operations` has a `dense` too, though no compiled run gets there
     if r.kind == SOLVER:
         dense(r, s)
     else:
@@ -165,6 +174,8 @@ def brent(
     The guard's event function is fa at ta [s] and fb at tb [s]; states in between are one step from (base, x).
     Secant or inverse quadratic steps, bisection where those do not shrink the bracket.
     """
+    # written out, since compiled code cannot call SciPy; with two root finders the engines would find two
+    # times of one event, and every number after it would differ
     before, f_before, now, f_now = ta, fa, tb, fb
     other, f_other = before, f_before
     last = step = now - before
@@ -352,7 +363,7 @@ def left(t: float) -> float:
 
 @inner
 def keep(r: Run, t: float, x: Array, dx: Array) -> None:
-    """A node at t [s], where they are kept."""
+    """Keep a node at t [s], unless this run keeps none."""
     if r.every > 0 or r.look != 0:
         node(r, t, x, dx)
 
@@ -373,8 +384,8 @@ def nodes(r: Run, t0: float, t1: float) -> None:
 
 @inner
 def begin(r: Run, t: float, h: float) -> None:
-    """What the first step after a break at t [s], h [s] long, starts from beside x0: dx0, for ETD-RK4 y0 and
-    N0.
+    """Compute what the first step after a break at t [s], h [s] long, needs besides x0: dx0, for ETD-RK4 y0
+    and N0.
 
     After a sample instant the slope is known already (r.sloped). ETD-RK4 needs it for nodes alone.
     """
@@ -421,7 +432,7 @@ def fixed(r: Run, t: float, t1: float, last: int) -> int:
 
 @inner
 def pass_on(r: Run) -> None:
-    """The end of a step becomes the start of the next: x1, dx1 (nx,), and for ETD-RK4 y1, N1."""
+    """Make the end of a step the start of the next one: x1, dx1 (nx,), and for ETD-RK4 y1, N1."""
     copy(r.x1, r.x0, r.moving)
     copy(r.dx1, r.dx0, r.moving)
     if r.kind == ETD:
@@ -431,9 +442,11 @@ def pass_on(r: Run) -> None:
 
 @inner
 def stop(r: Run, code: int) -> int:
-    """x0 (nx,) and t at the event just found, kept as a node with its slope from the left; its code.
+    """Set x0 (nx,) and t to the event just found, and keep a node with its slope from the left; returns its
+    code.
 
-    A status, and all as before, where the state is not finite. An arc of no length has its node already.
+    Where the state is not finite, x0 and t do not change, and the status says so. An arc of no length has its
+    node already.
     """
     te = r.t_event
     if not finite(r.x_e, r.nx):
@@ -450,7 +463,7 @@ def stop(r: Run, code: int) -> int:
 
 @unit
 def through(r: Run, t_next: float) -> int:
-    """From x0 at t to t_next [s], over which all is smooth; a code, 0 at t_next.
+    """March from x0 at t to t_next [s], without a break in between; returns a code, 0 at t_next.
 
     Steps are counted and their length not added up, so round-off does not grow. More than MOST_STEPS steps,
     or a step of no length, end as STEP_FAILED.
@@ -458,6 +471,7 @@ def through(r: Run, t_next: float) -> int:
     t0 = t = r.t
     skipped, steps, code = 0, 0, 0
     r.limit = left(t_next)
+    # np.ceil gives a float in both engines; math.ceil would give an int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t)
     keep(r, t, r.x0, r.dx0)
@@ -487,7 +501,7 @@ def through(r: Run, t_next: float) -> int:
 
 @inner
 def travel(r: Run) -> int:
-    """From x0 at t to the first event or t_end; a code, COMPLETED at t_end.
+    """March from x0 at t to the first event or to t_end; returns a code, COMPLETED at t_end.
 
     Each round: the sample instants that are due, then steps to the next break, a sample instant or a switching
     time of an input. x0 (nx,) and t [s] are left where it ended.

@@ -1,6 +1,7 @@
-"""A run on NumPy arrays, and the operations that `hybrid.march` has on it: any `HybridSystem`, in Python.
+"""The operations of the march in Python: `hybrid.march` calls them to run any `HybridSystem` on NumPy arrays.
 
-Arrays that go to methods of the system are copies, since the march writes into its own.
+`Run` has the state of one arc and the work arrays of the march; the functions below it evaluate the system, add
+vectors, and look for breaks. Methods of the system get copies of arrays, since the march writes into its own.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ def inner(function: _Function) -> _Function:
 
 unit = inner
 """The function itself; compiled, it becomes a function of its own."""
+
+# Each function below has a twin of the same name and arguments in `engine.kernels.operations`. Sizes are handed
+# over (`size`, r.nx) although NumPy knows them, because the twin gets pointers, which have no length.
 
 
 @dataclass(frozen=True)
@@ -221,13 +225,17 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
 
 
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
-    """What relaxes, in out (nx,): what it goes to, and `weight` [1] of what x has beyond it."""
+    """Set the numbers that relax in out (nx,) to their limit plus `weight` [1] times their distance from it in
+    x.
+    """
     at, to = r.relaxing.at, r.relaxing.to
     out[at] = x[to] + weight * (x[at] - x[to])
 
 
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """dx of what relaxes: `steep` [1/s] times what x (nx,) has beyond what it goes to."""
+    """Set the slopes of the numbers that relax to `steep` [1/s] times their distance from their limit in x
+    (nx,).
+    """
     at, to = r.relaxing.at, r.relaxing.to
     dx[at] = steep * (x[at] - x[to])
 
@@ -252,6 +260,7 @@ def watch(r: Run, t: float, x: Array, out: Array) -> None:
 
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
     """True: a step longer than RESOLUTION is always taken again at its interior points."""
+    # the compiled twin may look at a cubic first: it knows that the events of a walker depend on q and t alone
     return True
 
 

@@ -113,7 +113,9 @@ def simulate(
 def run(
     system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
 ) -> Trajectory:
-    """As `simulate`, from x0 (nx,) with options as a record; a system with a mover needs no method."""
+    """Simulate a system from x0 (nx,) with options as a record; a system with a mover of its own needs no
+    method.
+    """
     label = "steps of the plant's own" if method is None else method.label
     return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
 
@@ -183,7 +185,10 @@ FAILURES: Mapping[Status, type[Exception]] = {
 
 
 def status_of(error: Exception) -> tuple[Status, str]:
-    """How a run ends in which a part raises this, and the sentence. Raises the error where no part did."""
+    """The status and the sentence with which a run ends when a controller or another part raises `error`.
+
+    Raises the error again where it did not come from a part.
+    """
     for status, kind in FAILURES.items():
         if isinstance(error, kind):
             return status, str(error)

@@ -125,7 +125,8 @@ class HybridSystem(Shown):
         """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; none by default."""
 
     def mover(self, fired: str | None) -> Mover | None:
-        """What moves the system over one arc where it has no flow and no guards; None where it has.
+        """The object that moves the system over one arc where it has no flow and no guards; None where it has
+        them.
 
         fired: name of the event that ended the arc before, None at the start.
         """

@@ -70,7 +70,7 @@ class Arc(Shown):
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
     def thinned(self, apart: float) -> Arc:
-        """The same arc with nodes at least `apart` [s] apart; its ends and both sides of jumps are kept."""
+        """A copy of the arc with nodes at least `apart` [s] apart; ends and both sides of jumps stay."""
         same = np.diff(self.t) == 0.0
         keep = np.append(same, True) | np.concatenate(([True], same))
         last = self.t[0]
@@ -113,7 +113,7 @@ class Record:
             self.read.setdefault(name, []).append(rows)
 
     def arc(self, mode: Any, event: Event | None) -> Arc:
-        """All nodes as one arc that ran in `mode` and ended in `event`."""
+        """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`."""
         read = {name: np.vstack(rows) for name, rows in self.read.items()}
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 

@@ -185,7 +185,7 @@ class Biped(Shown):
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
     def pinned_tree(self) -> Tree:
-        """The same links as a tree that is rooted at the stance foot."""
+        """The tree of links with the stance foot as its root."""
         return reroot(self.tree, self.description.stance_foot, self.description.trunk)
 
     @cached_property

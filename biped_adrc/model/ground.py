@@ -126,7 +126,7 @@ class StepUp(GroundStep):
 
 @dataclass(frozen=True)
 class Stones(Checked):
-    """Where feet may land: single support k, from 1, is to be `lengths[k - 1]` [m] long.
+    """Stones on which the feet have to land: single support k, from 1, is to be `lengths[k - 1]` [m] long.
 
     A foot that lands further than `tolerance` [m] from its stone makes the step infeasible. Behind the last
     stone the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length that
@@ -140,7 +140,7 @@ class Stones(Checked):
     tolerance: PositiveFloat = 0.025
 
     def missed(self, step: int, length: float) -> float:
-        """By how much [m] single support `step` of this length [m] misses its stone; 0 where it does not."""
+        """Distance [m] by which single support `step` of this length [m] misses its stone, 0 on the stone."""
         if step > len(self.lengths):
             return 0.0
         return max(abs(length - self.lengths[step - 1]) - self.tolerance, 0.0)

@@ -148,12 +148,12 @@ class PlanarRobot:
 
     @derived
     def present(self) -> tuple[NDArray[np.bool_], ...]:
-        """For each of K, which entries are different from zero (arrays of bool)."""
+        """For each number or array in K, arrays of bool that say which entries differ from zero."""
         return tuple(np.asarray(x) != 0.0 for x in self.K)
 
     @property
     def sparse(self) -> PlanarRobot:
-        """The same with a plain 0 for what is not `present`; on symbols the terms of those then vanish."""
+        """A copy with a plain 0 for each number that is not `present`: its terms vanish from expressions."""
         numbers: tuple[Any, ...] = self.K
         pairs = zip(numbers, self.present, strict=True)
         kept: list[Any] = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]

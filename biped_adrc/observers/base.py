@@ -137,7 +137,7 @@ class Observer(Part):
         )
 
     def at_ticks(self, period: float) -> Observer:
-        """What `sampled` returns. Raises InputError for one that does not correct and predict."""
+        """Call `sampled`, and check its result. Raises InputError for one without `correct` and `predict`."""
         found = self.sampled(period)
         check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
         for name in ("correct", "predict"):

@@ -72,7 +72,7 @@ def last(name: str, o: Outcome) -> float:
 
 
 def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
-    """The same at both steps."""
+    """`last` at the integration step and at half of it."""
     return at_two(partial(last, name), o)
 
 
@@ -84,12 +84,12 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
-    """Of a cycle; NaN where none was found."""
+    """The largest |multiplier| of a cycle; NaN where no cycle was found."""
     return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
 
 
 def second_multiplier(found: PoincareResult) -> float:
-    """Of a cycle."""
+    """The second largest |multiplier| of a cycle."""
     return float(np.sort(np.abs(found.orbit.multipliers))[-2])
 
 
@@ -126,7 +126,7 @@ def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
-    """What the push adds to the error under ADRC over what it adds under NPD."""
+    """Ratio of the error that the push adds under ADRC to the error that it adds under NPD."""
     return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
 
 
@@ -169,7 +169,7 @@ def change(i: str, j: str, figures: Sequence[float]) -> float:
 
 
 def figure(i: str, figures: Sequence[float]) -> float:
-    """|figure i|."""
+    """Absolute value of the i-th of the figures that the paper prints for a claim."""
     return abs(figures[int(i)])
 
 
@@ -190,7 +190,7 @@ def periods(found: Mapping[str, float]) -> float:
 
 # -- what of (name, scenario) a verdict may depend on ------------------------------------------------
 def theta_of(name: str, o: MemberOutcome) -> str:
-    """The choice of Theta'' of a member, the one cause of what is left under ADRC."""
+    """The choice of Theta'' of a member: it alone causes the error that remains under ADRC."""
     return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
 
 
@@ -260,7 +260,7 @@ def torso(r: Runs) -> dict[str, Pair]:
 
 
 def lost_by_npd(r: Runs) -> dict[str, PushCell]:
-    """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
+    """The pushes of the map under which NPD does not make its steps, without those with a marginal outcome."""
     cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c

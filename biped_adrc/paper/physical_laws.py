@@ -166,7 +166,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
 
 def numerics_laws(preset: str) -> dict[str, float]:
-    """What the methods come to, by name: the held joint [s^2], orders, and an error [rad]."""
+    """Numbers for the accuracy of the methods, by name: the held joint [s^2], orders, and an error [rad]."""
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
     etd_table, error = exponential_order(preset, 1.0)
     return {

@@ -122,7 +122,7 @@ def usual_track(usual: Member, controller: str, share: float) -> Track:
 
 
 class MemberWalk(NamedTuple):
-    """What is kept of a walk from the pushed step on."""
+    """The figures of merit of a walk, from the pushed step on."""
 
     peak: AtTwoSteps
     """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
@@ -196,13 +196,14 @@ LOST = ("fell", "ended")
 
 
 def word_of(o: Outcome) -> str:
-    """What a walk of the map is called; "marginal" where it ends in another way at half of the step."""
+    """The outcome of a walk of the map as one of WORDS; "marginal" where it ends in another way at half of the
+    integration step."""
     one, half = ((_at_step(x), x.status) for x in (o, o.half or o))
     return one[0] if one == half else "marginal"
 
 
 def _at_step(o: Outcome) -> str:
-    """The same at one step; "pulled" for a walk that needed a ground that pulls."""
+    """The outcome of a walk at one integration step; "pulled" where the ground would have had to pull."""
     f = o.feasibility
     pulls = f.outcome == "infeasible" and -math.inf < f.mean_normal_force <= 0.0
     return "pulled" if pulls else f.outcome
@@ -223,11 +224,11 @@ class PushCell(NamedTuple):
 
     @property
     def certain(self) -> bool:
-        """Whether it is marginal under neither controller."""
+        """Whether each controller's walk ends in the same way at half of the integration step."""
         return "marginal" not in map(word_of, (self.npd, self.adrc))
 
     def row(self) -> dict[str, object]:
-        """In plain values, for the figure and the summary."""
+        """The cell as a dictionary of plain values, for the figure and the summary."""
         result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility

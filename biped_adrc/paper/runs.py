@@ -147,7 +147,7 @@ def least_speed(preset: str) -> float:
 
 
 def jumps(preset: str) -> dict[str, float]:
-    """What jumps at an impact, or at the edge of a push of 30 N m on all joints, by name.
+    """The jumps of signals at an impact, and at the edge of a push of 30 N m on all joints, by name.
 
     xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
     references, by gait [rad/s], 0 for a gait that takes the impact into account.
@@ -254,7 +254,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
 @dataclass(frozen=True)
 class Runs:
-    """By kind of task, the results by name."""
+    """The results of a reproduction: for each kind of task a dictionary by name."""
 
     plan: Plan
     """What was asked for."""

@@ -52,7 +52,7 @@ COARSE = 1e-3
 
 @dataclass(frozen=True)
 class Plan:
-    """What to reproduce. Raises InputError for `full` and `quick` together."""
+    """The parts of the paper that a reproduction computes. Raises InputError for `full` with `quick`."""
 
     preset: str = "identified"
     """Of RABBIT, for the headline runs."""
@@ -74,7 +74,7 @@ class Plan:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What this plan does not compute, in words."""
+        """Words for the parts that this plan does not compute."""
         if self.full:
             return ()
         kind = "quick" if self.quick else "usual"
@@ -104,7 +104,7 @@ def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
-    """As `by_rk4`, but the exponential method with a step of h [s] under ADRC."""
+    """The scenario of `by_rk4`; for ADRC with the exponential method and a step of h [s] in place of RK4."""
     if controller == "ADRC":
         values |= {"run.method": "exponential", "run.h": h}
     return by_rk4(controller, preset, **values)
@@ -230,7 +230,7 @@ class Member:
 
     @property
     def name(self) -> str:
-        """For a reader."""
+        """Name of the member for a reader."""
         gait = "" if self.gait == "published" else f"gait '{self.gait}', "
         return (
             f"{gait}{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from "

@@ -77,7 +77,7 @@ class Probe(NamedTuple):
 
     @property
     def kept(self) -> bool:
-        """Whether it holds, and is not marginal."""
+        """Whether the claim holds in this case, and not only marginally."""
         return self.holds and not self.marginal
 
 
@@ -119,7 +119,7 @@ def word_of_claim(cases: Sequence[Probe]) -> str:
 
 
 def share_text(cases: Sequence[Probe], apart: bool) -> str:
-    """How many cases hold; apart: by variant too. Marginal ones are named."""
+    """Text of how many cases hold, with the marginal ones named; apart: for each variant too."""
     if not cases:
         return ""
     every = Counter(case.variant for case in cases)

@@ -58,7 +58,7 @@ class Extremes(tuple[float, ...]):
         return cls(f.at_half for f in figures)
 
     def __format__(self, form: str) -> str:
-        """NaN is counted and said."""
+        """Format smallest and largest value; the text also says how many values are NaN."""
         known = [v for v in self if not math.isnan(v)]
         if not known:
             return "none"

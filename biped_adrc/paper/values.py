@@ -64,7 +64,7 @@ def of_recipe_push(r: Runs) -> dict[str, object]:
 
 
 def of_map(r: Runs) -> dict[str, object]:
-    """What became of the pushes that throw NPD."""
+    """Values about the pushes under which NPD falls: how the same pushes end under ADRC."""
     known = [c for c in r.cells if c.certain]
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
     lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
@@ -97,7 +97,7 @@ def of_heavier(r: Runs) -> dict[str, object]:
 
 
 def of_orders(r: Runs) -> dict[str, object]:
-    """What the order of the observer costs and gives."""
+    """Values that compare observers of different order."""
     orders = next(iter(r.orders.values()))
     table, band, delay = orders.values()
     shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in m.gains(r).items())
@@ -113,7 +113,7 @@ def of_orders(r: Runs) -> dict[str, object]:
 
 
 def of_jumps(r: Runs) -> dict[str, object]:
-    """What is not smooth at an impact and at an edge."""
+    """Values of the jumps at an impact and at the edge of a push."""
     every = [*r.jumps.values()]
     return {name: Extremes(x[name] for x in every) for name in every[0]}
 
@@ -129,7 +129,7 @@ def of_cycles(r: Runs) -> dict[str, object]:
 
 
 def of_needs(r: Runs) -> dict[str, object]:
-    """What gait (b) costs and asks of the motors, undisturbed, beside gait (a)."""
+    """Values of the undisturbed walk on gait (b), its cost and its torques, beside gait (a)."""
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
     torques = Extremes(b.peak_torque for b, _ in both.values())
@@ -137,7 +137,7 @@ def of_needs(r: Runs) -> dict[str, object]:
 
 
 def of_starts(r: Runs) -> dict[str, object]:
-    """Which starts walk on."""
+    """Values about the starts from which the robot goes on walking."""
     every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]

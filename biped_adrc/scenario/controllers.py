@@ -7,8 +7,9 @@
     inner                                           of an outer loop: the controller of the record `inner`
     everything else                                 the record's own values
 
-Around it go the policy of `contact`, and what the registry has under `[around]`, each with the scenario's
-number of its name. A value that nothing takes is an error, since the user expected an effect.
+Wrappers go around it: the policy of `contact`, and those of the registry's kind "around" for which the record
+has a number, such as a prediction [s]. A value that nothing takes is an error, since the user expected an
+effect.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What is said of a scenario by linearisation: the cycle of its return map, and its specification.
+"""Linear analysis of a scenario: the cycle of its return map, and the specification of its loop.
 
     cycle_of(s)    a `Cycle`, which `analysis.stability.cycle_stability` takes: return map, and a state from
                    which Newton's method finds the fixed point

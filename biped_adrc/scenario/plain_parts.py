@@ -47,7 +47,7 @@ class MissingPart(InputError):
 
 
 def home_of(kind: Any) -> str:
-    """A class or function as `module:Class`."""
+    """Name of a class or function, such as `module:Class`."""
     return f"{kind.__module__}:{kind.__qualname__}"
 
 
@@ -101,7 +101,7 @@ class Writer:
         return self._known[id(x)][0]
 
     def _record(self, x: Any) -> PartRecord:
-        """The record of one object; of one that is the user's its class alone."""
+        """The record of one object; for an object of a user's class it has the class alone."""
         if hasattr(x, "__qualname__"):  # a class or a function itself
             return {"class": home_of(x)}
         home, names = home_of(type(x)), takes(x.__class__)
@@ -118,7 +118,7 @@ class Reader:
     _made: dict[int, object] = field(default_factory=dict)
 
     def made(self, x: object) -> Any:
-        """The value that `Writer.plain` was given.
+        """Make the value again of which `Writer.plain` made the record x.
 
         Raises MissingPart for an object of the user's and what contains one, InputError for a class that this
         version of the package does not have, and what a class raises of values that it does not take.

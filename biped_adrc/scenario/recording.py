@@ -169,7 +169,7 @@ class Walk(Shown):
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
-        """What each finished step would have asked of a real robot: friction, torque, clearance, energy."""
+        """A certificate of each finished step: friction, torque, clearance and energy that it needs."""
         return self.certified()
 
     @property
@@ -179,7 +179,7 @@ class Walk(Shown):
 
     @property
     def impacts_text(self) -> str:
-        """The same with its word: "1 impact"."""
+        """The number of impacts in words: "1 impact"."""
         return f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
 
     @property
@@ -189,7 +189,7 @@ class Walk(Shown):
 
     @property
     def soft(self) -> bool:
-        """Whether it was made on another plant than the rigid one, with contact that takes time."""
+        """Whether the walk ran on a plant with soft contact, in which a double support takes time."""
         return "plant" in self.trajectory.settings
 
     @cached_property
@@ -224,7 +224,7 @@ class Walk(Shown):
         return self.feasible_within(Limits())
 
     def feasible_within(self, limits: Limits) -> Feasibility:
-        """As `feasibility`, within other limits; the unfinished last step counts too."""
+        """Judge the walk as `feasibility` does, within other limits; the unfinished last step counts too."""
         run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
         impacts, after = self.impacts, after_last_impact(self.walker, run)
         if self.soft:
@@ -296,7 +296,7 @@ class Walk(Shown):
 
     @property
     def controller_name(self) -> str:
-        """Its name in the scenario, or of its class without "Controller"."""
+        """Name of the controller in the scenario, or else of its class without "Controller"."""
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller

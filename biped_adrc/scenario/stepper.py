@@ -137,7 +137,7 @@ class Stepper:
 
     @property
     def sample(self) -> Sample:
-        """Where the walks are."""
+        """Time, step and state of each walk now."""
         rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
         return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
 
@@ -224,7 +224,7 @@ class Stepper:
         return self.sample
 
     def move(self) -> None:
-        """As `step`, of walks that have begun, under `inputs`, not checked."""
+        """Move the walks by one sample as `step` does, without its checks of `inputs` and of the walks."""
         ends = self._kernels.samples(*self._walks, *self._states)
         self.over = self._judged() if ends > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
@@ -234,7 +234,7 @@ class Stepper:
                 self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
 
     def _judged(self) -> list[tuple[int, Support]]:
-        """What the single supports needed that have just ended in machine code, each with the number of its
+        """Judge the single supports that have just ended in machine code; returns each with the number of its
         walk.
         """
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
@@ -253,7 +253,7 @@ class Stepper:
         return result
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
-        """The same of a single support of walk i, one arc of all its nodes."""
+        """Judge one single support of walk i, whose arc has all its nodes."""
         run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
         run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
         walk = Walk(cast(Walker, self.walkers[i]), self.scene.walked, run)

@@ -99,7 +99,7 @@ def load_walk(path: Path | str) -> Walk:
 
 
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
-    """The signals of a file. Raises ValueError for an array that is none of this walk."""
+    """The signals in a file. Raises ValueError for an array that does not fit the walk."""
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
     wide = dict.fromkeys(OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
     estimates = [name for name in arrays if name.startswith("xi")]

@@ -70,9 +70,10 @@ def quantity(text: str, unit: str) -> float:
 
 
 def own_quantity(text: str, unit: str) -> float | str:
-    """The number of a text such as "2 mm" in `unit`, and a text without a number and a unit as it is.
+    """Convert a text such as "2 mm" to a number in `unit`; a text of another form is returned unchanged.
 
-    Raises ValueError as `quantity`; with `ANY` the text stays.
+    Raises ValueError where the number has a unit that does not fit; with `ANY` such a text is returned
+    unchanged.
     """
     match = _QUANTITY.fullmatch(text)
     with suppress(ValueError) if unit == ANY else nullcontext():

@@ -79,7 +79,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
 
 
 def _hash(path: Path) -> str:
-    """Of a file's content (12 hexadecimal digits); that of nothing for a file that there is not."""
+    """Hash of a file's content (12 hexadecimal digits); that of an empty text where there is no such file."""
     return _digits(path.read_bytes() if path.is_file() else b"")
 
 

@@ -169,7 +169,9 @@ class _Searched:
         return [result[i : i + count] for i in range(0, len(result), count)]
 
     def failure(self, found: Sequence[Candidate], case: str, kind: str) -> str:
-        """Where none keeps all limits: what excluded how many, and the nearest one; else empty."""
+        """Text for a search in which no candidate keeps all limits: how many each limit excluded, and the
+        nearest candidate. Empty where one keeps them.
+        """
         if any(c.feasible for c in found):
             return ""
         counts = (

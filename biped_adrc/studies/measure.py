@@ -81,7 +81,7 @@ class Measure(Section):
 
     @property
     def words(self) -> str:
-        """Of the measure, for tables and axes: "median rms_error under push"."""
+        """Words of the measure for tables and axes: "median rms_error under push"."""
         over = f"{self.over:g} quantile of" if isinstance(self.over, float) else self.over
         return f"{over} {self.column}" + (f" under {self.condition}" if self.condition else "")
 
@@ -150,14 +150,14 @@ class Limit(Measure):
         return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
-        """By how much x misses the limit, as a share of its bound; 0 where the limit is kept."""
+        """Distance of x from the limit as a share of its bound [1]; 0 where x keeps the limit."""
         scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
         return min(max(self.sign * (x - self.bound) / scale, 0.0), MOST_EXCESS)
 
 
 @lru_cache(maxsize=128)
 def _specification(text: str) -> Specification:
-    """Of the values of a scenario as JSON, kept for its columns before and after its walks.
+    """The specification of a scenario whose values are this JSON, cached for the columns that need it.
 
     Raises InputError.
     """
@@ -168,7 +168,7 @@ def _specification(text: str) -> Specification:
 
 
 def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, float | None]:
-    """Those of the columns that need no walk, for a candidate with these values of a scenario.
+    """Compute the columns that need no walk, for a candidate with these values of a scenario.
 
     None where there is no finite number, or where the values do not fit together.
     """

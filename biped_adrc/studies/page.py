@@ -43,7 +43,7 @@ def write_page(found: Results) -> Path:
 
 
 def headings(found: Results) -> tuple[str, ...]:
-    """Of the table of a study."""
+    """Headings of the table of a study."""
     middle = f"median {found.study.measure.column}"
     first = next((line.name for line in found.table()), "") or "first"
     return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"

@@ -99,7 +99,7 @@ class Store:
 
 
 def checksum(row: Sequence[object]) -> str:
-    """Of a row of `walks`: the first 64 bits of SHA-256, in hexadecimal digits."""
+    """Checksum of a row of `walks`: the first 64 bits of SHA-256, in hexadecimal digits."""
     return hashlib.sha256(repr(tuple(row)).encode()).hexdigest()[:16]
 
 
@@ -128,7 +128,9 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
-    """Write the tables into an empty file; what is wrong with a file of something else, or empty."""
+    """Write the tables into an empty file; returns what is wrong with a file of another kind, else an empty
+    text.
+    """
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
     tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
     if not mark and not tables:
@@ -178,7 +180,7 @@ SUFFIXES = (".csv", ".parquet")
 
 
 class Choice(NamedTuple):
-    """What a search found for a case."""
+    """The result of a search for one case: all candidates, and the best of them, walked again."""
 
     candidates: tuple[Candidate, ...]
     """All of them by number, judged on the first set of walks."""
@@ -304,7 +306,7 @@ class Results(Shown):
         return tuple(note for note, holds in notes.items() if holds)
 
     def statuses(self) -> dict[str, tuple[int, str]]:
-        """By status how many walks ended so, and what the first of them says."""
+        """For each status the number of walks that ended so, and the text of the first of them."""
         details: dict[str, list[str]] = {}
         for _, row in self.results():
             details.setdefault(str(row["status"]), []).append(str(row.get("detail") or ""))
@@ -337,7 +339,7 @@ def check_table(path: Path) -> None:
 
 
 def _name(at: Mapping[str, Any]) -> str:
-    """What a table calls the walks of a case, and of a setting of it."""
+    """Name in tables of the walks of a case, or of one setting of it."""
     case, setting = str(at.get("case", "")), str(at.get("setting", ""))
     return ", ".join(x for x in (case, "" if case and setting == "chosen" else setting) if x)
 

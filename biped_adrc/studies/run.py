@@ -65,7 +65,7 @@ _PREPARING = Lock()
 def rows_of(
     function: Function, records: Sequence[Record], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
-    """For each record its row as JSON, and the row's status. Called in a worker.
+    """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
     folders: in which modules of the user's lie, by name (`registry.FOLDERS` of who calls).
     Where the function raises on a chunk it is called again with one record at a time; a record on which it
@@ -83,7 +83,8 @@ def rows_of(
 
 
 def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
-    """A row for each trial, in their order: the function that workers run. aside: with the column `rounding`.
+    """Walk the trials, and return a row for each in their order. aside: whether rows have the column
+    `rounding`.
 
     All trials take a step before the first one takes the next, as many as memory holds well: so a processor
     finds the code of a step in its cache, and takes a fifth less time than trial by trial.
@@ -112,7 +113,9 @@ def _run_of(t: Trial) -> Callable[[], BatchWalk]:
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
-    """What a step makes of each item; a row that says why an earlier step raised is handed on."""
+    """Apply one step of a study to each trial. An item that is a row already, because an earlier step raised,
+    is passed on unchanged.
+    """
     return [x if isinstance(x, dict) else _attempt(step, x) for x in items]
 
 
@@ -176,8 +179,8 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
 
 
 def counted_in(walk: Walk, limits: Limits) -> WalkRow:
-    """As `counted`, of a walk with all its nodes; what its feet did on soft ground, and when touchdowns were
-    noticed.
+    """The columns of `counted` for a walk with all its nodes, and those of feet on soft ground and of detected
+    touchdowns where the walk has them.
     """
     return {
         **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),

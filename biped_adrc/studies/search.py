@@ -89,7 +89,9 @@ class Variable(Section):
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
-        """Whether it has an effect beside these values of a scenario; free: names that may have any value."""
+        """Whether the variable has an effect beside these values of a scenario; free: names that may have any
+        value.
+        """
         return all(
             name in free or values.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
@@ -112,7 +114,9 @@ Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(va
 
 
 class Search(Section):
-    """What is searched, and how candidates are judged."""
+    """A search: the variables that it changes, its objective and limits, and the walks by which it judges
+    them.
+    """
 
     variables: Variables = Field(min_length=1)
     objective: Aim
@@ -134,7 +138,7 @@ class Search(Section):
         return (self.objective, *self.limits)
 
     def count(self, sets: Mapping[str, int]) -> int:
-        """Walks of one case at most. sets: walks of a candidate, by name of the set."""
+        """Largest number of walks of one case. sets: name of a set -> walks of one candidate in it."""
         again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
         return self.budget * sets["search"] + again
 
@@ -200,7 +204,7 @@ class Candidate(NamedTuple):
 
     @property
     def feasible(self) -> bool:
-        """Whether it was walked and keeps all limits."""
+        """Whether the candidate was walked and keeps all limits."""
         return self.walked and not any(self.missed)
 
 
@@ -218,7 +222,7 @@ WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 
 
 def optuna_library() -> Any:
-    """Optuna, which says warnings alone. Raises InputError where it or cmaes is missing."""
+    """Import Optuna, and let it print warnings only. Raises InputError where it or cmaes is missing."""
     with optional("study", "a search needs Optuna and cmaes, which are not installed"):
         import cmaes  # noqa: F401
         import optuna

@@ -106,7 +106,7 @@ def read_range(name: str, value: object, kind: type[R] = Span) -> R:  # type: ig
 
 
 def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
-    """At least so many different values of one field. Raises ValueError."""
+    """Read a list of values of one field. Raises ValueError where it has too few, or two that are equal."""
     row = value if isinstance(value, list | tuple) else ()
     result = tuple(Scenario.value_of(name, x) for x in row)
     if len({repr(x) for x in result}) < max(least, len(result)):

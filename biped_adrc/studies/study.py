@@ -47,7 +47,7 @@ LONGEST = 100
 
 
 def located(**names: object) -> dict[str, Any]:
-    """Names that locate a walk beside what is varied, but for empty ones.
+    """The names that tell a walk from others with the same values, without those that are empty.
 
     case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
     "before" (the case as it was).
@@ -69,7 +69,9 @@ class Point(NamedTuple):
 
 
 class Study(Section):
-    """What is varied and what is not, in SI units, checked; `read_study` makes it of a file or of tables."""
+    """The parameters that a study varies and those that it does not, in SI units, checked; `read_study` makes
+    it of a file or of tables.
+    """
 
     name: str = Field(min_length=1)
     description: str = ""
@@ -111,7 +113,7 @@ class Study(Section):
                 yield f"{name} is in '{a}' and in '{b}', expected one place"
 
     def _searched(self, search: Search) -> Iterator[str]:
-        """What a search does not go with."""
+        """Iterate over the faults of a study with a search, each as a sentence; none for a right one."""
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]
@@ -139,7 +141,7 @@ class Study(Section):
         return self.count_of(frozenset())
 
     def count_of(self, undrawn: Undrawn) -> int:
-        """The number of its walks; of a search what it walks at most, but for candidates that no walk needs."""
+        """The number of walks of a study; for a search the largest number that it may need."""
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
@@ -149,7 +151,7 @@ class Study(Section):
 
     @property
     def every_seed(self) -> tuple[int, ...]:
-        """Its seeds, and those of the sets of a search."""
+        """The seeds of the study, and those of the sets of a search."""
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
@@ -174,7 +176,7 @@ class Study(Section):
 
     @property
     def measure(self) -> Measure:
-        """What the table and the page show: the objective of a search, or the median of the column."""
+        """The measure that table and page show: the objective of a search, or the median of the column."""
         return Measure(column=self.column) if self.search is None else self.search.objective
 
     @property
@@ -190,7 +192,7 @@ class Study(Section):
 
     @property
     def versions(self) -> dict[str, str]:
-        """By name the versions of packages, and hashes of the files and classes, that the study's walks use.
+        """Versions of the packages, and hashes of the files and classes, that the study's walks use, by name.
 
         Raises InputError for a class that cannot be imported.
         """
@@ -303,7 +305,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
 
 
 def _problem(error: Any) -> str:
-    """One thing that is wrong in a file; an unknown key with the nearest ones."""
+    """Sentence on one fault of a file; for an unknown key it names the nearest known ones."""
     if error["type"] != "extra_forbidden":
         return problem(error)
     inside = (Search, WalkSets, Variable, Aim, Limit)

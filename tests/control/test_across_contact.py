@@ -177,7 +177,7 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
 
 
 @pytest.mark.parametrize("policy", WINDOWS)
-def test_a_window_of_no_time_is_the_controller_itself_bit_for_bit(biped, gait, h, policy):
+def test_a_window_of_zero_length_changes_no_bit_of_the_walk(biped, gait, h, policy):
     inner = ba.ADRCController(h, FAST)
     one, other = (walked(biped, gait, law) for law in (inner, policy(inner, 0.0)))
     none = walked(biped, gait, policy(inner, 0.03))
@@ -186,7 +186,7 @@ def test_a_window_of_no_time_is_the_controller_itself_bit_for_bit(biped, gait, h
     assert not np.array_equal(one.arcs[-1].x[-1], none.arcs[-1].x[-1])
 
 
-def test_held_for_longer_than_a_step_it_is_the_law_of_the_model(biped, gait, h):
+def test_a_hold_longer_than_a_step_is_the_law_of_the_model(biped, gait, h):
     npd, held, adrc = (
         walked(biped, gait, law).arcs[-1].x[-1][:10]
         for law in (
@@ -200,7 +200,7 @@ def test_held_for_longer_than_a_step_it_is_the_law_of_the_model(biped, gait, h):
 
 
 # -- what is refused, and by name ----------------------------------------------------------------------
-def test_what_does_not_fit_is_refused(biped, gait, h):
+def test_wrong_inner_controllers_and_values_are_refused(biped, gait, h):
     for make in (
         lambda: ImpactInvariant(ba.Passive()),
         lambda: ImpactInvariant(ba.NPDController(h), innovation=True),

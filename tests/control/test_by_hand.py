@@ -38,12 +38,12 @@ def test_rows_are_held_from_their_times_on_in_one_single_support(biped):
         ({"times": [0.1], "on": "tail", "forces": [[1.0, 0.0]]}, "tail"),
     ],
 )
-def test_rows_that_are_none(biped, rows, said):
+def test_wrong_rows_are_refused_with_the_reason(biped, rows, said):
     with pytest.raises(ba.BipedError, match=said):
         by_hand(biped, 1, **rows)
 
 
-def test_a_value_that_it_does_not_take():
+def test_a_push_by_hand_takes_no_torque():
     push = {"shape": "hand", "step": 1, "times": [0.1], "torque": 30.0}
     with pytest.raises(InputError, match="takes no torque"):
         ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", pushes=[push]))

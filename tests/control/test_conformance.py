@@ -198,7 +198,7 @@ def made(kind, name):
 
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
-def test_every_leaf(kind, name):
+def test_every_part_of_the_registry_conforms(kind, name):
     for thing in made(kind, name):
         compiled = conforms(thing)
         assert compiled in (None, name not in IN_PYTHON)
@@ -267,13 +267,15 @@ def test_only_things_of_one_kind_are_added_up(thing):
 
 
 @pytest.mark.parametrize("name", UNNAMED)
-def test_every_leaf_without_a_name(name):
+def test_every_part_outside_the_registry_conforms(name):
     for thing in UNNAMED[name](gait().constraint):
         conforms(thing)
 
 
-def test_adrc_of_outputs_with_table_one_in_machine_code():
-    """Its gains turn the last bit of an angle into 1e-9 of a rate: the loop is compared, not each law."""
+def test_output_adrc_with_the_gains_of_table_one_compiles_in_the_loop():
+    """The gains turn the last bit of an angle into 1e-9 of a rate, so the loop is compared and not each
+    method.
+    """
     law = OutputADRCController(gait().constraint)
     for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
         walker = ba.Walker(heavy(), law, timing=timing, model=robot(), torque_limit=150.0)

@@ -73,7 +73,7 @@ def test_windows_close_where_they_say():
 # -- a pulse with sloping edges ---------------------------------------------------------------------
 
 
-def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_told():
+def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_switching_times():
     pulse = ba.TorquePulse(F, step=2, start=0.1, stop=0.2, rise=0.04)
     assert pulse.switching_times(2, 1.0) == pytest.approx([1.1, 1.14, 1.2, 1.24], abs=1e-12)
     assert len(ba.TorquePulse(F, step=2, start=0.1, stop=0.2).switching_times(2, 1.0)) == 2
@@ -222,7 +222,7 @@ def test_noise_repeats_by_its_seed_only():
 @pytest.mark.parametrize(
     "ground", [(StepUp(2, 0.01), StepDown(3, 0.01)), uneven_ground(2, 4e-3, 4)]
 )
-def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground):
+def test_the_foot_strikes_at_the_height_of_the_ground_below_it(bare, published, ground):
     law = ba.ReferenceReset(ba.NPDController(continued(published.constraint)))
     walker = ba.Walker(bare, law, ground_steps=ground)
     walk = ba.walk(walker, published, 5, ba.RK4(2e-3))
@@ -307,6 +307,6 @@ def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
         lambda biped: StepDown(0, 0.01),
     ],
 )
-def test_what_does_not_fit_is_refused(biped, make):
+def test_wrong_values_of_disturbances_are_refused(biped, make):
     with pytest.raises(ba.BipedError):
         make(biped)

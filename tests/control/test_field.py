@@ -116,7 +116,7 @@ def test_a_known_force_is_rejected_whatever_it_acts_on(biped, gait, seed):
 
 
 def test_estimates_of_outputs_in_words_of_the_joints(biped, gait):
-    """What is said to the signals is the xi of the joint form."""
+    """The estimate in the signals is converted to the xi of the joint form."""
     walker = Walker(biped, OutputADRCController(gait.constraint))
     x = walker.initial_state(*off_orbit(gait, biped))
     i = walker.instant(0.0, x, Mode())
@@ -270,7 +270,7 @@ def settled(**more):
 
 
 @pytest.mark.parametrize("order", [0, 1])
-def test_on_the_exact_model_it_walks_as_npd(order):
+def test_on_the_exact_model_adrc_walks_as_npd(order):
     """In continuous time nothing is left for the observer, so both walks are one to integration accuracy."""
     law = {"name": "ADRC assisted", "observer": {"order": order, "bandwidth": 200.0}}
     npd, told = (

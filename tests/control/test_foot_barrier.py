@@ -112,7 +112,9 @@ def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, 
     assert 0.8 * tolerance < largest[1] < 1.001 * tolerance
 
 
-def test_a_walk_in_which_it_never_acts_is_that_of_the_controller_inside_bit_for_bit(biped, gait):
+def test_a_walk_in_which_the_filter_never_acts_is_that_of_the_controller_inside_bit_for_bit(
+    biped, gait
+):
     for inner in (ba.NPDController(gait.constraint), ba.ADRCController(gait.constraint)):
         alone, filtered = (
             on_stones(biped, gait, x)
@@ -184,7 +186,7 @@ def test_a_row_of_a_study_has_them(gait):
     assert other["infeasible_qp"] is None
 
 
-def test_it_refuses_what_tracks_no_constraint(biped):
+def test_a_controller_without_a_constraint_and_a_zero_tolerance_are_refused(biped):
     with pytest.raises(InputError, match="virtual constraint"):
         FootBarrier(ba.Passive(), biped)
     with pytest.raises(InputError, match="tolerance"):

@@ -119,7 +119,7 @@ def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
     assert r == pytest.approx(14.4 * hip, rel=0.1)
 
 
-def test_random_ground(biped, slow):
+def test_steps_on_ground_of_random_height(biped, slow):
     """Each of 25 steps ends up to 20 mm higher or lower."""
     s = ba.Scenario({"name": "footstep", "speed": 0.65, "step": 0.38, "inner": "NPD"}, gait="v0.6")
     s = s.replace({"hardware.period": "1 ms", "ground.step_height": "20 mm", "run.seed": 5})
@@ -130,7 +130,7 @@ def test_random_ground(biped, slow):
 
 
 @pytest.mark.parametrize("inner", [ba.NPDController, ba.ADRCController])
-def test_random_stones(inner):
+def test_steps_onto_stones_at_random_distances(inner):
     """In 20 steps of 0.2 to 0.6 m; the verdict includes the stones."""
     own = {"name": "footstep", "speed": "0.55 m/s", "step": "0.4 m"}
     own["inner"] = "NPD" if inner is ba.NPDController else "LESO"
@@ -165,7 +165,7 @@ def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
         ({"hardware.period": None}, "sampled time only"),
     ],
 )
-def test_mistakes_with_footsteps(values, text):
+def test_wrong_values_of_footsteps_are_refused(values, text):
     usual = {"controller": "footstep", "gait": "v0.6", "hardware.period": "1 ms"}
     with pytest.raises(InputError, match=text):
         ba.walk_scenario(ba.Scenario(**usual | values))

@@ -81,7 +81,7 @@ def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_erro
 
 
 @pytest.mark.parametrize("share", [0.0, 0.6, 1.0])
-def test_what_is_estimated_is_the_disturbance_beside_the_torque_that_acts(
+def test_the_estimate_of_xi_is_the_same_with_and_without_the_feedforward(
     biped, rubbing, gait, share
 ):
     """So xi^ - xi is as without the feedforward: friction is in xi, whoever compensates it."""
@@ -96,7 +96,7 @@ def test_what_is_estimated_is_the_disturbance_beside_the_torque_that_acts(
     assert np.max(np.abs(found - xi)) < 0.1 * np.max(np.abs(model - xi))
 
 
-def test_what_does_not_fit_is_refused(biped, gait):
+def test_wrong_friction_values_are_refused(biped, gait):
     for wrong in ({"share": -0.1}, {"static": (1.0, np.nan, 0.0, 0.0)}):
         values = {"viscous": (1.0,) * 4, "static": (1.0,) * 4, **wrong}
         with pytest.raises(InputError):

@@ -127,7 +127,7 @@ def test_an_observer_that_does_not_correct_and_predict_is_refused_at_a_tick(bipe
         lambda: MomentumObserver.from_bandwidth(3.0).predict(np.zeros(0), np.zeros(0)),
     ],
 )
-def test_bad_observers(call):
+def test_wrong_values_of_observers_are_refused(call):
     with pytest.raises(InputError):
         call()
 

@@ -76,7 +76,9 @@ def test_the_torque_of_a_delayed_loop_is_that_of_the_loop_without_delay_from_whe
     assert np.max(np.abs(hidden[:, 4:] - free[:, 4:])) > 1.0
 
 
-def test_on_the_robot_what_is_missed_goes_with_the_second_power_of_the_time(biped, gait):
+def test_on_the_robot_the_error_of_the_predicted_rates_goes_with_the_square_of_the_delay(
+    biped, gait
+):
     """Of the rates, and with the third of the angles: the torque is held, and the rest of q'' changes."""
     q, v = gait.start(biped)
     walker = ba.Walker(biped, ba.Passive())
@@ -134,7 +136,7 @@ def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_w
     assert worst < 0.02 * least
 
 
-def test_what_does_not_fit_is_refused(gait):
+def test_wrong_delays_and_clocks_are_refused(gait):
     inner = ba.NPDController(gait.constraint)
     for wrong in (
         lambda: Predicted(inner, -1e-3),

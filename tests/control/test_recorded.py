@@ -10,7 +10,7 @@ from biped_adrc.scenario.build import build
 from .conforms import written
 
 
-def test_it_is_the_files_lines_and_its_impulse_that_of_trapezoids(biped):
+def test_a_recording_is_interpolated_linearly_and_its_impulse_is_that_of_trapezoids(biped):
     random = np.random.default_rng(2)
     times = np.cumsum(random.uniform(0.001, 0.02, 3 * PIECES + 5))
     torques = 20.0 * random.normal(size=(len(times), 5))
@@ -52,7 +52,7 @@ def test_columns_are_joints_by_either_name(biped):
         ("t,q9\n0,1\n1,2", "no joint 'q9'"),
     ],
 )
-def test_bad_recordings(biped, text, message):
+def test_wrong_files_of_recordings_are_refused_by_name(biped, text, message):
     with pytest.raises(ba.BipedError, match=message) as raised:
         RecordedTorque.read(written(text), biped)
     assert "given.csv" in str(raised.value)

@@ -70,7 +70,7 @@ def test_the_same_walk_whatever_is_between(plant, gait, name):
     same(python, compiled, 1e-6)
 
 
-def test_over_a_touchdown(plant, gait):
+def test_both_engines_make_the_same_walk_over_a_touchdown(plant, gait):
     python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
     assert [event.guard for event in compiled.events()] == ["foot_strike"]
     same(python, compiled, 1e-6)
@@ -78,7 +78,7 @@ def test_over_a_touchdown(plant, gait):
 
 @dataclass(frozen=True)
 class Written(ba.Controller):
-    """u = -K_d q_b' as a method, not a number from `lost` on."""
+    """u = -K_d q_b', and NaN from `lost` [s] on; the branch on time has no machine code."""
 
     lost: float = np.inf
 
@@ -86,7 +86,7 @@ class Written(ba.Controller):
         return np.full(4, np.nan) if m.t >= self.lost else -5.0 * m.v_b
 
 
-def test_a_controller_without_laws_runs_in_python_on_a_compiled_model(plant, gait):
+def test_a_controller_that_branches_on_time_runs_in_python_on_a_compiled_model(plant, gait):
     python, compiled = both(plant, gait, Written(), 0.05, disturbance=PUSH)
     assert compiled.settings["engine"] == "compiled model"
     assert "Written" in compiled.settings["why"]
@@ -117,7 +117,7 @@ ENDS = {
 
 
 @pytest.mark.parametrize("name", ENDS)
-def test_the_same_ends(plant, gait, name):
+def test_both_engines_end_a_walk_with_the_same_status(plant, gait, name):
     controller, more, t_end, change, status = ENDS[name]
     controller = controller or ba.NPDController(gait.constraint)
     python, compiled = both(plant, gait, controller, t_end, change, **more)

@@ -66,7 +66,7 @@ def controllers(gait):
 
 @pytest.mark.parametrize("name", ["NPD", "ADRC"])
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_columns(biped, gait, name, sampled):
+def test_compiled_signals_are_those_of_python(biped, gait, name, sampled):
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, controllers(gait)[name], PUSH, time, torque_limit=80.0)
     s = compare(walker, walked(walker, gait), gait.constraint)

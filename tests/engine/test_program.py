@@ -116,7 +116,7 @@ def test_one_compilation_serves_every_number(biped, gait):
 
 @pytest.mark.parametrize("pose", [0.0, np.pi])
 def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
-    """What one link of the swing leg is too long another is too short, as seen in that pose."""
+    """One link of the swing leg is too long and another too short: the errors cancel in one pose."""
     robot = robot_of(biped)
     wrong = np.zeros(biped.n)
     wrong[:2] = 0.1 * np.cos(pose * robot.A.sum(axis=1))[1::-1] * (1.0, -1.0)

@@ -96,7 +96,7 @@ def same(python, compiled, tolerance, engine="compiled"):
 
 
 @pytest.mark.parametrize("restart", [True, False])
-def test_ticks(biped, gait, restart):
+def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
     """Sub-steps do not divide the period; a run that starts late has its clock from there."""
     time = ba.SampledTime(1e-3, restart)
     walker = ba.Walker(biped, adrc(gait), timing=time, torque_limit=120.0)
@@ -134,7 +134,7 @@ SEVERAL = (
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_pushes(biped, gait, sampled):
+def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), SEVERAL, time)
     python, compiled = runs(walker, gait, ba.RK4(4e-3 if sampled else 2e-3))
@@ -342,7 +342,7 @@ def ticked(biped, python):
     return ba.Walker(biped, python, timing=ba.SampledTime(1e-3), torque_limit=120.0)
 
 
-def test_tick_by_tick(gait, ticked):
+def test_a_controller_in_python_is_called_at_the_same_ticks_on_a_compiled_plant(gait, ticked):
     """With a state of its own, sub-steps that do not divide the period, and a late start."""
     walker = replace(ticked, timing=ba.SampledTime(1e-3, restart=False))
     late = {"mode": Mode(3, 0.41237), "every": 2}
@@ -424,7 +424,9 @@ def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait,
 
 
 @pytest.mark.parametrize("method", [ba.RK4(2e-3), Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
-def test_in_continuous_time(biped, gait, python, method):
+def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
+    biped, gait, python, method
+):
     walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):
         in_part(*runs(walker, gait, method), SHARP, "InPython.output")
@@ -443,7 +445,7 @@ def test_disturbances_without_machine_code(biped, gait):
 # -- what goes wrong in Python ---------------------------------------------------------------------
 @pytest.mark.parametrize("factor", [np.nan, 1e300])
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_torques_without_numbers(biped, gait, python, sampled, factor):
+def test_a_torque_that_is_nan_or_huge_ends_both_engines_alike(biped, gait, python, sampled, factor):
     broken = replace(python, after=0.1, factor=factor)
     law, timing = (
         (broken, ba.SampledTime(1e-3)) if sampled else (Stateless(broken), ba.ContinuousTime())
@@ -588,7 +590,7 @@ class Plain(Stateless):
         return u / (1.0 + 1e-6 * share)
 
 
-def test_what_can_be_compiled(biped, gait):
+def test_a_controller_of_the_user_s_is_compiled(biped, gait):
     walker = ba.Walker(biped, Plain(npd(gait)), timing=ba.SampledTime(1e-3))
     same(*runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None), TICKS)
 

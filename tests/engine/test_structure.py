@@ -48,7 +48,7 @@ def test_a_class_defined_anew_is_compiled_anew():
         assert compiled[0] == factor
 
 
-def test_modules_are_followed(tmp_path, monkeypatch):
+def test_functions_in_modules_of_the_user_s_are_compiled_too(tmp_path, monkeypatch):
     folder = tmp_path / "tools"
     folder.mkdir()
     (folder / "__init__.py").write_text("")

@@ -137,7 +137,7 @@ def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
 
 
 @pytest.mark.parametrize("name", ["NPD", "DOB"])
-def test_with_floats_it_is_that_walk_to_the_digits_that_floats_have(name):
+def test_c_in_single_precision_walks_as_python_to_single_precision(name):
     walker = walker_of("controller", made("controller", name)[0], "ideal")
     found = difference(walker, source_of(Computer(walker), real="float32"))
     assert 1e-9 < found <= IN_FLOAT

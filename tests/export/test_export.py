@@ -107,7 +107,7 @@ class Own(Sensor):
         return q, v
 
 
-def test_what_stands_in_the_way_is_named(tmp_path):
+def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     walker = build(ba.Scenario("NPD", hardware="ideal"))
     for scenario, word in [
         (ba.Scenario("NPD"), "ContinuousTime"),

@@ -106,7 +106,7 @@ def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
 
 
 @pytest.mark.parametrize("name", CONVENTIONS)
-def test_walker_without_knees(name):
+def test_conventions_place_the_feet_of_a_robot_without_knees(name):
     biped = ba.Biped.load("three_link")
     c = convention(name, knees=False)
     for q_own, _ in zip(*random_states(3), strict=True):
@@ -145,7 +145,7 @@ def test_energies_are_those_of_the_definition(name, bare):
 
 
 @pytest.mark.parametrize("name", CONVENTIONS)
-def test_phase(name, biped):
+def test_the_phase_of_a_convention_is_the_paper_s_up_to_sign_and_constant(name, biped):
     c = convention(name)
     assert c.paper_phase == pytest.approx(biped.phase)
     constant = c.paper_phase @ c.to_paper.b

@@ -105,7 +105,7 @@ def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) ->
     assert frugal.certificate.cost_of_transport < 0.9 * level.certificate.cost_of_transport
 
 
-def test_through_x_star_it_is_the_gait_of_the_other_optimiser() -> None:
+def test_the_gait_through_x_star_is_that_of_the_other_optimiser() -> None:
     """Gauss-Newton on weighted residuals found the stored gait; the minimum is flat there."""
     biped = Biped.load("rabbit", "identified")
     q, v = onto_section(biped, X_STAR[:5]), np.array(X_STAR[5:])
@@ -155,7 +155,7 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
 
 
 # -- bad input -------------------------------------------------------------------------------------
-def test_what_stands_in_the_way_is_named() -> None:
+def test_a_design_without_solution_names_the_limit_that_has_to_give() -> None:
     weak = StepLimits(torque=8.0, clearance=None)
     with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):
         design_gait("three_link", 0.9, 0.6, limits=weak)

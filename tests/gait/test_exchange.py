@@ -68,7 +68,7 @@ def test_polynomials_that_are_not_hybrid_invariant(biped, recipe, tmp_path):
         import_gait(path, biped)
 
 
-def test_what_a_mat_file_holds(gait, tmp_path):
+def test_an_exported_mat_file_has_curves_phase_and_units(gait, tmp_path):
     export_gait(gait, tmp_path / "gait.mat", "frost")
     raw = loadmat(tmp_path / "gait.mat")
     assert raw["coefficients"].shape == (4, 7)
@@ -122,7 +122,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
     assert_same(gait, import_gait(other, biped), abs=1e-9)
 
 
-def test_whole_turns(biped, gait, record):
+def test_whole_turns_of_the_angles_are_taken_out_of_an_imported_gait(biped, gait, record):
     a = np.array(record.coefficients)
     a[:2] -= 2 * np.pi
     ends = {name: getattr(record, name) - 2 * np.pi for name in ("theta_plus", "theta_minus")}

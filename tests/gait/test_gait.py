@@ -72,7 +72,7 @@ def test_published_gait_closes_on_the_published_state(any_biped):
         {"period": -1.0},
     ],
 )
-def test_bad_gait_files(tmp_path, biped, gait, changes):
+def test_wrong_gait_files_are_refused_by_name(tmp_path, biped, gait, changes):
     path = tmp_path / "bad.json"
     gait.save(path)
     record = {**json.loads(path.read_text()), **changes}

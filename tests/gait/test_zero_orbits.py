@@ -190,7 +190,7 @@ def test_multiplier_of_the_wheel_is_delta_squared():
 
 
 # -- when there is no orbit ----------------------------------------------------------------------------
-def test_what_fails_is_named(bare, published, orbits):
+def test_zero_dynamics_without_a_fixed_point_name_the_condition(bare, published, orbits):
     with pytest.raises(GaitError, match="V_max"):
         _ = orbits_of(*wheel(0.05)).zeta_star
     with pytest.raises(GaitError, match="expected below 0"):

@@ -87,8 +87,8 @@ ADDED = [
 
 
 @pytest.mark.parametrize("values", ADDED, ids=lambda values: " ".join(map(str, values.values())))
-def test_an_addition_is_added(values):
-    """In the second sample, so that it is not one that the walk was made with."""
+def test_an_action_of_kind_added_is_added_to_the_torque_of_the_controller(values):
+    """The addition changes in the second sample: it is not fixed when the walk begins."""
     env, action, torques = made(**values), np.array([0.1, -0.05, 0.02, 0.03]), []
     for given in (np.zeros(4), action):
         env.reset(seed=0)
@@ -161,7 +161,7 @@ def test_a_joint_that_turns_faster_than_it_states_is_in_the_verdict_and_not_in_t
     assert [walked(env, 0, 1000)[4][-1]["feasible"] for env in (slow, usual)] == [False, True]
 
 
-def test_seeds():
+def test_a_seed_repeats_a_start():
     env = made(action="added", condition="wrong model", **SLOW)
     first = [env.reset(seed=k)[0] for k in (1, 2, 1)]
     assert np.array_equal(first[0], first[2])

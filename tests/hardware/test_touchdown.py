@@ -258,7 +258,7 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
     np.testing.assert_array_equal(rates[k + 1], rates[k])
 
 
-def test_what_does_not_fit_is_refused(biped, gait):
+def test_wrong_values_and_clocks_of_touchdown_detectors_are_refused(biped, gait):
     for timing in (ba.SampledTime(T), ba.ContinuousTime()):
         with pytest.raises(InputError, match="restart=False"):
             walker(biped, gait, FaultyTouchdown(), timing=timing)

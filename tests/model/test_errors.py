@@ -113,7 +113,7 @@ def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
     assert not np.any(without.friction_torque(v))
 
 
-def test_impact_errors():
+def test_impact_errors_are_uniform_and_repeated_by_their_seed():
     e = np.array([impact_error(seed, 0.1, 5) for seed in range(200)])
     assert np.array_equal(e[3], impact_error(3, 0.1, 5))
     assert np.max(np.abs(e)) <= 0.1

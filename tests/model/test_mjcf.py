@@ -125,7 +125,8 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     np.testing.assert_array_equal(again.inertia(q), derived.biped.inertia(q))
 
 
-def test_a_sole_whose_joint_is_named_stands_on_its_tip(own):
+def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
+    """`Hints.tip` is a point of the sole's own frame; foot and hip are where MuJoCo has them."""
     joints = [f"{side}_{joint}" for joint in ("hip", "knee", "ankle") for side in ("right", "left")]
     hints = Hints(("right_sole", "left_sole"), tuple(joints), torque=5.0, tip=(0.1, 0.0, 0.0))
     biped = derive(own, hints).biped

@@ -497,7 +497,7 @@ def test_a_sole_is_a_point_at_its_ankle_unless_its_joint_is_named(urdf):
     assert derive(urdf(text), feet).biped.n == 5
 
 
-def test_what_is_left_out_is_said(urdf):
+def test_parts_of_a_urdf_that_are_left_out_are_in_the_notes(urdf):
     text = two_legs('<link name="world"/><gazebo/><gazebo/>' + top("planar")).replace(
         '<link name="left_foot"/>', '<link name="left_foot"><collision/></link>'
     )

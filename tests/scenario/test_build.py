@@ -143,7 +143,7 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"run.method": "rk5"}, "found 'rk5', expected rk4 or"),
     ],
 )
-def test_what_is_wrong_is_named(values, message) -> None:
+def test_wrong_values_of_a_scenario_are_refused_by_name(values, message) -> None:
     with pytest.raises(ba.BipedError, match=message):
         Scenario(**values)
 
@@ -188,7 +188,7 @@ FROM_THE_SCENARIO = {
 
 
 def test_each_number_of_a_packaged_part_has_a_unit() -> None:
-    """Those of the shapes of pushes but for noise are fields of a push."""
+    """Shapes of pushes are not looked at: their numbers are fields of `Push`, which has units."""
     for kind in ("controller", "contact", "sensor", "touchdown"):
         for name, entry in REGISTRY[kind].items():
             assert not set(entry.units) - {"K_p", "K_d"} - set(takes(entry.load())), name

@@ -102,7 +102,9 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ),
     ],
 )
-def test_what_is_wrong_is_said(own: str, values: dict, message: str) -> None:
+def test_wrong_classes_of_the_user_s_are_refused_with_the_reason(
+    own: str, values: dict, message: str
+) -> None:
     values = {k: x.replace("OWN", own) if isinstance(x, str) else x for k, x in values.items()}
     with pytest.raises(InputError, match=message):
         ba.walk_scenario(ba.Scenario(**values))

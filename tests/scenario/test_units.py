@@ -20,7 +20,7 @@ from biped_adrc.scenario.units import quantity
         ("1 kg m^2/s^2", "N m", 1.0),
     ],
 )
-def test_units(text, unit, number):
+def test_a_text_with_a_unit_becomes_a_number_in_another(text, unit, number):
     assert quantity(text, unit) == pytest.approx(number, rel=4e-16)
 
 

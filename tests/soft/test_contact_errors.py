@@ -51,7 +51,7 @@ def test_each_error_is_looked_for_in_its_own_time():
         (0.561, 0.5, "pushed_error"),
     ],
 )
-def test_an_error_counts_where_it_belongs(at, onset, where):
+def test_an_error_is_counted_to_the_touchdown_or_the_push_before_it(at, onset, where):
     found = contact_errors(walk((at, 7.0), pushed=(onset, 0.8)))
     names = ("touchdown_error", "pushed_error")
     assert [name for name in names if getattr(found, name) == 7.0] == ([where] if where else [])

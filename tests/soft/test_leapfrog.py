@@ -74,7 +74,7 @@ def test_table_1_walks_on_it_and_not_on_eulers_method(biped, gait):
     assert walked(gait, ba.ADRCController, plant, 5).status is ba.Status.INFEASIBLE
 
 
-def test_through_a_touchdown(biped, gait):
+def test_leapfrog_goes_through_a_touchdown_as_with_a_sixteenth_of_the_step(biped, gait):
     """From the same state 8 ms before to 12 ms after it, against a 16th of the step: places of the foot within
     0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
     """

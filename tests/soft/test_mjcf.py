@@ -22,7 +22,7 @@ def read_back(text):
 
 
 @pytest.mark.parametrize("robot", [("rabbit", "tac2003"), ("three_link", None)])
-def test_read_back_it_is_the_model_that_walks(robot):
+def test_the_file_read_back_is_the_model_that_walks(robot):
     """Bit for bit, with masses, a slope and a ground that six digits do not hold."""
     errors = ba.ModelErrors(mass={"torso": 1e-9 / 3})
     biped = errors.apply(ba.Biped.load(*robot, friction=True))

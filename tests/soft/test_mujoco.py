@@ -39,7 +39,7 @@ def in_joints_of(model, biped):
     return biped.pinned.T[[ours.index(model.joint(j).name) for j in range(model.njnt)]]
 
 
-def test_pinned_it_accelerates_as_pinocchio_says(robot):
+def test_the_plant_on_a_pinned_foot_accelerates_as_pinocchio_computes(robot):
     mj, model, random = mujoco(), model_of(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
     for _ in range(20):
@@ -177,7 +177,7 @@ def test_a_foot_inside_the_ground_is_no_start(biped, gait):
         downhill.initial_state(*gait.start(biped))
 
 
-def test_what_is_missing_or_wrong_is_said(biped, monkeypatch):
+def test_wrong_values_and_a_missing_mujoco_are_refused(biped, monkeypatch):
     for make in (
         lambda: SoftGround(friction=-1.0),
         lambda: SoftGround(impedance=(0.9, 1.0)),

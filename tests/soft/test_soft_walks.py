@@ -27,7 +27,7 @@ def made():
     return ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}, **SOFT))
 
 
-def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
+def test_a_scenario_on_soft_ground_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
     loop = loop_on(MuJoCoPlant(biped), ba.NPDController(gait.constraint))
     run = run_of(loop, gait, impacts=2)
     plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio", "impacts": 2}, **SOFT))
@@ -102,7 +102,7 @@ def test_what_a_finished_walk_offers(made, tmp_path):
         {**SOFT, "ground.impratio": -1.0},
     ],
 )
-def test_what_does_not_fit_is_refused(values):
+def test_wrong_values_of_soft_ground_are_refused(values):
     with pytest.raises(InputError):
         ba.walk_scenario(ba.Scenario("NPD", **values))
 

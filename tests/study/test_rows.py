@@ -105,7 +105,7 @@ def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
     assert marked.exists()
 
 
-def test_workers_that_die_now_and_then_do_not_end_it(tmp_path, monkeypatch):
+def test_workers_that_die_now_and_then_do_not_end_the_study(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
     cases = {x: {"controller.x": x, "controller.of": 0} for x in "ab"}
     base = {"controller.pause": 0.0, "controller.kill": 5}
@@ -138,7 +138,7 @@ def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
         (lambda records: sys.exit(3), "SystemExit: 3"),
     ],
 )
-def test_rows_that_are_none_have_the_reason(tmp_path, function, message):
+def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, message):
     found = plants.carried(plants.ROWS, tmp_path, function)
     ((status, (count, detail)),) = found.statuses().items()
     assert (status, count) == ("RAISED", 60)

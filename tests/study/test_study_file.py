@@ -122,7 +122,7 @@ def test_another_study_has_another_hash_and_another_description_has_not(tmp_path
         ),
     ],
 )
-def test_what_is_wrong_is_named(tmp_path, old, new, message):
+def test_wrong_lines_of_a_study_file_are_refused_by_name(tmp_path, old, new, message):
     assert old in STUDY
     with pytest.raises(InputError, match=f"(?s)study.toml'.*{message}"):
         read_study(written(tmp_path, STUDY.replace(old, new)))

@@ -75,7 +75,7 @@ def test_links_are_where_pinocchio_puts_them(
                 np.testing.assert_allclose(drawn, there, atol=1e-5, err_msg=f"{path}, t = {t}")
 
 
-def test_it_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Path]) -> None:
+def test_the_player_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Path]) -> None:
     browser, _ = opened
     body = browser.find_element(By.TAG_NAME, "body")
     seek(browser, 0.2)

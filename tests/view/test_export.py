@@ -42,7 +42,9 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
         assert sorted(view.roles(float(t))) == ["", "stance", "stance", "swing", "swing"]
 
 
-def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
+def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
+    walks: dict[str, Walk], tmp_path: Path
+) -> None:
     for name in ("a.gif", "b.gif"):
         write_moving_picture(tmp_path / name, walks, Clip(0.1, 0.5, fps=20.0))
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()

@@ -293,7 +293,7 @@ def test_the_page_by_mouse_and_keys(browser: Chrome) -> None:
     assert console(browser) == []
 
 
-def test_a_finger_pulls(browser: Chrome) -> None:
+def test_a_finger_on_the_robot_pulls_it(browser: Chrome) -> None:
     def touch(kind: str, *place: float) -> None:
         points = [dict(zip("xy", place, strict=True))] if place else []
         browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})

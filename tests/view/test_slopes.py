@@ -132,7 +132,7 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
     assert min(lost) > 0.5
 
 
-def test_passive_walks_that_are_none_are_refused() -> None:
+def test_a_passive_walk_needs_a_robot_without_motors_and_a_slope_downwards() -> None:
     with pytest.raises(InputError, match="'passive' does not fit robot 'rabbit' with 4 motors"):
         ba.walk_scenario(ba.Scenario("passive"))
     with pytest.raises(SimulationError, match="no return"):

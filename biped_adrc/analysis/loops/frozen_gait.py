@@ -178,6 +178,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
+        # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it
         u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
@@ -204,9 +205,10 @@ def _acting(tick: TickMatrices) -> TickMatrices:
 
 
 def _released(layout: Layout, J: Array) -> Array:
-    """J (nx, nx) after the torque that waits for a part of the period has begun to
-    act, as `semantics.release`.
+    """J (nx, nx) at the later instant at which the waiting torque begins to act: its rows move as
+    `semantics.release` moves the numbers of x.
     """
+    # `release` moves numbers and computes nothing, so its derivative moves the same rows
     u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))
     if waiting.start < waiting.stop:
         J = J.copy()

@@ -175,7 +175,7 @@ class WalkerLoops:
         return least
 
     def _first_unstable(self, most: float, upwards: bool) -> float:
-        """Of one loop the smallest unknown delay [s] with which a mode grows, at most `most` [s].
+        """The smallest unknown delay [s] with which a mode of one loop grows, at most `most` [s].
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.

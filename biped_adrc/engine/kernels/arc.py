@@ -1,9 +1,11 @@
-"""What Python calls: a walk over impacts, and samples of many walks. A page calls an arc and its impact.
+"""The compiled functions that are called from outside: by Python, and by the page that walks in a browser.
 
-`stride` goes over arcs and impacts until enough of them, the end, or a terminal status. `samples` moves many
-walks by one sample each, from one sample instant to the next. An impact within it is made on the way; where the
-clock restarts with it, a sample instant is due there, and the sample ends. So a walk is the same either way,
-and its inputs may be others at every sample instant.
+`stride` runs one walk over arcs and impacts until it has made as many impacts as asked for, its time is over,
+or it ends in another way. `samples` moves each of many walks from its sample instant to the next one, with
+torques and forces that the caller may choose anew each time; impacts in between are made on the way. A clock
+that restarts at impacts has a sample instant at the impact, and the sample ends there. A walk made by `stride`
+and one made by `samples` are equal in all numbers. The page calls the two parts of both: `go_on` for an arc,
+`land` for an impact.
 """
 
 from __future__ import annotations
@@ -11,6 +13,9 @@ from __future__ import annotations
 import math
 
 from biped_adrc.core.types import Array
+
+# Stars, as in `hybrid.march`: in the joined text these imports are gone, and bare names are what is left. The
+# `type: ignore[arg-type]` below are for the type checker, to which `march.travel` takes the Run of `on_arrays`.
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, Ints, Run
@@ -23,7 +28,7 @@ MOST_ARCS = 100
 
 @unit
 def go_on(r: Run) -> int:
-    """From x0 at t to the first event or t_end; a code.
+    """Move the run from x0 at t to the first event or to t_end; returns a code.
 
     An arc that ends before its first step leaves one node, so that no arc is empty.
     """
@@ -41,7 +46,8 @@ def go_on(r: Run) -> int:
 
 @unit
 def land(r: Run) -> int:
-    """x+ in place of x- in x0, and the start of the next arc; a status, all as before where it is not 0.
+    """Put x+ in place of x- in x0, and begin the next arc; returns a status, and changes nothing where it is
+    not 0.
 
     step, t_start and t_arc become those of the single support that begins.
     """
@@ -62,7 +68,7 @@ def land(r: Run) -> int:
 
 @unit
 def stride(r: Run, impacts: int, strikes: Array) -> int:
-    """Over `impacts` impacts, or until t_end (TIME_OUT); a status.
+    """Move the run over `impacts` impacts, or until t_end (TIME_OUT); returns a status.
 
     strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each.
     """
@@ -85,7 +91,9 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
 
 @unit
 def sample(r: Run) -> int:
-    """From a sample instant to the next one, or to the end of the walk; a code, 0 for COMPLETED."""
+    """Move the run from a sample instant to the next one, or to the end of the walk; returns a code, 0 for
+    COMPLETED.
+    """
     for _ in range(MOST_ARCS):
         r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
@@ -100,8 +108,9 @@ def sample(r: Run) -> int:
 
 @unit
 def look(r: Run, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, force) where the run is, as a sample instant there is given
-    them."""
+    """out = law(t, step, t_start, x, zeta, force) at the time and state of the run, with the inputs that a
+    sample instant there would get.
+    """
     lower(r)
     r.limit = math.inf
     measure(r, r.x0)

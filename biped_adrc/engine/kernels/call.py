@@ -61,6 +61,7 @@ def unit(function: _Function) -> _Function:
 
     The result stands for its name, so callers do not compile it again.
     """
+    # strings, by `from __future__ import annotations`; without it Run would be the class of Python, no pointer
     *arguments, result = (_TYPES[hint] for hint in function.__annotations__.values())
     symbol, signature = f"biped_adrc.{function.__name__}", result(*arguments)
     UNITS[function.__name__] = symbol, signature, function
@@ -130,6 +131,8 @@ def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name
     builder.store(x[1], _cell(builder, x[0], name))
 
 
+# numba knows no attributes of a pointer. With these three r.x0 reads a cell, and the march can use the same
+# words for a run in memory as for the object `on_arrays.Run`.
 cast(Any, infer_getattr)(_Fields)
 cast(Any, lower_getattr_generic)(types.CPointer)(_read)
 cast(Any, lower_setattr_generic)(types.CPointer)(_write)

@@ -66,7 +66,7 @@ class CompiledRun:
         where[PLACES[name]] = value
 
     def copy(self) -> CompiledRun:
-        """The same run in memory of its own, with its nodes."""
+        """A copy of the run, with its nodes, that shares no memory with it."""
         run, count = CompiledRun(self.block, self.pointers), int(self["count"])
         run._keep_in(np.empty_like(self.nodes))
         run.nodes[:count] = self.nodes[:count]
@@ -107,7 +107,9 @@ class CompiledRun:
         return self.nodes[:count]
 
     def stride(self, impacts: int) -> tuple[Status, Array]:
-        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each."""
+        """Run over so many impacts, or until t_end (TIME_OUT); returns the status, and a row (t, x-, x+) of
+        each impact.
+        """
         strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
         code = kernels().stride(self.address, impacts, strikes.ctypes.data)
         return STATUS[code], strikes[: int(self["step"] - step)]

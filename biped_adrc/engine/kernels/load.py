@@ -44,7 +44,7 @@ ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re
 
 
 def kernels() -> Any:
-    """The march by the names of its units, `compiled`."""
+    """The functions of the compiled march that Python calls, by name: `stride`, `samples` and `looks`."""
     return compiled(FILES, stride=3, samples=7, looks=5)
 
 
@@ -65,14 +65,16 @@ _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
 
 
 def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """As `compiled`."""
+    """Load the units of modules as functions that Python can call; `arguments` as in `compiled`."""
     at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
 
 
 def loops(files: tuple[str, ...] = FILES) -> str:
-    """All units in one text for LLVM, each under its own name, from the disk where it is there."""
+    """The text for LLVM of all units, each under its own name: read from the disk, or made by numba and kept
+    there.
+    """
     root = Path(__file__).parents[3]
     paths = [*(root / f"{name.replace('.', '/')}.py" for name in files), Path(__file__)]
     *texts, own = [path.read_text(encoding="utf-8") for path in paths]
@@ -89,13 +91,15 @@ def source(text: str, files: tuple[str, ...]) -> str:
     """The text of files, one after the other, without their imports of each other and of the march's operations
     of Python.
     """
+    # `from hybrid.on_arrays import *`, if it stayed, would put Python's operations in place of the compiled
+    # ones of the same names. `__future__` has to stand first, where it is put back.
     left_out = ("__future__", *files, "biped_adrc.hybrid.on_arrays")
-    kept = [
+    statements = [
         statement
         for statement in ast.parse(text).body
         if not (isinstance(statement, ast.ImportFrom) and statement.module in left_out)
     ]
-    return "from __future__ import annotations\n" + ast.unparse(ast.Module(kept, []))
+    return "from __future__ import annotations\n" + ast.unparse(ast.Module(statements, []))
 
 
 def _written(text: str) -> str:
@@ -106,20 +110,28 @@ def _written(text: str) -> str:
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
     module = ModuleType("biped_adrc_kernels")
     sys.modules[module.__name__] = module  # where numba looks for what a unit names
+    # executed and not imported: the joined text is no file, and its imports of each other are gone
     exec(compile(text, module.__name__, "exec"), vars(module))
     names, linked = dict[str, str](), None
     for name, (symbol, signature, function) in module.UNITS.items():
-        made: Any = cfunc(signature, error_model="numpy")(function)
-        binding.add_symbol(symbol, made.address)
-        names |= {symbol: name, made.native_name: name}
-        part = re.sub(r"^target .*$", "", made.inspect_llvm(), flags=re.MULTILINE)
+        callback: Any = cfunc(signature, error_model="numpy")(function)
+        # while it compiles a unit that calls this one, numba links it, by this name
+        binding.add_symbol(symbol, callback.address)
+        names |= {symbol: name, callback.native_name: name}
+        # without numba's target the text serves this processor and WebAssembly alike
+        part = re.sub(r"^target .*$", "", callback.inspect_llvm(), flags=re.MULTILINE)
+        # numba's names count the functions of a process; another process finds a unit by its own name
         for theirs, ours in names.items():
             part = re.sub(rf'@"?{re.escape(theirs)}"?\(', f"@{ours}(", part)
+        # numba's variables are `common`, a kind that LLVM has not for WebAssembly; `weak` ones may be linked
+        # too
         one = binding.parse_assembly(part.replace(" = common ", " = weak "))
         if linked is None:
             linked = one
         else:
             linked.link_in(one)
-    found = re.sub("numba_nextafter", "nextafter", str(linked))
-    found = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", found)
-    return f"{found}\ndeclare void @llvm.trap()\n"
+    # numba_nextafter is in numba's library, which is not loaded where the text is on disk; C's gives the same
+    llvm = re.sub("numba_nextafter", "nextafter", str(linked))
+    # what would raise an error in Python is never called, but would be missing where the text is linked
+    llvm = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
+    return f"{llvm}\ndeclare void @llvm.trap()\n"

@@ -85,7 +85,7 @@ def broken(r: Run) -> int:
 
 @inner
 def note(r: Run, out: Array, pivot: float) -> None:
-    """Make a function's result NaN where its last output says that it means nothing, and note the status."""
+    """Make a function's result NaN where its last output, `pivot`, is not positive, and note the status."""
     if pivot <= 0.0:
         r.lost = SINGULAR if pivot == 0.0 else RAN_AWAY
         out[0] = math.nan
@@ -108,7 +108,7 @@ def set_time(r: Run, t: float) -> None:
 
 @unit
 def load_of(r: Run) -> None:
-    """As `disturb`, at the time in `inp`."""
+    """load = sum over the disturbance's terms of (zeta, force), at the time and (q, v) in `inp`."""
     size, K = r.n + 2, r.push
     for i in range(size):
         r.load[i] = 0.0
@@ -120,8 +120,8 @@ def load_of(r: Run) -> None:
 
 @inner
 def disturb(r: Run, t: float) -> None:
-    """load: zeta (n,) [N m] and force from outside (2,) [N], the sum over the disturbance's terms at t [s] with
-    (q, v) in `inp`.
+    """load = sum over the disturbance's terms of zeta (n,) [N m] and force (2,) [N], at t [s]; (q, v) are in
+    `inp`.
     """
     set_time(r, t)
     if r.n_parts > 0:
@@ -147,7 +147,11 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
 
 @inner
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
-    """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
+    """Set the torques of lagging motors in out (nx,) to the command plus `weight` [1] times their distance
+    from it in x.
+    """
+    # the last p numbers of x are `hardware.motors.Line.u`, as it is the last field: one behind it would be
+    # read here
     for i in range(r.p):
         aim = x[r.nx - r.p + i]
         out[r.lags + i] = aim + weight * (x[r.lags + i] - aim)
@@ -155,7 +159,7 @@ def relax(r: Run, x: Array, weight: float, out: Array) -> None:
 
 @inner
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """dx of lagging torques: `steep` [1/s] times what x (nx,) has beyond what is asked."""
+    """Set the slopes of lagging torques to `steep` [1/s] times their distance from the command in x (nx,)."""
     for i in range(r.p):
         dx[r.lags + i] = steep * (x[r.lags + i] - x[r.nx - r.p + i])
 
@@ -264,7 +268,7 @@ def lower(r: Run) -> None:
 
 @unit
 def node(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Keep the next row of `nodes` at t [s]: of x and dx (nx,), or what `look` says."""
+    """Write the next row of `nodes` at t [s]: x and dx (nx,), or the result of the function `look`."""
     nx, row = r.nx, shift(r.nodes, r.count * r.width)
     row[0] = t
     if r.look == 0:
@@ -281,12 +285,14 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 # -- breaks ----------------------------------------------------------------------------------------
+# `hybrid.constants` is plain Python, and compiled code calls decorated functions alone. Both engines compute a
+# sample instant by this one expression: another order of its operations would miss a tick by round-off.
 at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 
 @inner
 def clock_start(r: Run) -> float:
-    """Where the clock of this arc began [s]."""
+    """Time [s] at which the clock of the sample instants began that counts in this arc."""
     return r.t_arc if r.restart == 1 else r.t_first
 
 
@@ -342,6 +348,8 @@ def due(r: Run) -> int:
     if r.part > 0.0:
         begin = clock_start(r) + r.part
         if r.t >= begin and at_tick(r.t, begin, r.period):
+            # the same as `semantics.release`: `waiting` and `u` are the last two fields of
+            # `hardware.motors.Line`
             for i in range(r.p):
                 x[nx - r.p + i] = x[nx - 2 * r.p + i]
     return 0
@@ -356,6 +364,7 @@ def measure(r: Run, x: Array) -> None:
 
 
 # -- a solver's steps, which are Python's ----------------------------------------------------------
+# The march names both, so the compiled text needs them; runs with SciPy's solvers never come here.
 @inner
 def solve(r: Run, t_next: float) -> float:
     """No step: the march then ends as STEP_FAILED."""

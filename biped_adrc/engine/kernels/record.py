@@ -1,8 +1,10 @@
-"""A run in memory, as the compiled march reads and writes it: one block of cells of 8 bytes.
+"""The memory of one compiled run: a block of cells of 8 bytes, which the compiled march reads and writes.
 
-The first cells are the fields below, in this order. A vector is a pointer to its first number. The vectors of
-TABLES follow, then those of ROWS, each of the same length. `compiled_run.plan` fills fields and tables; what
-changes during a run is behind the first comment below. Blocks of different runs share nothing.
+The block begins with one cell for each field of `Run`, in the order below. A field that is a vector holds the
+address of its first number, which stands further back in the same block: first the vectors of TABLES, then the
+work vectors of ROWS, which all have one length. `compiled_run.plan` writes the block before a run. The march
+changes the fields behind the comment "what changes"; of the others a run changes torque and push alone
+(`arc.samples`). Two runs never share a cell, so they may run in two threads.
 """
 
 from __future__ import annotations
@@ -25,13 +27,14 @@ OUTSIDE = 2
 
 
 class Run:
-    """Fields of a run. In compiled code r.name reads the cell, and writes it.
+    """The fields of a run by name: in compiled code r.name reads its cell, and r.name = x writes it.
 
-    The first are addresses of functions `void f(double* K, double* inp, double* out)`, 0 for none. K are the
-    parameters, inp and out the values named. pivot is the smallest |pivot| of the matrices that the controller
-    inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. Below 0 it stands
-    for a torque beyond the walker's bound, and the run ends as RAN_AWAY. `to` and the three after it are for
-    the exponential method, ETD-RK4, in its coordinates y = (w, E):
+    The first fields are addresses of functions `void f(double* K, double* inp, double* out)`, 0 for a function
+    that the walker does not have. K are its parameters; the text of each field says what inp and out contain.
+    `pivot` is the smallest |pivot| of the matrices that the controller inverts, infinite without one; 0 means
+    a singular matrix, and the run ends as SINGULAR. A pivot below 0 stands for a torque beyond the walker's
+    bound, and the run ends as RAN_AWAY. `to` and the three after it serve the exponential method, ETD-RK4, in
+    its coordinates y = (w, E):
 
         w' = N_w,   E' = A E + N_E
     """
@@ -174,6 +177,8 @@ TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 ROWS = (*("inp", "out", "load", "one"), *("values", "after", "tried"), *(*X_ROWS, *Y_ROWS))
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
 at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`."""
+# The annotations are strings ("int", "Array"), which `call` turns into numba's types. The order of the fields
+# is the layout of the memory: nothing else says where r.t is.
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}

@@ -123,7 +123,7 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
 
 
 def ancestors(line: Sequence[Operation], places: set[int]) -> set[int]:
-    """The places of these values and of all that they are made of."""
+    """The indices of these values, and of all values from which they are computed."""
     result = set(places)
     for i in reversed(range(len(line))):
         if i in result and line[i].code != ca.OP_INPUT:

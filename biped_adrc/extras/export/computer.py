@@ -124,7 +124,7 @@ class Computer:
 
     @cached_property
     def layout(self) -> Layout:
-        """What the state of `alone` is made of: (q, v), and x_c."""
+        """The layout of the state of `alone`: (q, v), and x_c."""
         return self.alone.layout_of(np.zeros(2 * self.alone.plant.n))
 
     @cached_property

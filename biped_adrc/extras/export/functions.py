@@ -86,7 +86,7 @@ def step(computer: Computer) -> SymbolicFunction:
     """Trace x_c, u (p,) [N m] and lost at a sample instant."""
     inputs = Inputs(computer)
     at = inputs.at._replace(x=_released(inputs))
-    x = at.does(semantics.tick)
+    x = at.does(semantics.tick)  # the lines that a walk runs; no second text of the law for C
     sent = semantics.parts(at.loop, x).tail.line.sent
     return inputs.function(x[2 * computer.robot.n :], sent, at.loop.lost)
 
@@ -101,6 +101,9 @@ def touchdown(computer: Computer) -> SymbolicFunction:
 
 def _released(inputs: Inputs) -> Array:
     """x in which a torque that waited for a fraction of the period acts, once that time is over."""
+    # A walk stops at that time, by a clock of its own (`ClosedLoop.clocks`). A robot's computer is called at
+    # sample instants alone, so C does it at the next one. `over` is a symbol: both vectors are written, and C
+    # chooses.
     computer, at = inputs.computer, inputs.at
     fraction = computer.held.motors.fraction
     if fraction == 0.0:
@@ -187,6 +190,8 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
 
     n: coordinates. total: numbers in x_c.
     """
+    # A number is needed where u or lost reads it, or another number that is needed: the set grows until it
+    # stays. What is left are numbers for plots, which would cost memory and time on a small computer.
     live, outputs = set[int](), range(total, step.out.shape[0])
     while True:
         kept = sorted(live)

@@ -93,7 +93,7 @@ def source_of(
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
     traced = zip(ARGUMENTS, functions_.all, strict=True)
     written = {name: c_text(f, used) for name, f in traced}
-    given = {
+    words = {
         **_of_robot(computer, functions_),
         "prefix": prefix,
         "P": prefix.upper(),
@@ -106,8 +106,8 @@ def source_of(
     }
     texts = {"header.h": f"{prefix}.h", "source.c": f"{prefix}.c"}
     texts |= {name: name for name in ("main.c", "Makefile", "README.md", "LICENSE")}
-    files = {name: rendered(template, given) for template, name in texts.items()}
-    return Source(prefix, real, files, functions_.fields, written, len(used), k.n, k.p, given)
+    files = {name: rendered(template, words) for template, name in texts.items()}
+    return Source(prefix, real, files, functions_.fields, written, len(used), k.n, k.p, words)
 
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
@@ -170,9 +170,9 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
     return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
 
 
-def rendered(template: str, given: Mapping[str, object]) -> str:
-    """Text of a file from its template and the values it names."""
-    return _environment(Path(template).suffix).get_template(f"{template}.j2").render(given)
+def rendered(template: str, words: Mapping[str, object]) -> str:
+    """Text of a file: its template, filled in with `words`, the values that it names."""
+    return _environment(Path(template).suffix).get_template(f"{template}.j2").render(words)
 
 
 @cache

@@ -226,7 +226,9 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
 
 
 def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Changes of the angles and integrals of the rates (M, n) [rad] over M intervals within single supports."""
+    """Over M intervals, each within one single support: how much the angles changed, and the integrals of the
+    rates, both (M, n) [rad]. They are equal in a log whose rates are those of its angles.
+    """
     ways = np.diff(t)[:, np.newaxis]
     area = np.vstack((np.zeros_like(v[:1]), np.cumsum(0.5 * ways * (v[1:] + v[:-1]), axis=0)))
     rows = max(1, round(STRETCH / float(np.median(ways))))

@@ -22,7 +22,8 @@ from biped_adrc.scenario.controllers import CONTEXT, GAINS
 from biped_adrc.scenario.scenario import Scenario
 
 Form = tuple[float, float, int] | list[float]
-"""(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""
+"""How a number depends on the value s of a slider: (a, b, k) for a + b s^k, with tan(s) in place of s^k for
+k = 0; or a list of its values at the slider's table."""
 ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 """First two digits of the values in tables."""
 CLOSER = 8

@@ -147,8 +147,8 @@ class PageWalk:
         return np.nan_to_num(result)  # whole numbers that are no floats
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
-        """The sliders of the walk, without that of the delay: name -> the slider, and the
-        forms of its numbers by name.
+        """The sliders of the walk, without that of the delay, by name: each with the numbers that it changes,
+        and their dependence on its value (a `Form`), by name.
         """
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
@@ -277,8 +277,8 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
 def structure_numbers(
     walk: PageWalk, web: WebWalker, found: Mapping[str, tuple[Slider, dict[str, Form]]]
 ) -> dict[str, Any]:
-    """The numbers of one structure: its block, clock, limits of ground and motors, and the
-    indices of hand and sliders.
+    """The numbers of one walk for the page: the memory block of its run, clock, limits of ground and motors,
+    and the indices in the block of the numbers that the mouse and the sliders change.
     """
     s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
     if FRICTION in found:

@@ -44,7 +44,7 @@ class PlanarBase:
     """Sentences on what was found or added."""
 
     def noting(self, *notes: Note) -> PlanarBase:
-        """The same with more sentences."""
+        """A copy with more notes."""
         return replace(self, notes=(*self.notes, *notes))
 
 

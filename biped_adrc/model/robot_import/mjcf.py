@@ -154,7 +154,7 @@ def _torque(m: Any, j: int) -> float:
 
 
 def _notes(m: Any, hinges: dict[str, int]) -> tuple[Note, ...]:
-    """What of a compiled model is left out."""
+    """Notes on the parts of a compiled model that the robot leaves out."""
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
     g = m.opt.gravity.tolist()

@@ -179,7 +179,7 @@ class Tree(Shown):
         return [link for link in self.links if self.path_below(link, top) is not None]
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """The same tree with the inertials of some links replaced. Raises ModelError for
+        """A copy of the tree with the inertials of some links replaced. Raises ModelError for
         impossible mass properties.
         """
         links = dict(self.links)

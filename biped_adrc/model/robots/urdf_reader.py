@@ -129,7 +129,7 @@ def read(path: Path | str) -> Contents:
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
-    """What was assumed of a URDF, and what of it was left out."""
+    """Notes on what the reader assumed about a URDF, and which parts of it the robot leaves out."""
     bodies = robot.findall("link")
     heavy = {link.get("name"): e for link in bodies if (e := link.find("inertial")) is not None}
     points = [name for name, e in heavy.items() if e.find("inertia") is None]

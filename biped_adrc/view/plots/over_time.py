@@ -26,7 +26,7 @@ Window = tuple[float, float]
 
 
 class OverTime(Protocol):
-    """What lines over time need of signals: t (K,) [s], and the number of the single support (K,)."""
+    """The signals that lines over time need: t (K,) [s], and the number of the single support (K,)."""
 
     @property
     def t(self) -> Array: ...
