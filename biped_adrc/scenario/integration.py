@@ -20,6 +20,7 @@ import numpy as np
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import handing_out, numbers
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.run import simulate_by
@@ -103,11 +104,15 @@ def rate_of_law(walker: Walker) -> float:
     try:
         with handing_out():
             m = walker.measure(0.0, still, still, Mode())
-            s, law = walker.law.initial_state(m), walker.law
+            state, law = walker.law.initial_state(m), walker.law
+            layout, s, u = Layout.of(state), flatten(state), law.output(state, m)
             if len(s) == 0:
                 return 0.0
-            u, moved = law.output(s, m), np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
-            ahead, behind = ([law.flow(s + d * side, m, u) for d in moved] for side in (1.0, -1.0))
+            moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
+            ahead, behind = (
+                [flatten(law.flow(layout.tree(s + d * side), m, u)) for d in moved]
+                for side in (1.0, -1.0)
+            )
         J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
         return float(np.max(np.abs(np.linalg.eigvals(J))))
     except Exception:  # whatever a method may raise: the walk itself says what is wrong
