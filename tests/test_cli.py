@@ -67,7 +67,9 @@ def test_the_observer_is_that_of_the_controller():
     assert "m = 1 at 500 rad/s" in command("observer", "--set", "controller.name=LESO")
     with pytest.raises(InputError, match="the observer of 'NPD' is None, expected a GPIObserver"):
         command("observer", "--set", "controller.name=NPD")
-    assert "Sampling period of the controller [s]." in " ".join(command("observer", "-h").split())
+    assert "The controller samples with this period [s]." in " ".join(
+        command("observer", "-h").split()
+    )
 
 
 def test_the_state_before_the_impact_has_names_and_units():

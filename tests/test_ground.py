@@ -43,13 +43,14 @@ def test_the_force_acts_in_its_steps_only(bare):
 # -- slope -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.filterwarnings("ignore:the start has the swing foot 6.25 mm below the ground")
 def test_a_walker_without_a_slope_walks_on_that_of_the_gait(bare, published, tmp_path):
     gait, law = replace(published, slope=0.02), ba.NPDController(published.constraint)
     walk = ba.walk(ba.Walker(bare, law), gait, 2, METHOD)
     feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
     for x, z in feet:
         assert z == pytest.approx(-np.tan(0.02) * x, abs=1e-9)
-    assert walk.remarks == ()
+    assert not any("slope" in remark for remark in walk.remarks)
     assert ba.load_walk(walk.save(tmp_path / "walk.npz")).walker.slope == 0.02
 
 

@@ -183,6 +183,7 @@ def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait)
     assert default_method(replace(walker, controller=slow)) == RK4(1e-3)
 
 
+@pytest.mark.filterwarnings("ignore:the start has the swing foot 20 mm below the ground")
 @pytest.mark.parametrize("observer", [None, ba.GPIObserver.from_bandwidth(300.0)])
 def test_static_friction_on_little_inertia_gets_a_shorter_step(bare, published, observer):
     """Its smoothed sign turns within 0.05 rad/s, which the usual steps follow ten times worse."""

@@ -260,7 +260,7 @@ def test_errors_of_sensors_are_those_of_what_they_show():
     rows = []
     for q in random.uniform(-1.0, 1.0, (3000, n)):
         w = sampled.sense(w, q, np.zeros(n))
-        rows.append(np.append(w[:n] - q, w[2 * n - 1]))
+        rows.append(np.append(w.angle - q, w.rate[-1]))
     errors = sensors.errors(n, p, np.zeros(2 * n))
     np.testing.assert_allclose(np.std(rows, axis=0), errors[[0, 1, 2, 3, 4, 9]], rtol=0.06)
     assert not np.any(errors[n : 2 * n - 1])

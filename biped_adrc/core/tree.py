@@ -132,14 +132,19 @@ def returned_tree(
     if layout is None and not isinstance(found, tuple):
         numeric = isinstance(found, np.ndarray | Real)
         shape: tuple[int, ...] | None = np.shape(found) if numeric else None
-        return None if found is None else returned(found, shape, part, method, finite)
+        return returned(found, shape, part, method, finite)
     if layout is not None and type(found) is not kind:
         raise InputError(
             f"{spoken(part)}.{method}{line_of(part, method)} returned a {type(found).__name__}, expected a "
             f"{kind.__name__} as at the start"  # type: ignore[union-attr]
         )
-    if found is None:
-        return None
     layouts = (None,) * len(found) if layout is None else layout.parts
     each = zip(found, layouts, strict=True)
-    return _like(type(found), [returned_tree(x, y, part, method, finite) for x, y in each])
+    return _like(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
+
+
+def _or_none(found: Any, layout: Layout | None, part: object, method: str, finite: bool) -> Any:
+    """As `returned_tree`, of a part of a tree, which may be None."""
+    if found is None and (layout is None or layout.kind is type(None)):
+        return None
+    return returned_tree(found, layout, part, method, finite)

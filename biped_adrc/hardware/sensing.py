@@ -25,8 +25,8 @@ class Sensor(Checked):
     """Base of all sensors: write `reading`, and `start` and `sense` for a sensor with a memory."""
 
     def start(self, q: Array, v: Array) -> Any:
-        """State w at the start of a run in q (n,) [rad], v (n,) [rad/s]; None without a memory."""
-        return None
+        """State w at the start of a run in q (n,) [rad], v (n,) [rad/s]; () without a memory."""
+        return ()
 
     def sense(self, w: Any, q: Array, v: Array) -> Any:
         """State w after a tick at q (n,) [rad], v (n,) [rad/s]."""

@@ -92,8 +92,8 @@ class Touchdown(Checked, ABC):
     """Whether `Look.force` is needed."""
 
     def start(self) -> Any:
-        """State d at the start of a run; None without a memory."""
-        return None
+        """State d at the start of a run; () without a memory."""
+        return ()
 
     def touchdown(self, d: Any, other: float, t: float) -> Any:
         """State d after a true touchdown at t [s]; `other` is the value after it."""

@@ -32,6 +32,7 @@ from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
+from biped_adrc.scenario.dotted import nested
 from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 
@@ -57,7 +58,7 @@ def scenario_of(values: Record) -> Scenario:
     A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit
     together.
     """
-    return Scenario(**{"hardware.profile": "ideal", **values})
+    return Scenario(**nested({"hardware.profile": "ideal", **values}))
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:

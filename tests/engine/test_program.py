@@ -46,7 +46,8 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
     code, n = compiled_biped(biped), biped.n
-    program = Program(0, numbers_of(Walker(biped, Passive())))
+    walker, still = Walker(biped, Passive()), np.zeros(n)
+    program = Program(walker.layout_of(walker.initial_state(still, still)), numbers_of(walker))
     random = np.random.default_rng(12)
     for _ in range(COUNT):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -99,15 +100,17 @@ def test_a_plant_that_is_not_the_model(gait, timing):
 
 def test_one_compilation_serves_every_number(biped, gait):
     """Robots, gains, gaits and limits change K alone."""
-    first = Program(0, numbers_of(Walker(biped, ba.NPDController(gait.constraint))))
+
+    def program(walker):
+        return Program(
+            walker.layout_of(walker.initial_state(*gait.start(biped))), numbers_of(walker)
+        )
+
+    first = program(Walker(biped, ba.NPDController(gait.constraint)))
     bare = ba.ModelErrors(mass={"torso": 0.3}).apply(ba.Biped.load("rabbit", "tac2003"))
     other = ba.NPDController(gait.constraint, ba.Gains(100.0, 20.0))
-    second = Program(
-        0,
-        numbers_of(
-            Walker(ba.ModelErrors(mass={"shin": -0.1}).apply(biped), other, torque_limit=9.0)
-        ),
-    )
+    light = ba.ModelErrors(mass={"shin": -0.1}).apply(biped)
+    second = program(Walker(light, other, torque_limit=9.0))
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
     third = Program(0, numbers_of(Walker(bare, other)))
