@@ -63,7 +63,7 @@ def own(
     walker: ba.Walker, x: Array, times: Array, method: Exponential | RK4
 ) -> tuple[Solve, Solve]:
     """The engine on one single support, as it is timed and with its states at the times, which steps divide."""
-    compiled = CompiledWalker.of(walker, method, len(x) - 2 * walker.plant.n)
+    compiled = CompiledWalker.of(walker, method, walker.layout_of(x))
     every = round(float(times[1] - times[0]) / method.h)
 
     def run() -> CompiledRun:

@@ -110,8 +110,9 @@ class CompiledChain(Chain):
         return {"RK4 1 ms": self._simulate(RK4(H))}
 
     def _simulate(self, method: OneStepMethod) -> Simulate:
-        compiled = CompiledWalker.of(self.walker, method, 0)
-        plan, n = compiled.plan, self.biped.n
+        n = self.biped.n
+        layout = self.walker.layout_of(np.zeros(2 * n))
+        plan = CompiledWalker.of(self.walker, method, layout).plan
 
         def simulate(q: Array, v: Array, duration: float) -> Array:
             run = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)

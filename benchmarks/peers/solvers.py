@@ -40,7 +40,7 @@ Solve = Callable[[Flow, Array, Array], Array]
 
 def program_of(walker: Walker) -> Program:
     """The machine code of a walker in continuous time."""
-    return Program(walker.controller.observer.order * walker.plant.p, numbers_of(walker))
+    return Program(walker.layout_of(np.zeros(2 * walker.plant.n)), numbers_of(walker))
 
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:

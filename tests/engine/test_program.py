@@ -113,7 +113,7 @@ def test_one_compilation_serves_every_number(biped, gait):
     second = program(Walker(light, other, torque_limit=9.0))
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
-    third = Program(0, numbers_of(Walker(bare, other)))
+    third = program(Walker(bare, other))
     assert third.numbers.plant.n == 5
 
 
