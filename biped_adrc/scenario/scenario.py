@@ -259,7 +259,7 @@ class Scenario(Record):
     sampling, sensors and motors. pushes: the torques and forces that disturb it, records or texts. errors: how
     the plant differs from the controller's model. ground: the ground, or another plant. start: what is added
     to the start. limits: what ground and motors can give. run: length, seed and numerics. dotted: single values
-    by dotted names, such as **{"run.seed": 3}.
+    by dotted names, such as **{"run.seed": 3}, which count before those of a record.
 
     Raises InputError for an unknown name, a value out of its range, and one that cannot have an effect.
 
