@@ -181,7 +181,7 @@ def returned(
     that is right already costs less than a microsecond. Raises InputError that names the class for None,
     complex numbers, text, objects and another shape, and, where `finite`, NotFiniteError.
     """
-    if type(found) is not np.ndarray or found.dtype is not FLOAT or found.shape != shape:
+    if type(found) is not np.ndarray or found.dtype != FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
     if finite and not all(map(math.isfinite, found.ravel().tolist())):
         shown = " ".join(str(found).split())

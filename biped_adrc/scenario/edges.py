@@ -83,7 +83,7 @@ def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
     if gait.slope != slope:
         yield f"{name} was made for a slope of {gait.slope:g} rad, and the ground has {slope:g} rad"
     h, c = own_reference(walker.controller), gait.constraint
-    if isinstance(h, VirtualConstraint) and np.array_equal(h.phase, c.phase):
+    if h != c and isinstance(h, VirtualConstraint) and np.array_equal(h.phase, c.phase):
         inside = np.linspace(c.theta_plus, c.theta_minus)
         off = max(float(np.max(np.abs(h.h(x)[0] - c.h(x)[0]))) for x in inside)
         if off > SAME_CURVE:
