@@ -193,6 +193,13 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
         assert TABLES[text] in str(caught.value)
 
 
+def test_a_file_of_a_thousand_brackets_is_refused(tmp_path):
+    file = tmp_path / "deep.toml"
+    file.write_text(f"x = {10_000 * '['}")
+    with pytest.raises(ba.BipedError, match=r"deep\.toml' is nested too deeply"):
+        ba.study(file, tmp_path / "out")
+
+
 def test_a_public_name_that_is_not_there_has_a_nearest_one():
     with pytest.raises(AttributeError, match="did you mean 'NPDController'"):
         _ = ba.PDController
