@@ -166,12 +166,10 @@ def _errors(path: Path) -> Iterator[None]:
     except (sqlite3.Error, OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         if isinstance(error, OSError | sqlite3.OperationalError):
             raise OutputError(
-                f"cannot write the results file '{path}': {error}; what was finished is kept, and the same "
-                "command goes on"
+                f"cannot write '{path}': {error}; what was finished is kept, and the same command goes on"
             ) from error
         raise InputError(
-            f"'{path}' is no results file, or is empty or damaged: {error}; it is left as it is, choose "
-            "another folder"
+            f"'{path}' is no results file, or is empty or damaged: {error}; choose another folder"
         ) from error
 
 

@@ -96,13 +96,12 @@ class Study(Section):
 
     def _twice(self) -> Iterator[str]:
         """Fields that two places set; the base may be overridden by cases, conditions and variables."""
-        drawn = {} if self.draw is None else self.draw.ranges
         places: dict[str, Mapping[str, object]] = {
             "base": self.base,
             "cases": dict.fromkeys(n for x in self.cases.values() for n in x),
             "conditions": dict.fromkeys(n for x in self.conditions.values() for n in x),
             "grid": self.grid,
-            "draw": drawn,
+            "draw": {} if self.draw is None else self.draw.ranges,
             "seeds": dict.fromkeys([SEED] if self.seeds or self.search else []),
             "search.variables": {} if self.search is None else self.search.variables,
         }
@@ -135,12 +134,7 @@ class Study(Section):
         """The conditions of a set of walks; one without a name where the study has none."""
         return tuple(walks.conditions or self.conditions or ("",))
 
-    @property
-    def count(self) -> int:
-        """The number of its walks, one for each seed."""
-        return self.count_of(frozenset())
-
-    def count_of(self, undrawn: Undrawn) -> int:
+    def count(self, undrawn: Undrawn = frozenset()) -> int:
         """The number of walks of a study; for a search the largest number that it may need."""
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
