@@ -67,8 +67,7 @@ def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
     if count is not None and not 1 <= count <= MOST_WORKERS:
         raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        why = "worker processes import the script that starts them"
-        raise InputError(f"{why}: put what starts them under if __name__ == '__main__':")
+        raise InputError("workers import this script: start them under if __name__ == '__main__':")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
     before, os.environ[SAFE_PATH] = os.environ.get(SAFE_PATH, ""), "1"

@@ -67,8 +67,7 @@ class SampledTime(Checked):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
-            found = f"the computation delay is {self.delay} s"
-            raise InputError(f"{found}, expected 0 to {LONGEST_DELAY} periods of {self.period} s")
+            raise InputError(f"the delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods")
 
 
 def check_ends(max_step_time: float, fall_height: float, speed: float, torque: float) -> None:
