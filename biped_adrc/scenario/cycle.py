@@ -69,8 +69,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:
         raise InputError(
-            f"the return map is of one step of the undisturbed cycle{'' if gait else ', by a fixed method,'} "
-            f"and takes no {', '.join(useless)}: this would do nothing, leave it out"
+            f"a return map is of one undisturbed step and takes no {', '.join(useless)}; leave it out"
         )
     if not gait:
         walker = build(s)
@@ -91,8 +90,7 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
     plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.ground.plant != RIGID:
-        what = f"a specification was asked for on plant '{s.ground.plant}'"
-        raise InputError(f"{what}, expected '{RIGID}', whose equations it linearises")
+        raise InputError(f"a specification on plant '{s.ground.plant}', expected '{RIGID}'")
     scene = RobotAndGait.of(s) if scene is None else scene
     return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
 
