@@ -208,7 +208,7 @@ def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
     text = path.read_text()
     assert len(text.splitlines()) <= 25
     study = read_study(path)
-    assert study.count() == int(re.search(r"(\d+) walks\b", text)[1])
+    assert study.count == int(re.search(r"(\d+) walks\b", text)[1])
     study.rehearse()
 
 

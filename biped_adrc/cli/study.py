@@ -39,7 +39,7 @@ def study(
         undrawn = result.rehearse()
         most = "at most " if result.search else ""
         over = f", over {', '.join(result.axes)}" if result.axes else ""
-        console.say(f"{result.name}: {most}{result.count(undrawn)} walks{over}")
+        console.say(f"{result.name}: {most}{result.count_of(undrawn)} walks{over}")
         if undrawn:
             console.say(result.walked_once(undrawn))
         return

@@ -167,10 +167,8 @@ class Windowed(Disturbance):
         object.__setattr__(self, "amplitude", amplitude)
 
     def check_size(self, n: int) -> None:
-        if len(self.amplitude) != n:
-            raise InputError(
-                f"{type(self).__name__} has {len(self.amplitude)} amplitudes, expected {n}, one per coordinate"
-            )
+        if (size := len(self.amplitude)) != n:
+            raise InputError(f"{type(self).__name__} has {size} amplitudes, expected {n}")
 
     @derived
     def support(self) -> float:

@@ -68,9 +68,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
     useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:
-        raise InputError(
-            f"a return map is of one undisturbed step and takes no {', '.join(useless)}; leave it out"
-        )
+        raise InputError(f"a return map takes no {', '.join(useless)}; leave it out")
     if not gait:
         walker = build(s)
         return known_cycle(walker.plant, walker.ground_slope)

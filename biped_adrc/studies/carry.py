@@ -75,7 +75,7 @@ def study(
         raise InputError(f"run '{study_.name}' here, workers elsewhere may lack its files {files}")
     folder = Path(out)
     with opened(folder, study_) as store, crew:
-        fits, total = store.mend(), study_.count(undrawn)
+        fits, total = store.mend(), study_.count_of(undrawn)
         there = {place for place, fit in fits.items() if fit}
         runner = Runner(function, store, crew, total, there, progress)
         if wrong := len(fits) - len(there):

@@ -240,8 +240,7 @@ def searched(
     result: list[Candidate] = []
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in result)) > 0:
-        batch: list[Candidate] = []
-        new: list[Candidate] = []
+        batch, new = list[Candidate](), list[Candidate]()
         for number in itertools.islice(numbers, ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
             if number == 0 or not any(c.missed):

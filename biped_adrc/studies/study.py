@@ -134,7 +134,12 @@ class Study(Section):
         """The conditions of a set of walks; one without a name where the study has none."""
         return tuple(walks.conditions or self.conditions or ("",))
 
-    def count(self, undrawn: Undrawn = frozenset()) -> int:
+    @property
+    def count(self) -> int:
+        """The number of its walks, one for each seed."""
+        return self.count_of(frozenset())
+
+    def count_of(self, undrawn: Undrawn) -> int:
         """The number of walks of a study; for a search the largest number that it may need."""
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}

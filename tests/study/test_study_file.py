@@ -53,12 +53,12 @@ def written(tmp_path, text):
 def test_points_are_all_combinations_in_si_units(tmp_path):
     study = read_study(written(tmp_path, STUDY))
     points = list(study.points())
-    assert len(points) == study.count() == 2 * 2 * 3 * 2 * 2 * 4 * 3
+    assert len(points) == study.count == 2 * 2 * 3 * 2 * 2 * 4 * 3
     names = [*points[0].at]
     assert names[:5] == ["case", "condition", *study.grid]
     assert names[5:] == ["hardware.encoders.noise", "run.seed"]
-    assert [p.place for p in points] == list(range(study.count()))
-    assert len({tuple(p.at.values()) for p in points}) == study.count()
+    assert [p.place for p in points] == list(range(study.count))
+    assert len({tuple(p.at.values()) for p in points}) == study.count
     assert {p.at["start.v5"] for p in points} == {-0.1, math.radians(5.0)}
     bandwidths = sorted({p.at["controller.observer.bandwidth"] for p in points})
     assert bandwidths == pytest.approx([100, 100 * 10**0.5, 1000], rel=1e-14)
