@@ -61,7 +61,7 @@ PYTHON = {
     "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
     "a number as the timing": (
         lambda r: ba.Walker(r.biped, ba.NPDController(r.h), timing=1e-3),
-        "SampledTime(0.001)",
+        "SampledTime(1e-3)",
     ),
     "a clock slower than a fall": (lambda r: ba.SampledTime(1000.0), "at most"),
     "half an impact": (lambda r: r.walk(impacts=2.5), "whole number"),

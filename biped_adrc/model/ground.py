@@ -162,20 +162,24 @@ def check_steps(steps: object) -> None:
         )
 
 
-def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
+Steps = tuple[StepDown | StepUp, ...]
+"""Changes of the ground's height."""
+
+
+def drop_of(steps: Steps, number: int) -> float:
     """Depth by which these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
-def random_steps(seed: int, height: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+def random_steps(seed: int, height: float, steps: int) -> Steps:
     """A step down or up in each single support from 1 to `steps`, uniform within `height` [m] either way.
 
     The same seed gives the same ground.
     """
-    return _stepped(np.random.default_rng(seed).uniform(-height, height, steps))
+    return stepped(np.random.default_rng(seed).uniform(-height, height, steps))
 
 
-def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
     """Make random steps up and down, with heights of footholds of mean zero.
 
     seed: of the heights, a whole number from 0. rms [m]: their root mean square. steps: how many. The heights
@@ -188,13 +192,13 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
     [1, 2, 3]
     """
     heights = np.concatenate(([0.0], np.random.default_rng(seed).normal(0.0, rms, steps)))
-    return _stepped(-np.diff(heights))
+    return stepped(-np.diff(heights))
 
 
-def _stepped(drops: Array) -> tuple[StepDown | StepUp, ...]:
-    """Steps down and up by `drops` [m], one for each single support from 1 on."""
+def stepped(drops: Array, first: int = 1) -> Steps:
+    """Steps down and up by `drops` [m], one for each single support from `first` on; none for a drop of 0."""
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)
-        for step, drop in enumerate(drops.tolist(), 1)
+        for step, drop in enumerate(drops.tolist(), first)
         if drop != 0.0
     )

@@ -81,10 +81,7 @@ def load_walk(path: Path | str) -> Walk:
     beside = storage.load_beside(path)
     with storage.reading_run(path):
         if "walker" not in beside:
-            raise InputError(
-                "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
-                "'biped-adrc simulate' and 'reproduce' do"
-            )
+            raise InputError("it names no walker, as runs of Walk.save, simulate and reproduce do")
         record = json.loads(str(beside["walker"]))
         reader = Reader(record["parts"])
         walker = _walker(reader, record["parts"][record["walker"]])
