@@ -19,7 +19,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
@@ -230,11 +229,7 @@ class Biped(Shown):
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
-        k = self.pinned
-        T, x = k.T, k.T @ self._angles(q)
-        D = T.T @ pin.crba(k.model, k.data, x) @ T
-        Omega = T.T @ pin.nonLinearEffects(k.model, k.data, x, T @ self._angles(v))
-        return reduce(D, Omega, self.p)
+        return reduce(self.inertia(q), self.bias(q, v), self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """Gravity G, C' q' (n,) [N m], the ground's force as F_a q'' + F_0 (2,) [N], J_2 (2, n) [m], mass [kg].
@@ -366,33 +361,18 @@ class Biped(Shown):
 
         Raises ModelError for an unknown body, or one without mass.
         """
-        inertials: dict[str, Inertial] = {}
+        d, inertials = self.description, dict[str, Inertial]()
+        bodies = {**d.links, **{link: (link,) for link in self.tree.links if link not in d.links}}
         for kind, by_body in factors.items():
             for body, factor in by_body.items():
-                for link in self._links(body):
+                if body not in bodies:
+                    raise ModelError(f"robot '{d.name}' has no body '{body}'; it has {[*bodies]}")
+                for link in bodies[body]:
                     old = inertials.get(link) or self.tree.links[link].inertial
                     if old is None:
                         raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
                     inertials[link] = old.scaled(kind, factor)
         return self.tree.with_inertials(inertials)
-
-    def _links(self, body: str) -> tuple[str, ...]:
-        """Names of the links of a body: a group of the robot's record ("thigh" for both),
-        or one link; or ModelError.
-        """
-        if body in self.description.links:
-            return self.description.links[body]
-        if body in self.tree.links:
-            return (body,)
-        known = [*self.description.links, *self.tree.links]
-        raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
-
-    if not TYPE_CHECKING:  # a type checker would let every name pass
-
-        def __getattr__(self, name: str) -> Any:
-            hint = "; ba.ModelErrors(mass={'torso': 0.2}).apply(biped) is a torso of 20 % more"
-            also = hint if name == "with_errors" else ""
-            raise AttributeError(f"'Biped' has no attribute '{name}'{also}")
 
     def _angles(self, q: Array) -> Array:
         """q (n,) after a check of its shape and that it is finite."""

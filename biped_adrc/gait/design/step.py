@@ -140,7 +140,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
-    t, force = turned(robot, x), robot.ground_reaction(x, v, each(a))
+    t, force = turned(robot.A, x), robot.ground_reaction(x, v, each(a))
     foot, (G, _) = point(t, K.foot_re, K.foot_im), robot.gravity_and_turning(t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
