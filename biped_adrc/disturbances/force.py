@@ -143,7 +143,7 @@ class AddedForce(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         k = self.point
-        zeta: Array = self.force @ planar.jacobian(k, planar.turned(k, q), k.re, k.im)
+        zeta: Array = self.force @ planar.jacobian(k.A, planar.turned(k.A, q), k.re, k.im)
         return zeta
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:

@@ -38,7 +38,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -135,22 +135,14 @@ class Hints:
     (6,), of the stance foot, then of the swing foot."""
 
 
-class Motors(NamedTuple):
-    """The motors of a robot."""
-
-    joints: tuple[str, ...]
-    """Names of the joints q1, ..., qp."""
-    torque: float
-    """Torque limit of every motor [N m]."""
-    armature: Rotors
-    """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
-
-
 def record_of(
-    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, motors: Motors, hints: Hints
+    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, hints: Hints, rotors: Rotors
 ) -> dict[str, Any]:
-    """The tables of the robot.toml that describes this robot, as plain values; file: its name."""
-    moving = [joint.name for joint in parts.moving]
+    """The tables of the robot.toml that describes this robot, as plain values.
+
+    file: name of the URDF. hints: with the motors and their torque limit. rotors: their inertia.
+    """
+    moving, actuated = [joint.name for joint in parts.moving], hints.actuated or ()
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -160,8 +152,8 @@ def record_of(
         "name": contents.tree.name,
         "urdf": file,
         "default_preset": PRESET,
-        "actuated": list(motors.joints),
-        "passive": [name for name in moving if name not in motors.joints],
+        "actuated": list(actuated),
+        "passive": [name for name in moving if name not in actuated],
         "unactuated": body.pitch,
         "base": list(body.base),
         "stance_foot": parts.feet[0],
@@ -169,13 +161,13 @@ def record_of(
         "hip": parts.hip,
         "trunk": body.trunk,
         "phase": list(parts.phase),
-        "peak_torque": motors.torque,
+        "peak_torque": hints.torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": motors.armature}},
+        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": rotors}},
     }
 
 
@@ -273,9 +265,9 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     tree, of_shapes = drawable(body.tree, parts.feet)
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
-    armature, of_rotors = _armature(contents, actuated, hints)
-    path, motors = Path(path), Motors(actuated, torque, armature)
-    record = record_of(path.name, contents, body, parts, motors, hints)
+    rotors, of_rotors = _armature(contents, actuated, hints)
+    path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
+    record = record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
