@@ -25,7 +25,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
+from biped_adrc.engine.machine import LoadedCode, keep, key_of, object_code, parsed, stored
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -127,9 +127,9 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
-    module = _parsed(loops(), machine)
+    module = parsed(loops(), machine)
     for name, text in laws.items():
-        modules = _parsed(text, machine)
+        modules = parsed(text, machine)
         for function in _defined(modules):
             function.name = f"{name}.{function.name}"
         module.link_in(modules)
@@ -139,19 +139,8 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     names = ", ".join(f'ptr @"{name}"' for name in called)
     table = f"@called = constant [{len(called)} x ptr] [{names}]"
     heads = (f'declare void @"{name}"()' for name in called)
-    module.link_in(_parsed("\n".join((table, *heads)), machine))
-    module.verify()
-    tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    builder = binding.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
-    return machine.emit_object(module)
-
-
-def _parsed(text: str, machine: Any) -> Any:
-    """Parse LLVM's text as a module for this machine."""
-    module = binding.parse_assembly(text)
-    module.triple, module.data_layout = TARGET, str(machine.target_data)
-    return module
+    module.link_in(parsed("\n".join((table, *heads)), machine))
+    return object_code(module, machine)
 
 
 def _defined(module: Any) -> list[Any]:
