@@ -31,12 +31,10 @@ LOCK = threading.RLock()
 
 @dataclass(frozen=True)
 class LoadedCode:
-    """Functions in memory; they live as long as `owner` does."""
+    """Functions in memory, where they stay until the process ends."""
 
     addresses: dict[str, int]
     """By name."""
-    owner: object
-    """LLVM's engine."""
     text: str
     """The module in LLVM's language."""
 
@@ -111,7 +109,7 @@ def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     engine.finalize_object()
     _ENGINES.append(engine)
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, engine, text)
+    return LoadedCode(addresses, text)
 
 
 def _path(key: str) -> Path:

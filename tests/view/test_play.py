@@ -195,9 +195,9 @@ def test_a_slider_ends_where_its_controller_refuses_more() -> None:
     gain, _ = found["controller.K_p"]
     assert gain.low < gain.value == 5000.0 < gain.high
     for x in (gain.low, gain.high):
-        walk.at(walk.rubbed.replace({"controller.K_p": x}))
+        walk.at({"controller.K_p": x})
     with pytest.raises(InputError, match="the loop of NPID is unstable"):
-        walk.at(walk.rubbed.replace({"controller.K_p": 0.5 * gain.low}))
+        walk.at({"controller.K_p": 0.5 * gain.low})
 
 
 def test_back_up_again_and_the_timeline(browser: Chrome) -> None:

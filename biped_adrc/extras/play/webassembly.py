@@ -53,32 +53,27 @@ def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, [*LOOPS])
+    laws = _Laws({}, {name: k for k, name in enumerate(LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
-    code = web_module(laws.texts, laws.functions)
-    return WebWalkers(code, tuple(laws.functions), tuple(modules))
+    code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))
+    return WebWalkers(code, tuple(laws.numbers), tuple(modules))
 
 
 class _Laws(NamedTuple):
     """Functions that walkers share, added by one walker after the other."""
 
-    texts: dict[str, str]
-    """Name -> text of functions of walkers in LLVM's language."""
-    functions: list[str]
-    """Names of the functions that are called by their number."""
+    names: dict[str, str]
+    """Text of functions of walkers in LLVM's language -> its name."""
+    numbers: dict[str, int]
+    """Name of a function that is called by its number -> the number, from 1."""
 
     def of(self, code: LoadedCode) -> str:
         """Name of the text of these functions; a new one at the first call."""
-        names = {text: name for name, text in self.texts.items()}
-        name = names.get(code.text, f"laws{len(names)}")
-        self.texts[name] = code.text
-        return name
+        return self.names.setdefault(code.text, f"laws{len(self.names)}")
 
     def number(self, name: str) -> int:
         """Number of a function, from 1; a new one at the first call."""
-        if name not in self.functions:
-            self.functions.append(name)
-        return 1 + self.functions.index(name)
+        return self.numbers.setdefault(name, 1 + len(self.numbers))
 
 
 def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:

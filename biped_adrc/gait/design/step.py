@@ -22,7 +22,7 @@ import numpy as np
 
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import ControlledCurve
+from biped_adrc.gait.curves import basis_at
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.model.biped import Biped
@@ -103,18 +103,6 @@ class Node(NamedTuple):
     """Position of the swing foot from the stance foot (2, K) [m]."""
     q: ca.MX
     """Configuration (n, K) [rad]."""
-
-
-def basis_functions(
-    kind: type[ControlledCurve], degree: int, s: Array
-) -> tuple[Array, Array, Array]:
-    """The basis of a kind of curve at s (K,) in [0, 1], its first and second derivatives, each (M + 1, K).
-
-    It is the curve whose coefficients are the identity matrix.
-    """
-    basis = kind(np.eye(degree + 1))
-    values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
-    return values, first, second
 
 
 def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: float) -> ca.Function:
@@ -202,7 +190,7 @@ class SymbolicStep:
         """The model at the normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
-        basis = basis_functions(self.request.kind, self.request.degree, s)
+        basis = [x.T for x in basis_at(self.request.kind, self.request.degree, s)]
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))

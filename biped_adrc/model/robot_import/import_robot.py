@@ -51,10 +51,11 @@ from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
 from biped_adrc.model.robot_import.mjcf import read_mjcf
 from biped_adrc.model.robots import urdf
-from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, vector
+from biped_adrc.model.robots.robot_toml import GRAVITY, Names, Rotors, description_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Visual, vector
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
+Joints = tuple[Joint, ...]
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
 _STEEL = 7800.0  # [kg/m^3]
@@ -62,7 +63,7 @@ _RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and 
 _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
 
 
-def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
+def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """The tree itself where a link has a shape, else the tree with balls, and a sentence about it.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
@@ -199,7 +200,7 @@ class Derived:
     """A biped derived from a URDF, with the notes and checks of the derivation."""
 
     biped: Biped
-    notes: tuple[Note, ...]
+    notes: Notes
     """Sentences on what was read, assumed and left out, in this order."""
     checks: tuple[Check, ...]
     """The laws of `model.physical` with their numbers."""
@@ -309,9 +310,7 @@ def _contents(path: Path) -> Contents:
 
 
 # -- motors ----------------------------------------------------------------------------------------
-def _motors(
-    contents: Contents, moving: tuple[Joint, ...], hints: Hints
-) -> tuple[tuple[str, ...], tuple[Note, ...]]:
+def _motors(contents: Contents, moving: Joints, hints: Hints) -> tuple[Names, Notes]:
     """Names of the joints with a motor in order, and a sentence where they were guessed.
 
     Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or doubled names.
@@ -331,9 +330,7 @@ def _motors(
     return hints.actuated, ()
 
 
-def _torque(
-    contents: Contents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[float, tuple[Note, ...]]:
+def _torque(contents: Contents, actuated: Names, hints: Hints) -> tuple[float, Notes]:
     """The torque limit of all motors [N m], that of the hints or else the least one in the
     URDF, and a sentence on it.
 
@@ -353,9 +350,7 @@ def _torque(
     return least, (Note("read", f"torque limit: {least:g} N m, of {which}"),)
 
 
-def _armature(
-    contents: Contents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[Rotors, tuple[Note, ...]]:
+def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors, Notes]:
     """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
 
     The rotor of a joint without a motor is left out.
@@ -373,7 +368,7 @@ def _armature(
     return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)
 
 
-def _remarks(contents: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
+def _remarks(contents: Contents, moving: Joints, hints: Hints) -> Notes:
     """Sentences on friction: of the feet, and of the joints."""
     text = (
         f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
