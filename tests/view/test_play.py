@@ -148,10 +148,10 @@ def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict
     largest = 0.0
     for row in np.array(walked["springs"]):
         q, v, (foot, anchor, place, force) = row[:n], row[n : 2 * n], row[2 * n :].reshape(4, 2)
-        t = turned(k, q)
+        t = turned(k.A, q)
         p = foot + point(t, k.re, k.im)
         pull = SPRING["stiffness"] * (anchor - p) - SPRING["damping"] * (
-            jacobian(k, t, k.re, k.im) @ v
+            jacobian(k.A, t, k.re, k.im) @ v
         )
         pull *= min(1.0, MOST["force"] / np.linalg.norm(pull))
         assert place == pytest.approx(p, abs=1e-9)

@@ -104,9 +104,6 @@ class Loaded:
 
     source: Source
 
-    def __repr__(self) -> str:
-        return f"Loaded({self.source.prefix})"
-
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
         """NumPy's type of the C struct of a measurement."""
@@ -154,10 +151,6 @@ class Loaded:
         """Call touchdown with state and measurement; returns its flag. x changes in place."""
         flag: int = self.functions["touchdown"](_at(x), _at(m))
         return flag
-
-    def __getstate__(self) -> dict[str, object]:
-        """The fields for pickle, without the loaded library."""
-        return {name: x for name, x in vars(self).items() if name != "functions"}
 
 
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
