@@ -154,12 +154,7 @@ class Biped(Shown):
 
     def relabel(self, q: Array) -> Array:
         """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad]."""
-        return self.R @ q + self._offset
-
-    @cached_property
-    def _offset(self) -> Array:
-        """Offset r (n,) [rad] of the relabelling q+ = R q- + r; zero except for robots with spokes."""
-        return read_only(self.description.offset)
+        return self.R @ q + self.description.offset
 
     @cached_property
     def swap(self) -> Indices:
@@ -168,9 +163,9 @@ class Biped(Shown):
         Controllers, observers and torques on their way are relabelled by it (`types.relabelled`). A motor
         between the legs changes its sign. Raises ModelError for motors that are combined, or have an offset.
         """
-        p, moved = self.p, self.R[: self.p]
+        p, moved, offset = self.p, self.R[: self.p], np.array(self.description.offset)
         ones = np.concatenate((moved[:, :p], -moved[:, :p]), axis=1) == 1.0
-        fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (self._offset[:p] == 0.0)
+        fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (offset[:p] == 0.0)
         if not fits.all():
             bad = [self.description.actuated[i] for i in np.flatnonzero(~fits)]
             raise ModelError(
@@ -189,9 +184,7 @@ class Biped(Shown):
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
-        """Single-support dynamics (1), from the model pinned at the stance foot. Raises ModelError
-        for a wrong base.
-        """
+        """Dynamics (1), from the model pinned at the stance foot. Raises ModelError for a wrong base."""
         d, pitch = self.description, self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != d.unactuated:
             raise ModelError(
@@ -348,12 +341,12 @@ class Biped(Shown):
         return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the
-        relabelled state after it.
+        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the relabelled state.
 
         Raises SingularError where (7) is singular.
         """
-        return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
+        q, v = self._angles(q), self._angles(v)
+        return self.floating.impact(q, v, self.R, np.array(self.description.offset))
 
     # -- variations ------------------------------------------------------------------------------
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
