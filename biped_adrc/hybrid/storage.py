@@ -88,7 +88,10 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
     """
     check_part(path, "the file of a run", str, Path)
     with reading("run", path, InputError):
-        with np.load(io.BytesIO(_zipped(Path(path))), allow_pickle=False) as data:
+        content = Path(path).read_bytes()
+        if not content.startswith(b"PK"):
+            raise InputError("it is no run, expected a .npz file that 'simulate -o' has written")
+        with np.load(io.BytesIO(content), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
                 raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
@@ -100,18 +103,6 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
         if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
             raise ValueError("its method or engine is not text")
         return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
-
-
-def _zipped(path: Path) -> bytes:
-    """The bytes of a .npz. Raises InputError for another kind of file, ValueError for a damaged one."""
-    result = path.read_bytes()
-    if result.startswith(b"PK"):
-        return result
-    run = path.with_suffix(".npz")
-    if path != run:
-        instead = f"take '{run}'" if run.is_file() else "give one that 'simulate -o' has written"
-        raise InputError(f"it is no run, expected a .npz file; {instead}")
-    raise ValueError("it does not begin as a .npz file does")
 
 
 def load_beside(path: Path | str) -> dict[str, Stored]:
