@@ -25,7 +25,7 @@ PYTHON = {
         lambda r: ba.walk(ba.Walker(r.biped, ba.NPDController(r.h)), r.gait, impacts="4"),
         "asks for 4 impacts ('4' is a str), expected a whole number",
     ),
-    "a step as text": (lambda r: ba.RK4("1e-3"), "is 1e-3 ('1e-3' is a str), expected a positive"),
+    "a step as text": (lambda r: ba.RK4("1e-3"), "h of RK4 is '1e-3' (a str), expected a number"),
     "a torque too few": (lambda r: r.walk(push=ba.TorquePulse([30.0] * 4)), "expected 5"),
     "gains of five joints": (
         lambda r: r.walk(ba.NPDController(r.h, ba.Gains([1.0] * 5, [1.0] * 5))),

@@ -142,7 +142,7 @@ class AddedForce(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         k = self.point
-        return self.force @ planar.jacobian(k, planar.turned(k, q), k.re, k.im)
+        return self.force @ planar.jacobian(k.A, planar.turned(k.A, q), k.re, k.im)
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
         return 1.0 * self.force

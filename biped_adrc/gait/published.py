@@ -189,8 +189,7 @@ def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstra
     q = joint_trajectories(biped, p, np.linspace(0.0, 1.0, SAMPLES))
     theta = q @ biped.phase
     curve, residual = regress(theta, q[:, : biped.p], p.degree)
-    constraint = VirtualConstraint(curve, biped.phase, float(theta[0]), float(theta[-1]))
-    return constraint, residual
+    return VirtualConstraint(curve, biped.phase, float(theta[0]), float(theta[-1])), residual
 
 
 def design_recipe_gait(biped: Biped) -> Gait:

@@ -18,7 +18,6 @@ from typing import Annotated, Any
 import numpy as np
 
 from biped_adrc.core.checks import Checked, PositiveFloat, PositiveFloats, PositiveInt, Range
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 
@@ -32,12 +31,7 @@ def ground_axes(slope: float) -> tuple[Array, Array]:
     return along, np.array([math.sin(slope), math.cos(slope)])
 
 
-def check_slope(slope: float) -> None:
-    """Raise InputError unless the slope [rad] is less than a right angle either way."""
-    if not abs(slope) < 0.5 * math.pi:
-        raise InputError(f"the slope is {slope} rad, expected less than a right angle")
-
-
+Slope = Annotated[float, Range("less than a right angle", lambda x: abs(x) < 0.5 * math.pi)]
 RISING = Range("0 < first <= second < 1", lambda d: len(d) == 2 and 0.0 < d[0] <= d[1] < 1.0)
 
 
@@ -154,12 +148,12 @@ def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
     return L
 
 
-def check_steps(steps: object) -> None:
-    """Raise InputError unless `steps` is a tuple of steps of the ground."""
-    if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
-        raise InputError(
-            f"ground_steps is {steps!r:.60}, expected a tuple of steps, such as (StepDown(3, 0.02),), or ()"
-        )
+def _are_steps(steps: object) -> bool:
+    return isinstance(steps, tuple) and all(isinstance(x, StepDown | StepUp) for x in steps)
+
+
+STEPS = Range("a tuple of steps, such as (StepDown(3, 0.02),), or ()", _are_steps)
+GroundSteps = Annotated[tuple[StepDown | StepUp, ...], STEPS]
 
 
 Steps = tuple[StepDown | StepUp, ...]

@@ -17,8 +17,8 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Mapping
 from ctypes import CFUNCTYPE, c_int64, c_void_p
+from functools import cache
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -48,25 +48,15 @@ def kernels() -> Any:
     return compiled(FILES, stride=3, samples=7, looks=5)
 
 
-def compiled(files: tuple[str, ...], **arguments: int) -> Any:
+@cache
+def compiled(files: tuple[str, ...], **arguments: int) -> SimpleNamespace:
     """The units of modules, by name. Other threads of Python run while one is called. The first call loads
     them, or compiles them where they are not on disk.
 
     arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
     """
-    if files not in _PROGRAMS:
-        with LOCK:
-            _PROGRAMS[files] = _PROGRAMS.get(files) or _loaded(files, arguments)
-    return _PROGRAMS[files]
-
-
-_PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
-"""Units in memory, by the modules that have them."""
-
-
-def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """Load the units of modules as functions that Python can call; `arguments` as in `compiled`."""
-    at = load_or_compile(loops(files), [*arguments]).addresses
+    with LOCK:
+        at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
 
