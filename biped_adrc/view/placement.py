@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis import soft_steps as meters
-from biped_adrc.analysis.signals import FORCE, PLACE, SPEED, Signals, footholds
+from biped_adrc.analysis.signals import FORCE, PLACE, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import Checked, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
@@ -353,7 +353,7 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
 def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
-    F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
+    F, _, v = meters.feet_of(arc)
     return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.ground_slope)), axis=1)
 
 
