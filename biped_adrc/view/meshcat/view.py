@@ -28,7 +28,7 @@ from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import player
-from biped_adrc.view.placement import Clip, Recorded, WalkScene, ending, exchanged, joint_values
+from biped_adrc.view.placement import Clip, Drawable, WalkScene, ending, exchanged, joint_values
 
 GHOST = 0.35
 """Opacity of a ghost (1 is solid)."""
@@ -45,7 +45,7 @@ Marks = Sequence[tuple[float, float, str]]
 
 
 def animation_html(
-    walks: Mapping[str, Recorded], clip: Clip | None = None, marks: Marks = ()
+    walks: Mapping[str, Drawable], clip: Clip | None = None, marks: Marks = ()
 ) -> str:
     """Text of a page that shows the walks overlaid, without server or network; equal walks give equal text.
 
