@@ -53,7 +53,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
-    does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
+    does not: the disturbance estimate, the ground's force, energies, multipliers, and the map
     of pushes.
     """
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
@@ -71,7 +71,6 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
         "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),
         "energy": (figures.energy_figure, adrc, pushed, window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
-        "return_map": (figures.return_map_figure, *r.returns["map"]),
     }
     for preset in r.plan.presets if r.plan.full else ():
         rows = [cell.row() for cell in r.cells if cell.push.preset == preset]

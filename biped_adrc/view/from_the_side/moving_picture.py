@@ -118,10 +118,10 @@ def _over_one_another(
         draw.follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
         for walk in drawn:
             walk.show(t)
-        ended = {
-            n: ending(v.scene.trajectory) for n, v in views.items() if t >= v.scene.trajectory.t_end
-        }
-        over = [f"{name} {badly}" for name, badly in ended.items() if badly]
+        runs = {name: walk.trajectory for name, walk in walks.items()}
+        over = [
+            f"{name} {ending(run)}" for name, run in runs.items() if ending(run) and t >= run.t_end
+        ]
         clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {last.step(t)}", pace)))
         text.set_text(draw.wrapped("\n".join((caption, clock, *over)), 0.96 * WIDTH))
 

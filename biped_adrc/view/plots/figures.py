@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
 from biped_adrc.view.placement import Drawable
 from biped_adrc.view.plots import over_time, stability
 from biped_adrc.view.plots.over_time import Window
@@ -249,16 +248,6 @@ def multiplier_figure(
         circle, sizes = figure.subplots(1, 2)
         stability.multipliers(circle, multipliers).set_title("multipliers", loc="left")
         stability.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
-        return figure
-
-
-def return_map_figure(before: Array, after: Array) -> Figure:
-    """Draw the return map of Theta' as a staircase; see `stability.staircase`.
-
-    before, after (k,): Theta' before one impact and before the next [rad/s].
-    """
-    with new_figure(5.2, 4.8) as figure:
-        stability.staircase(figure.subplots(), before, after)
         return figure
 
 
