@@ -192,15 +192,13 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
     torque = 0.1 / colours.METRES_PER_NEWTON_METRE
     walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
-    entries = [
+    others = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
+    return [
+        ("", others if ghosts else f"{solid}."),
         *([] if placement.is_wheel(biped) else walking),
         (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
         (TORQUE.lower(), f"torque from outside, radius 0.1 m = {torque:.0f} N m"),
     ]
-    if ghosts:
-        text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
-        return [("", text), *entries]
-    return [("", f"{solid}."), *entries]
 
 
 EPSILON = 1e-6
