@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.errors import ModelError, NotFiniteError
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import Program, numbers_of
@@ -32,16 +32,11 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 
 
 def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
-    """The tick of a walker whose states have this layout, with its derivative.
+    """The tick of a walker in sampled time whose states have this layout, with its derivative.
 
-    Raises InputError for a walker in continuous time; the function that is given, NotFiniteError where
-    x+ or J is not finite.
+    The function that is returned raises NotFiniteError where x+ or J is not finite.
     """
-    if walker.held is None:
-        raise InputError(
-            "the derivative of a tick was asked for, found a walker in continuous time; give "
-            "timing=SampledTime(period)"
-        )
+    assert walker.held is not None
     # the tick of the walk itself on symbols: a formula of its own would be a second text of every observer
     try:
         program = Program(layout, numbers_of(walker))
