@@ -248,13 +248,6 @@ def design_family(
         provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
-    return with_steps(biped, family, members, seed)
-
-
-def with_steps(
-    biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int
-) -> GaitFamily:
-    """The family with its `StepMap`, from random steps, and with the numbers of its members."""
     random, low, high = np.random.default_rng(seed), family.low, family.high
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])

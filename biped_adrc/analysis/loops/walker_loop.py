@@ -11,19 +11,17 @@ exact for a torque that changes at f T. All loops of a walker are computed toget
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.linalg import eig, expm
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.loops.frozen_gait import TickMatrices
-from biped_adrc.analysis.observer.loop import covariance
+from biped_adrc.analysis.observer.loop import StepMatrices, covariance
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.hardware.motors import whole_and_part
 
@@ -31,23 +29,6 @@ TINY = 1e-12
 """Eigenvalues below this magnitude count as zero: their modes vanish within a period."""
 FREQUENCIES = 100
 """Number of frequencies of the sensitivity, in geometric order, beside those of the loop's modes."""
-
-
-class LoopMatrices(NamedTuple):
-    """X+ = M X + B w over one period, and u = C X + D w.
-
-    w is an error of the sensors in (q, q'), followed by an error of u. s states, p
-    motors; leading axes as the loops.
-    """
-
-    M: Array
-    """(.., s, s)."""
-    B: Array
-    """(.., s, 2 n + p)."""
-    C: Array
-    """(.., p, s)."""
-    D: Array
-    """(.., p, 2 n + p): the last p columns are 1, for the torque behind the error."""
 
 
 def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Array, Array, Array]:
@@ -104,8 +85,11 @@ class WalkerLoops:
         tick = (f(np.broadcast_to(x, (*axes, *x.shape[-2:]))) for x in self.tick)
         return replace(self, tick=TickMatrices(*tick), A=f(self.A), B=f(self.B))
 
-    def matrices(self, unknown: float = 0.0) -> LoopMatrices:
-        """Matrices of one period with an unknown delay [s] in all motors."""
+    def matrices(self, unknown: float = 0.0) -> StepMatrices:
+        """Matrices of one period with an unknown delay [s] in all motors.
+
+        w (2 n + p,) is an error of the sensors in (q, q'), then one of u; C X + D w is u, so D ends with 1.
+        """
         j, f = whole_and_part(self.delay + unknown, self.period)
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         Z, Y, C_z, E = self.tick
@@ -127,7 +111,7 @@ class WalkerLoops:
         if waiting:
             M[..., line : line + p, :], B[..., line : line + p, :] = C, D
             M[..., line + p :, line : size - p] = np.eye(size - p - line)
-        return LoopMatrices(M, B, C, D)
+        return StepMatrices(M, B, C, D)
 
     @cached_property
     def rates(self) -> ComplexArray:
@@ -164,32 +148,26 @@ class WalkerLoops:
         """
         if not np.all(self.growth() < 0.0):
             return 0.0
-        count = math.prod(self.B.shape[:-2])
-        left = self._each(lambda x: x.reshape(count, *x.shape[-2:]))
-        growth, least = np.linalg.norm(left.B, axis=(-2, -1)), most
-        while np.any(growth >= 0.0):
-            worst = int(np.argmax(growth))
-            least = left[worst]._first_unstable(least, upwards=least == most)
-            left = left[(growth >= 0.0) & (np.arange(len(growth)) != worst)]
-            growth = left.growth(least)
+        loops = self._each(lambda x: x.reshape(-1, *x.shape[-2:]))
+        first, *others = np.argsort(-np.linalg.norm(loops.B, axis=(-2, -1)))
+        least = loops[first]._first_unstable(most)
+        for i in others:
+            if not loops[i].growth(least) < 0.0:
+                least = loops[i]._first_unstable(least)
         return least
 
-    def _first_unstable(self, most: float, upwards: bool) -> float:
+    def _first_unstable(self, most: float) -> float:
         """The smallest unknown delay [s] with which a mode of one loop grows, at most `most` [s].
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
-        unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
+        unstable is refined.
         """
-        tried = [0.0, 0.25 * self.period]
-        while tried[-1] < most:
-            tried.append(1.25 * tried[-1])
-        pairs = [(low, min(high, most)) for low, high in itertools.pairwise(tried) if low < most]
-        growth = cache(self.growth)
-        if upwards:
-            low, high = next((x for x in pairs if not growth(x[1]) < 0.0), (most, most))
-        else:
-            low, high = next(x for x in reversed(pairs) if x[0] == 0.0 or growth(x[0]) < 0.0)
-        return most if low == most else float(brentq(growth, low, high, xtol=1e-9, rtol=1e-6))
+        low, high = 0.0, min(0.25 * self.period, most)
+        while self.growth(high) < 0.0:
+            if high == most:
+                return most
+            low, high = high, min(1.25 * high, most)
+        return float(brentq(self.growth, low, high, xtol=1e-9, rtol=1e-6))
 
     def sensitivity(self) -> ComplexArray:
         """S (.., F, p, p): the controller's torque plus an error of the torque, per that
