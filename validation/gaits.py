@@ -37,7 +37,6 @@ from biped_adrc.core.files import data_folder
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
-from biped_adrc.gait.published import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
@@ -46,6 +45,7 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from validation.passive import simplest
 from validation.published_gait import design_published_gait
+from validation.recipe import design_recipe_gait
 from validation.row import Row, at_most
 
 FASTER = 0.01  # of the speed before impact, dimensionless

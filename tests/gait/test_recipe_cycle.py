@@ -8,17 +8,17 @@ from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.gait import load_gait, onto_section
-from biped_adrc.gait.published import (
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.gait.zero_dynamics import configuration, impact_jump
+from biped_adrc.hybrid.integrators import RK4
+from validation.recipe import (
     HUMAN_STEP,
-    X_STAR,
     design_recipe_gait,
     fit_to_x_star,
     inverse_kinematics,
     joint_trajectories,
     recipe_constraint,
 )
-from biped_adrc.gait.zero_dynamics import configuration, impact_jump
-from biped_adrc.hybrid.integrators import RK4
 
 LENGTH = 0.4  # [m], thigh and shin of RABBIT
 EDGE = 1e-6  # share of a step over which end slopes are taken
