@@ -112,8 +112,7 @@ class Delayed(Around):
         return np.minimum(np.maximum(u, -self.limit), self.limit)
 
     def output(self, s: Any, m: Measurement) -> Array:
-        u: Array = self.pade[0] @ s.R
-        return u
+        return self.pade[0] @ s.R
 
     def initial_state(self, m: Measurement) -> Any:
         """The inner state at the start, with R as if its command had acted for long enough."""

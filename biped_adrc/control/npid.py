@@ -142,6 +142,4 @@ class NPIDController(Controller):
         return replace(self, period=period)
 
     def continuous(self) -> NPIDController:
-        if self.period is not None:
-            self._only_sampled()
-        return self
+        return replace(self, period=None)

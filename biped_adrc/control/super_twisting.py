@@ -93,8 +93,3 @@ class SuperTwistingController(Controller):
 
     def sampled(self, period: float) -> SuperTwistingController:
         return replace(self, period=period)
-
-    def continuous(self) -> SuperTwistingController:
-        if self.period is not None:
-            self._only_sampled()
-        return self
