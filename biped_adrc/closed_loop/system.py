@@ -31,7 +31,7 @@ from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.gait.reference import Reference, check_point
-from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.motors import IDEAL, Motors, line_at_rest
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
@@ -55,17 +55,6 @@ class Bounds(NamedTuple):
     """Rates (n,) [rad/s]; infinite for none."""
     strongest: float
     """Torque [N m]; infinite for none."""
-
-    @classmethod
-    def of(cls, robot: object, n: int, speed: float, torque: float) -> Bounds:
-        """A whole turn, so many times RUNAWAY_RATE, and so many times the peak torque of the robot's record.
-
-        None for the torque of a robot without motors, and for a model of n coordinates that is no Biped.
-        """
-        if not isinstance(robot, Biped):
-            return cls(math.inf, read_only(np.full(n, math.inf)), math.inf)
-        peak = robot.description.peak_torque if robot.p else math.inf
-        return cls(TURN, read_only(np.full(n, speed * RUNAWAY_RATE)), torque * peak)
 
     def check(self, t: float, q: Array, v: Array) -> None:
         """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
@@ -192,7 +181,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        return HeldParts.of(n, p, time, self.sensors, self.motors, self.own, self.touchdown)
+        sensors = None if self.sensors is None else self.sensors.sampled(n, p, time.period)
+        motors = IDEAL if self.motors is None else self.motors
+        line, fraction = line_at_rest(p, motors.lag, time.delay, time.period)
+        drive, known = motors.sampled(time.period, fraction), time.delay_known and time.delay > 0.0
+        return frozen(HeldParts(sensors, drive, self.touchdown, known, self.own, Layout.of(line)))
 
     def __getstate__(self) -> dict[str, object]:
         """The fields without cached values, which another process computes again where it needs them."""
@@ -205,9 +198,15 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @cached_property
     def bounds(self) -> Bounds:
-        """Angles, rates and torque beyond which the run ends as run away; none without a Biped."""
-        robot = self.plant if isinstance(self.plant, Biped) else self.nominal
-        return Bounds.of(robot, self.plant.n, self.runaway_speed, self.runaway_torque)
+        """Angles, rates and torque beyond which the run ends as run away; none without a Biped, and none for
+        the torque without motors.
+        """
+        robot: Any = self.plant if isinstance(self.plant, Biped) else self.nominal
+        if not isinstance(robot, Biped):
+            return Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
+        fastest = read_only(np.full(robot.n, self.runaway_speed * RUNAWAY_RATE))
+        peak = robot.description.peak_torque if robot.p else math.inf
+        return Bounds(TURN, fastest, self.runaway_torque * peak)
 
     @property
     def gain(self) -> Array:

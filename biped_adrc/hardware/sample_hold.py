@@ -16,10 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout, returned_tree
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, line_at_rest
+from biped_adrc.hardware.motors import Line, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Belief, Touchdown
 
@@ -50,27 +49,6 @@ class HeldParts(NamedTuple):
     """How many numbers a plant that integrates itself keeps."""
     line: Layout
     """Of the torques on their way."""
-
-    @classmethod
-    def of(
-        cls,
-        n: int,
-        p: int,
-        timing: SampledTime,
-        sensors: Sensor | None,
-        motors: Motors | None,
-        own: int,
-        touchdown: Touchdown | None,
-    ) -> HeldParts:
-        """Prepare sensors and motors for n coordinates, p motors and the ticks of `timing`, whose delay makes
-        the queue.
-        """
-        motors = IDEAL if motors is None else motors
-        sampled = None if sensors is None else sensors.sampled(n, p, timing.period)
-        line, fraction = line_at_rest(p, motors.lag, timing.delay, timing.period)
-        known = timing.delay_known and timing.delay > 0.0
-        drive = motors.sampled(timing.period, fraction)
-        return frozen(cls(sampled, drive, touchdown, known, own, Layout.of(line)))
 
     def sense(self, w: Any, q: Array, v: Array) -> Any:
         """State w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
