@@ -31,7 +31,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.core.types import Array, frozen, read_only
 from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
@@ -87,11 +87,6 @@ class SteppingLoop(ClosedLoop[Any]):
         below the first, and all rates where that of the plant's whole row (q, q', own) is below the second.
         """
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
-
-    @property
-    def swap(self) -> Indices:
-        """Relabelling of the motors at a touchdown (p,), dtype int."""
-        return self.plant.swap
 
     @property
     def own(self) -> int:

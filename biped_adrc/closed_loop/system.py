@@ -215,8 +215,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @property
     def swap(self) -> Indices:
-        """No relabelling: 0, 1, .., p - 1, (p,)."""
-        return np.arange(self.plant.p)
+        """Relabelling of the actuated joints at an impact (p,), dtype int."""
+        return self.plant.swap  # type: ignore[attr-defined]
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
@@ -309,8 +309,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N]; 0 where there is no ground."""
-        return 0.0, 0.0
+        """Vertical forces of the ground on stance and swing foot [N] of a pinned plant."""
+        return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
