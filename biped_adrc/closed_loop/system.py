@@ -242,19 +242,18 @@ class ClosedLoop(HybridSystem, Generic[P]):
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
         """The layout of x (nx,), found once by starting the controller at the (q, v) in x."""
-        layout: Layout | None = vars(self).get("layout")
-        if layout is None:
+        if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
             m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
-            layout = self._begun(m, self.law.initial_state(m), mode)[1]
-        return layout
+            self._begun(m, self.law.initial_state(m), mode)
+        return vars(self)["layout"]
 
-    def _begun(self, m: Measurement, s: Any, mode: Mode) -> tuple[Array, Layout]:
-        """x (nx,) at the start of a run at m, with the state s of the controller, and its layout."""
+    def _begun(self, m: Measurement, s: Any, mode: Mode) -> Array:
+        """x (nx,) at the start of a run at m, with the state s of the controller; its layout is kept."""
         tail = () if self.held is None else self.held.start(m.q, m.v, *mode)
         state = State(m.q, m.v, s, tail)
-        layout = vars(self).setdefault("layout", Layout.of(state))
-        return flatten(state), layout
+        vars(self).setdefault("layout", Layout.of(state))
+        return flatten(state)
 
     def split_state(self, x: Array) -> tuple[Array, Array, Any]:
         """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
@@ -275,7 +274,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
                 _check_tracking(part, m, self.plant.p)
             s = returned_tree(self.law.initial_state(m), None, self.law, "initial_state")
             check_methods(self.law, s, m, self.sampled)
-            return self._begun(m, s, mode)[0]
+            return self._begun(m, s, mode)
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
