@@ -98,11 +98,8 @@ def measurement(
     read-only: a controller that writes into it would change the motion.
     """
     q, v = frozen(q), frozen(v)
-    terms, of_body = loop.nominal.reduction(q, v) if terms is None else terms, None
-    if body:
-        of_body = frozen(loop.nominal.body_terms(q, v))
-    if terms.D.flags.writeable:
-        terms = frozen(terms)
+    terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
+    of_body = frozen(loop.nominal.body_terms(q, v)) if body else None
 
     def elsewhere(q: Array, v: Array) -> Measurement:
         return measurement(loop, t, q, v, mode, body)
