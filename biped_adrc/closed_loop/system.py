@@ -31,7 +31,7 @@ from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.gait.reference import Reference, check_point
-from biped_adrc.hardware.motors import IDEAL, Motors, line_at_rest
+from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
@@ -66,13 +66,6 @@ class Bounds(NamedTuple):
         raise RanAwayError(
             f"t = {t:.6g} s: |q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
         )
-
-    def bounded(self, u: Array) -> Array:
-        """Return u (p,) [N m] unchanged, or raise RanAwayError where it is beyond `strongest`."""
-        # one product tests all of them, at every sample
-        if u.dot(u) > self.strongest**2 and np.max(np.abs(u)) > self.strongest:
-            raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
-        return u
 
 
 P = TypeVar("P", bound=Plant)
@@ -182,9 +175,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         if not isinstance(time, SampledTime):
             return None
         sensors = None if self.sensors is None else self.sensors.sampled(n, p, time.period)
-        motors = IDEAL if self.motors is None else self.motors
-        line, fraction = line_at_rest(p, motors.lag, time.delay, time.period)
-        drive, known = motors.sampled(time.period, fraction), time.delay_known and time.delay > 0.0
+        motors, known = self.motors or IDEAL, time.delay_known and time.delay > 0.0
+        drive, line = motors.sampled(p, time.delay, time.period)
         return frozen(HeldParts(sensors, drive, self.touchdown, known, self.own, Layout.of(line)))
 
     def __getstate__(self) -> dict[str, object]:
@@ -313,7 +305,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
-        return self.bounds.bounded(u)
+        strongest = self.bounds.strongest
+        # one product tests all of them, at every sample
+        if u.dot(u) > strongest**2 and np.max(np.abs(u)) > strongest:
+            raise RanAwayError(f"torque {u} N m, above {strongest:.3g} N m")
+        return u
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x), t in [s]."""
