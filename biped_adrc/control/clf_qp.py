@@ -32,7 +32,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement, measured
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import body_of, output_matrix
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import NotFiniteError
@@ -135,8 +135,8 @@ class CLFQPController(Controller):
             raise NotFiniteError(
                 f"the CLF-QP was asked for a torque at q = {m.q}, q' = {m.v}, expected finite numbers"
             )
-        r, x = self.reference(m.t, m.q, m.v), measured(m)
-        d = decrease(x.position - r.q_d, x.velocity - r.dq_d, self.epsilon)
+        r = self.reference(m.t, m.q, m.v)
+        d = decrease(m.q_b - r.q_d, m.v_b - r.dq_d, self.epsilon)
         to, mu = affine(r, m), least_norm(d, self.relaxation)
         u, program = to.U @ mu + to.u_0, self.program(d, to)
         if np.all(program.G[1:, :-1] @ mu <= program.h[1:]):  # all limits are kept

@@ -63,9 +63,8 @@ class HeldParts(NamedTuple):
 
         step, start [s]: number and start of the single support, which the controller knows at first.
         """
-        w, belief, touchdown = None, None, self.touchdown
-        if self.sensors is not None:
-            w = _tried(self.sensors, q, v)
+        w = None if self.sensors is None else _tried(self.sensors, q, v)
+        belief, touchdown = None, self.touchdown
         if touchdown is not None:
             d = returned_tree(touchdown.start(), None, touchdown, "start")
             belief = Belief(0.0, float(step), float(start), d)
