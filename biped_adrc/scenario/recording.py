@@ -297,9 +297,8 @@ class Walk(Shown):
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
-        return (
-            getattr(law, "home", type(law).__name__).rpartition(":")[2].removesuffix("Controller")
-        )
+        name: str = getattr(law, "home", type(law).__name__)
+        return name.rpartition(":")[2].removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s].
