@@ -136,7 +136,7 @@ def tick_by_tick(observer, T, delay, known):
     """One period of the loop by the laws of observer and line, for columns of (e, T e', Z, torques T^2)."""
     k, form = observer.order, observer.sampled(T)
     queue, f = whole_and_part(delay, T)
-    motors = IDEAL.sampled(T, f)
+    motors, _ = IDEAL.sampled(1, delay, T)
 
     def step(X, noise):
         y, rate, Z, rest = X[0], X[1] / T, X[2 : 2 + k], X[2 + k :] / T**2

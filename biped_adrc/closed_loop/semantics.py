@@ -79,8 +79,7 @@ class State(NamedTuple):
 
 def parts(loop: Loop, x: Array) -> State:
     """The state x (nx,) as a tree."""
-    state: State = loop.layout_of(x).tree(frozen(x))
-    return state
+    return loop.layout_of(x).tree(frozen(x))
 
 
 def measurement(
@@ -99,11 +98,8 @@ def measurement(
     read-only: a controller that writes into it would change the motion.
     """
     q, v = frozen(q), frozen(v)
-    terms, of_body = loop.nominal.reduction(q, v) if terms is None else terms, None
-    if body:
-        of_body = frozen(loop.nominal.body_terms(q, v))
-    if terms.D.flags.writeable:
-        terms = frozen(terms)
+    terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
+    of_body = frozen(loop.nominal.body_terms(q, v)) if body else None
 
     def elsewhere(q: Array, v: Array) -> Measurement:
         return measurement(loop, t, q, v, mode, body)
@@ -178,12 +174,11 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     assert k is not None
     if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
-        s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
-        line = labelled(loop, b, line)
     else:
         b, w = None, k.sense(tail.sensors, q, v)
         m = loop.measure(t, *k.reading(w, q, v), mode)
-        s, line = decided(loop, k, s, m, tail.line)
+    s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
+    line = labelled(loop, b, line)
     return flatten(State(q, v, s, tail._replace(belief=b, sensors=w, line=line)))
 
 
@@ -336,15 +331,14 @@ def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
     return chosen(other, model.relabel(q), q), chosen(other, model.R @ v, v)
 
 
-def labelled(loop: Loop, b: Belief, line: Line) -> Line:
-    """The torques on their way, with the legs exchanged where the belief b has them the other way round.
+def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
+    """The torques on their way, with the legs exchanged where a belief b has them the other way round.
 
     One exchange serves both ways: from the plant's names to the controller's, and back.
     """
     # both are computed and one is chosen, here and below: on symbols b.other has no value that an `if` could
     # ask
-    result: Line = chosen(b.other, line.relabelled(loop.swap), line)
-    return result
+    return line if b is None else chosen(b.other, line.relabelled(loop.swap), line)
 
 
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
@@ -354,16 +348,14 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
     and its estimate is exchanged back.
     """
     b = tail.belief if tail else None
-    if b is None:
-        estimate = loop.calls.estimate(s, m)
-        return None if estimate is None else estimate.disturbance
-    believed = mode._replace(step=b.step, start=b.start)
-    seen = loop.measure(m.t, *turned(loop, b.other, m.q, m.v), believed)
-    estimate = loop.calls.estimate(s, seen)
+    if b is not None:
+        believed = mode._replace(step=b.step, start=b.start)
+        m = loop.measure(m.t, *turned(loop, b.other, m.q, m.v), believed)
+    estimate = loop.calls.estimate(s, m)
     if estimate is None:
         return None
-    xi: Array = estimate.disturbance
-    return chosen(b.other, relabelled(xi, loop.swap), xi)
+    xi = estimate.disturbance
+    return xi if b is None else chosen(b.other, relabelled(xi, loop.swap), xi)
 
 
 def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:

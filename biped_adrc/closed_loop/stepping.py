@@ -31,7 +31,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.core.types import Array, frozen, read_only
 from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
@@ -89,11 +89,6 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
 
     @property
-    def swap(self) -> Indices:
-        """Relabelling of the motors at a touchdown (p,), dtype int."""
-        return self.plant.swap
-
-    @property
     def own(self) -> int:
         """How many numbers of its own the plant keeps, found by starting it once at rest."""
         still = np.zeros(self.plant.n)
@@ -113,19 +108,11 @@ class SteppingLoop(ClosedLoop[Any]):
         """Run the loop from x0 (nx,); the status of the result says how it ended. Raises InputError for an x0
         that does not fit the loop.
         """
-        mode = Mode() if mode is None else mode
-        x0 = self.checked_start(x0, options, mode)
-        loop, engine = self.prepared(x0)
-        run = simulator.run(loop, x0, mode, None, options)
-        return replace(run, settings={**run.settings, **engine})
-
-    def prepared(self, x: Array) -> tuple[SteppingLoop, dict[str, str]]:
-        """The loop that runs from a state x (nx,), and the settings that say what runs."""
-        return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
-
-    def checked_start(self, x0: Array, options: RunOptions, mode: Mode) -> Array:
-        """x0 (nx,) as an array. Raises InputError for one that is no state of this loop."""
-        x, n = numbers(x0, "the initial state"), self.plant.n
+        mode, n, x = (
+            Mode() if mode is None else mode,
+            self.plant.n,
+            numbers(x0, "the initial state"),
+        )
         options.check(x)
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
@@ -134,7 +121,13 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"the initial state has {len(x)} numbers, and a loop with {type(self.controller).__name__} has "
                 f"{expected}; expected what initial_state(q, v) of this loop gives"
             )
-        return x
+        loop, engine = self.prepared(x)
+        run = simulator.run(loop, x, mode, None, options)
+        return replace(run, settings={**run.settings, **engine})
+
+    def prepared(self, x: Array) -> tuple[SteppingLoop, dict[str, str]]:
+        """The loop that runs from a state x (nx,), and the settings that say what runs."""
+        return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
     def with_plant(self, x: Array, row: Array) -> Array:
         """A copy of x (nx,) in which the plant has the state `row` = (q, q', own) (2 n + k,).

@@ -31,7 +31,7 @@ from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.gait.reference import Reference, check_point
-from biped_adrc.hardware.motors import Motors
+from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
@@ -56,17 +56,6 @@ class Bounds(NamedTuple):
     strongest: float
     """Torque [N m]; infinite for none."""
 
-    @classmethod
-    def of(cls, robot: object, n: int, speed: float, torque: float) -> Bounds:
-        """A whole turn, so many times RUNAWAY_RATE, and so many times the peak torque of the robot's record.
-
-        None for the torque of a robot without motors, and for a model of n coordinates that is no Biped.
-        """
-        if not isinstance(robot, Biped):
-            return cls(math.inf, read_only(np.full(n, math.inf)), math.inf)
-        peak = robot.description.peak_torque if robot.p else math.inf
-        return cls(TURN, read_only(np.full(n, speed * RUNAWAY_RATE)), torque * peak)
-
     def check(self, t: float, q: Array, v: Array) -> None:
         """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
         if np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest)):
@@ -77,13 +66,6 @@ class Bounds(NamedTuple):
         raise RanAwayError(
             f"t = {t:.6g} s: |q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
         )
-
-    def bounded(self, u: Array) -> Array:
-        """Return u (p,) [N m] unchanged, or raise RanAwayError where it is beyond `strongest`."""
-        # one product tests all of them, at every sample
-        if u.dot(u) > self.strongest**2 and np.max(np.abs(u)) > self.strongest:
-            raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
-        return u
 
 
 P = TypeVar("P", bound=Plant)
@@ -192,7 +174,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        return HeldParts.of(n, p, time, self.sensors, self.motors, self.own, self.touchdown)
+        sensors = None if self.sensors is None else self.sensors.sampled(n, p, time.period)
+        motors, known = self.motors or IDEAL, time.delay_known and time.delay > 0.0
+        drive, line = motors.sampled(p, time.delay, time.period)
+        return frozen(HeldParts(sensors, drive, self.touchdown, known, self.own, Layout.of(line)))
 
     def __getstate__(self) -> dict[str, object]:
         """The fields without cached values, which another process computes again where it needs them."""
@@ -205,9 +190,15 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @cached_property
     def bounds(self) -> Bounds:
-        """Angles, rates and torque beyond which the run ends as run away; none without a Biped."""
-        robot = self.plant if isinstance(self.plant, Biped) else self.nominal
-        return Bounds.of(robot, self.plant.n, self.runaway_speed, self.runaway_torque)
+        """Angles, rates and torque beyond which the run ends as run away; none without a Biped, and none for
+        the torque without motors.
+        """
+        robot: Any = self.plant if isinstance(self.plant, Biped) else self.nominal
+        if not isinstance(robot, Biped):
+            return Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
+        fastest = read_only(np.full(robot.n, self.runaway_speed * RUNAWAY_RATE))
+        peak = robot.description.peak_torque if robot.p else math.inf
+        return Bounds(TURN, fastest, self.runaway_torque * peak)
 
     @property
     def gain(self) -> Array:
@@ -216,8 +207,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @property
     def swap(self) -> Indices:
-        """No relabelling: 0, 1, .., p - 1, (p,)."""
-        return np.arange(self.plant.p)
+        """Relabelling of the actuated joints at an impact (p,), dtype int."""
+        return self.plant.swap  # type: ignore[attr-defined]
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
@@ -243,19 +234,18 @@ class ClosedLoop(HybridSystem, Generic[P]):
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
         """The layout of x (nx,), found once by starting the controller at the (q, v) in x."""
-        layout: Layout | None = vars(self).get("layout")
-        if layout is None:
+        if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
             m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
-            layout = self._begun(m, self.law.initial_state(m), mode)[1]
-        return layout
+            self._begun(m, self.law.initial_state(m), mode)
+        return vars(self)["layout"]
 
-    def _begun(self, m: Measurement, s: Any, mode: Mode) -> tuple[Array, Layout]:
-        """x (nx,) at the start of a run at m, with the state s of the controller, and its layout."""
+    def _begun(self, m: Measurement, s: Any, mode: Mode) -> Array:
+        """x (nx,) at the start of a run at m, with the state s of the controller; its layout is kept."""
         tail = () if self.held is None else self.held.start(m.q, m.v, *mode)
         state = State(m.q, m.v, s, tail)
-        layout = vars(self).setdefault("layout", Layout.of(state))
-        return flatten(state), layout
+        vars(self).setdefault("layout", Layout.of(state))
+        return flatten(state)
 
     def split_state(self, x: Array) -> tuple[Array, Array, Any]:
         """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
@@ -276,7 +266,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
                 _check_tracking(part, m, self.plant.p)
             s = returned_tree(self.law.initial_state(m), None, self.law, "initial_state")
             check_methods(self.law, s, m, self.sampled)
-            return self._begun(m, s, mode)[0]
+            return self._begun(m, s, mode)
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
@@ -310,12 +300,16 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N]; 0 where there is no ground."""
-        return 0.0, 0.0
+        """Vertical forces of the ground on stance and swing foot [N] of a pinned plant."""
+        return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
-        return self.bounds.bounded(u)
+        strongest = self.bounds.strongest
+        # one product tests all of them, at every sample
+        if u.dot(u) > strongest**2 and np.max(np.abs(u)) > strongest:
+            raise RanAwayError(f"torque {u} N m, above {strongest:.3g} N m")
+        return u
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x), t in [s]."""

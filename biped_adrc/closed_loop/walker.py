@@ -40,8 +40,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import check_ends
 from biped_adrc.core.tree import flatten
-from biped_adrc.core.types import Array, Indices, read_only
-from biped_adrc.hardware.sample_hold import Tail
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
@@ -179,11 +178,6 @@ class Walker(ClosedLoop[Biped]):
         """Relative errors of v+ (n,) [1], or empty (0,)."""
         return read_only(self.impact_gain)
 
-    @cached_property
-    def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int."""
-        return self.plant.swap
-
     # -- from outside ------------------------------------------------------------------------------
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) (2,) [N], forces from outside taken off.
@@ -193,12 +187,6 @@ class Walker(ClosedLoop[Biped]):
         """
         m = i.measurement
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
-
-    def foot_forces(
-        self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
-    ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N]; the latter carries none."""
-        return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
 
     # -- impact and ground -------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:

@@ -87,8 +87,7 @@ class AssistedADRCController(ADRCController):
 
     def measured_output(self, m: Measurement) -> Estimate:
         """q_b [rad], q_b' [rad/s], each (p,), and d = 0: without error the model explains the whole motion."""
-        x = measured(m)
-        return x._replace(disturbance=np.zeros(len(x.disturbance)))
+        return Estimate(m.q_b, m.v_b, np.zeros(len(m.q_b)))
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
         """Input of the observer: kappa u + xi (p,) [rad/s^2], the acceleration by the model."""

@@ -84,8 +84,7 @@ def measured(m: Measurement) -> Estimate:
 
     It takes the place of an observer's estimates where there is none, and initialises those of an observer.
     """
-    p = m.terms.kappa.shape[0]
-    return Estimate(m.q[:p], m.v[:p], m.terms.xi)
+    return Estimate(m.q_b, m.v_b, m.terms.xi)
 
 
 OTHERS = "expected one such as NPDController or ADRCController"

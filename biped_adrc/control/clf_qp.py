@@ -32,7 +32,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, Measurement, measured
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import body_of, output_matrix
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import NotFiniteError
@@ -92,9 +92,7 @@ def decrease(y: Array, dy: Array, eps: float) -> Decrease:
 
 def least_norm(d: Decrease, relaxation: float) -> Array:
     """mu (p,) [rad/s^2] of least norm without limits, p = relaxation: zero where V falls fast enough."""
-    if d.psi_0 <= 0.0:
-        return np.zeros_like(d.psi_1)
-    return d.psi_1 * (-d.psi_0 / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
+    return d.psi_1 * (-max(d.psi_0, 0.0) / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
 
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
@@ -137,27 +135,18 @@ class CLFQPController(Controller):
             raise NotFiniteError(
                 f"the CLF-QP was asked for a torque at q = {m.q}, q' = {m.v}, expected finite numbers"
             )
-        r, x = self.reference(m.t, m.q, m.v), measured(m)
-        d = decrease(x.position - r.q_d, x.velocity - r.dq_d, self.epsilon)
+        r = self.reference(m.t, m.q, m.v)
+        d = decrease(m.q_b - r.q_d, m.v_b - r.dq_d, self.epsilon)
         to, mu = affine(r, m), least_norm(d, self.relaxation)
-        u = to.U @ mu + to.u_0
-        if self.allows(u, to.F_mu @ mu + to.F_1):
+        u, program = to.U @ mu + to.u_0, self.program(d, to)
+        if np.all(program.G[1:, :-1] @ mu <= program.h[1:]):  # all limits are kept
             return u
-        solved = self._solved(self.program(d, to))
+        solved = self._solved(program)
         if solved is not None:
             return to.U @ solved + to.u_0
         limit = math.inf if self.torque_limit is None else self.torque_limit
         # each motor by itself: the last resort, after which V may grow
         return np.clip(u, -limit, limit)
-
-    def allows(self, u: Array, F: Array) -> bool:
-        """Whether a torque u (p,) [N m] and a force of the ground F = (F_T, F_N) (2,) [N] keep all limits."""
-        tangential, normal = F.tolist()
-        if self.torque_limit is not None and float(np.max(np.abs(u))) > self.torque_limit:
-            return False
-        if self.least_force is not None and normal < self.least_force:
-            return False
-        return self.friction is None or abs(tangential) <= self.friction * normal
 
     def program(self, d: Decrease, to: Affine) -> Rows:
         """Rows of the program from the decrease of V and the limits, for (mu, sqrt p delta).

@@ -6,8 +6,8 @@
 
 by the Pade approximant with a numerator one degree lower than the denominator of degree k = `order`:
 
-    N(x) = sum_(j<k)  (2k-1-j)! (k-1)! / ((2k-1)! j! (k-1-j)!) (-x)^j
-    D(x) = sum_(j<=k) (2k-1-j)! k!     / ((2k-1)! j! (k-j)!)     x^j
+    N(x) = sum_(j<k)  binom(k-1, j) (-x)^j / P_j
+    D(x) = sum_(j<=k) binom(k, j)     x^j  / P_j,       P_j = (2k-1) (2k-2) .. (2k-j)
 
 Its error is of order (w d)^(2k), as good as the next one of equal degrees, whose gain at high frequency is
 +-1: a part of the command would act at once and with the wrong sign, and a torque that depends on itself would
@@ -42,7 +42,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from math import factorial
 from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
@@ -112,8 +111,7 @@ class Delayed(Around):
         return np.minimum(np.maximum(u, -self.limit), self.limit)
 
     def output(self, s: Any, m: Measurement) -> Array:
-        u: Array = self.pade[0] @ s.R
-        return u
+        return self.pade[0] @ s.R
 
     def initial_state(self, m: Measurement) -> Any:
         """The inner state at the start, with R as if its command had acted for long enough."""
@@ -149,16 +147,9 @@ def pade(k: int) -> tuple[Array, Array]:
     """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 =
     N_0 = 1.
     """
-    whole = factorial(2 * k - 1)
-    N = [
-        (-1.0) ** j * factorial(2 * k - 1 - j) * factorial(k - 1)
-        / (whole * factorial(j) * factorial(k - 1 - j))
-        for j in range(k)
-    ]  # fmt: skip
-    D = [
-        factorial(2 * k - 1 - j) * factorial(k) / (whole * factorial(j) * factorial(k - j))
-        for j in range(k + 1)
-    ]
+    P = [math.perm(2 * k - 1, j) for j in range(k + 1)]
+    N = [(-1) ** j * math.comb(k - 1, j) / P[j] for j in range(k)]
+    D = [math.comb(k, j) / P[j] for j in range(k + 1)]
     return np.array(N), np.array(D)
 
 

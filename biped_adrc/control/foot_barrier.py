@@ -158,13 +158,10 @@ class FootBarrier(Around):
         d = np.where(m.step < len(self.stones) + 0.5, d, 0.0)
         return d, f.G
 
-    def filtered(self, s: Any, m: Measurement, u: Array) -> Array:
-        """The torque (p,) [N m] of the program, from that of the controller inside, in its state s."""
-        d, G = self.missing(s, m, u)
-        return u + m.terms.kappa_inverse @ (G * (d / (G @ G)))
-
     def output(self, s: Any, m: Measurement) -> Array:
-        return self.filtered(s.inner, m, self.inner.output(s.inner, m))
+        u = self.inner.output(s.inner, m)
+        d, G = self.missing(s.inner, m, u)
+        return u + m.terms.kappa_inverse @ (G * (d / (G @ G)))
 
     def initial_state(self, m: Measurement) -> Any:
         return BarrierState(self.inner.initial_state(m), 0.0)

@@ -221,8 +221,7 @@ class Footstep(OuterLoop):
         w = self.begun(self.speed, self.step, self.step, 0.0, m)
         _, plus, minus = self.family.curve(np.array((self.speed, w.L)))
         early = (w.plus - plus) / (minus - plus) < EARLY
-        result: StepState = chosen(early, w, w._replace(plus=plus, reset=0.0 * w.reset))
-        return result
+        return chosen(early, w, w._replace(plus=plus, reset=0.0 * w.reset))
 
     def own_jump(self, w: StepState, h: Constraint, after: Measurement) -> StepState:
         return self.begun(w.end, w.before, w.L, w.r, after)

@@ -73,7 +73,8 @@ class OuterLoop(Around):
 
     def _acting(self, w: Any) -> Controller:
         """The inner controller with its constraint corrected by c(Theta; w)."""
-        return with_correction(self.inner, self.correction(w))
+        h = CorrectedConstraint(own_reference(self.inner), self.correction(w))
+        return tracking(self.inner, h)
 
     # -- what a controller does ------------------------------------------------------------------
     def output(self, s: Any, m: Measurement) -> Array:
@@ -184,10 +185,3 @@ def with_core(controller: Controller, s: Any, core: Any) -> Any:
     if not isinstance(controller, OuterLoop):
         return core
     return s._replace(inner=with_core(controller.inner, s.inner, core))
-
-
-def with_correction(controller: Controller, correction: Correction) -> Controller:
-    """A copy of the controller, inside whatever outer loops, that tracks its constraint plus a correction."""
-    if isinstance(controller, OuterLoop):
-        return with_fields(controller, inner=with_correction(controller.inner, correction))
-    return tracking(controller, CorrectedConstraint(own_reference(controller), correction))

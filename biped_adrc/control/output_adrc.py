@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from biped_adrc.control.base import Measurement, measured
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import (
     TABLE_II,
     Gains,
@@ -50,10 +50,10 @@ class OutputADRCController(ObservingController):
 
     def measured_output(self, m: Measurement) -> Estimate:
         """y [rad], y' [rad/s] and the nominal model's xi_y [rad/s^2], each (p,)."""
-        r, x, terms = self.point(m), measured(m), m.terms
+        r, terms = self.point(m), m.terms
         p = len(r.q_d)
         xi_y = output_matrix(r, terms) @ terms.xi - r.drift - r.H[:, p:] @ terms.a_N
-        return Estimate(x.position - r.q_d, x.velocity - r.dq_d, xi_y)
+        return Estimate(m.q_b - r.q_d, m.v_b - r.dq_d, xi_y)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
         """Input of the observer for the torque u (p,) [N m]: L u (p,) [rad/s^2]."""

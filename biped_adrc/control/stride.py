@@ -156,8 +156,7 @@ class StridePI(OuterLoop):
         e = self.speed - self.step_length / np.where(timed, w.tau, 1.0)
         I = np.minimum(np.maximum(w.I + e, -self.most_I), self.most_I)  # noqa: E741
         beta = np.minimum(np.maximum(k.K_P * e + k.K_I * I, -k.limit), k.limit)
-        result: StrideState = chosen(timed, StrideState(0.0, I, beta), w)
-        return result
+        return chosen(timed, StrideState(0.0, I, beta), w)
 
     @derived
     def most_I(self) -> float:

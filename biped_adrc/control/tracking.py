@@ -97,13 +97,14 @@ def tracking_torque(
 ) -> Array:
     """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement m.
 
-    solve_theta: whether the loop through Theta'' is solved. Raises SingularError as `solved_acceleration`.
+    solve_theta: whether the loop through Theta'' is solved; else it is drift + f, as the paper prints it,
+    whose error acts as a disturbance. Raises SingularError as `solved_acceleration`.
     """
     x2 = x.velocity
     if m.impulse is not None:
         x2 = r.dq_d + unchanged(r, x2 - r.dq_d, m.impulse)
     f = feedback(gains, r, x.position, x2)
-    ddq_b = solved_acceleration(r, m.terms, f) if solve_theta else printed_acceleration(r, f)
+    ddq_b = solved_acceleration(r, m.terms, f) if solve_theta else r.drift + f
     return m.terms.kappa_inverse @ (ddq_b - x.disturbance)
 
 
@@ -154,15 +155,6 @@ def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
     """M = I - H_b - H_N A_N (p, p), by which y = q_b - q_d has y'' = M q_b'' - drift - H_N a_N."""
     p = len(r.q_d)
     return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
-
-
-def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
-    """Acceleration a (p,) [rad/s^2] as the paper prints it in (20) and (28), with h' Theta'' left out.
-
-    f (p,) [rad/s^2]: the feedback. It saves the solution of a linear system; the error it
-    makes acts as a disturbance.
-    """
-    return r.drift + f
 
 
 def orthogonal_to(N: Array) -> Array:
@@ -259,8 +251,7 @@ class ObservingController(Controller):
         return self.joint_estimate(self.estimated(s), m)
 
     def sampled(self, period: float) -> Self:
-        sampled: Self = replace(self, observer=self.observer.at_ticks(period))  # type: ignore[type-var]
-        return sampled
+        return replace(self, observer=self.observer.at_ticks(period))  # type: ignore[type-var]
 
     def continuous(self) -> Self:
         if type(self.observer).flow is Observer.flow:

@@ -56,17 +56,6 @@ class Line(NamedTuple):
         return Line(*each)
 
 
-def line_at_rest(p: int, lag: float, delay: float, period: float) -> tuple[Line, float]:
-    """The line of p motors in which all torques are zero, and the fraction f of a period T in the delay.
-
-    lag [s]: time constant of the motors. delay [s]: (j + f) T, from a tick until its torque acts.
-    """
-    j, fraction = whole_and_part(delay, period)
-    none = np.zeros(p)
-    u_m, waiting = none if lag > 0.0 else None, none if fraction > 0.0 else None
-    return Line(np.zeros((j, p)), u_m, waiting, none), fraction
-
-
 @dataclass(frozen=True)
 class TorqueLine:
     """Rate limit, lag and fractional delay of the motors, for ticks every T."""
@@ -125,10 +114,16 @@ class Motors(Checked, Shown):
     rate_limit: PositiveFloat | None = None
     lag: NonNegativeFloat = 0.0
 
-    def sampled(self, period: float, fraction: float) -> TorqueLine:
-        """The motors for ticks every `period` [s], with the fraction f of a period in the delay."""
+    def sampled(self, p: int, delay: float, period: float) -> tuple[TorqueLine, Line]:
+        """The p motors for ticks every `period` T [s], and their line with all torques zero.
+
+        delay [s]: (j + f) T, from a tick until its torque acts.
+        """
+        (j, fraction), none = whole_and_part(delay, period), np.zeros(p)
         change = None if self.rate_limit is None else self.rate_limit * period
-        return TorqueLine(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
+        drive = TorqueLine(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
+        u_m, waiting = none if self.lag > 0.0 else None, none if fraction > 0.0 else None
+        return drive, Line(np.zeros((j, p)), u_m, waiting, none)
 
 
 IDEAL = Motors()

@@ -16,10 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout, returned_tree
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, line_at_rest
+from biped_adrc.hardware.motors import Line, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Belief, Touchdown
 
@@ -51,27 +50,6 @@ class HeldParts(NamedTuple):
     line: Layout
     """Of the torques on their way."""
 
-    @classmethod
-    def of(
-        cls,
-        n: int,
-        p: int,
-        timing: SampledTime,
-        sensors: Sensor | None,
-        motors: Motors | None,
-        own: int,
-        touchdown: Touchdown | None,
-    ) -> HeldParts:
-        """Prepare sensors and motors for n coordinates, p motors and the ticks of `timing`, whose delay makes
-        the queue.
-        """
-        motors = IDEAL if motors is None else motors
-        sampled = None if sensors is None else sensors.sampled(n, p, timing.period)
-        line, fraction = line_at_rest(p, motors.lag, timing.delay, timing.period)
-        known = timing.delay_known and timing.delay > 0.0
-        drive = motors.sampled(timing.period, fraction)
-        return frozen(cls(sampled, drive, touchdown, known, own, Layout.of(line)))
-
     def sense(self, w: Any, q: Array, v: Array) -> Any:
         """State w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
         return w if self.sensors is None else self.sensors.sense(w, q, v)
@@ -85,9 +63,8 @@ class HeldParts(NamedTuple):
 
         step, start [s]: number and start of the single support, which the controller knows at first.
         """
-        w, belief, touchdown = None, None, self.touchdown
-        if self.sensors is not None:
-            w = _tried(self.sensors, q, v)
+        w = None if self.sensors is None else _tried(self.sensors, q, v)
+        belief, touchdown = None, self.touchdown
         if touchdown is not None:
             d = returned_tree(touchdown.start(), None, touchdown, "start")
             belief = Belief(0.0, float(step), float(start), d)

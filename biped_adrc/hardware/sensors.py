@@ -166,7 +166,7 @@ class SampledSensors(Sensor):
         return len(self.random) > 0
 
     def start(self, q: Array, v: Array) -> Sensed:
-        return self.anew(q, v, self.random)
+        return Sensed(self.rounded(q), v, 1.0, self.random)
 
     def sense(self, w: Sensed, q: Array, v: Array) -> Sensed:
         n = len(q)
@@ -182,16 +182,11 @@ class SampledSensors(Sensor):
         return Sensed(angle, rate, 0.0, r)
 
     def impact(self, w: Sensed, q: Array, v: Array, v_model: Array) -> Sensed:
-        return self.anew(q, np.where(self.differences > 0, v_model, v), w.r)
+        rate = np.where(self.differences > 0, v_model, v)
+        return Sensed(self.rounded(q), rate, 1.0, w.r)
 
     def reading(self, w: Sensed, q: Array, v: Array) -> tuple[Array, Array]:
         return w.angle, w.rate
-
-    def anew(self, q: Array, v: Array, r: Array) -> Sensed:
-        """State w of the sensors in q, v (n,) at the start of a run and after an impact, where no difference
-        of angles can be taken yet; r (6,): state of the random numbers.
-        """
-        return Sensed(self.rounded(q), v, 1.0, r)
 
     def rounded(self, y: Array) -> Array:
         """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
@@ -204,8 +199,7 @@ M_1, M_2 = 4294967087.0, 4294944443.0
 def seeded(seed: int) -> Array:
     """State r (6,) of the random numbers from a seed; neighbouring seeds give independent states."""
     words = np.random.SeedSequence(seed).generate_state(6, np.uint32).astype(float)
-    r: Array = 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
-    return r
+    return 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
 
 
 def modulo(a: float, m: float) -> float:

@@ -189,10 +189,8 @@ class SampledChain(ChainObserver):
 
     def correct(self, z: Array, y: Array) -> Array:
         """State z at the sample instant, corrected by the measurement y (p,)."""
-        result: Array = z + np.outer(self.L, y - z[0])
-        return result
+        return z + np.outer(self.L, y - z[0])
 
     def predict(self, z: Array, input: Array) -> Array:
         """State z one period later under a constant input (p,)."""
-        result: Array = self.Phi @ z + np.outer(self.Gamma, input)
-        return result
+        return self.Phi @ z + np.outer(self.Gamma, input)

@@ -30,7 +30,9 @@ from biped_adrc.observers.gpi import InjectedChain
 
 @dataclass(frozen=True)
 class HighGainObserver(InjectedChain):
-    """The extended high-gain observer, the same for every joint. Make it with `from_epsilon`."""
+    """The extended high-gain observer, the same for every joint; `scale` is 1 / eps [1/s]. Make it with
+    `from_epsilon`.
+    """
 
     alpha: tuple[float, ...] = ()
 
@@ -49,11 +51,6 @@ class HighGainObserver(InjectedChain):
         if alpha is None:
             alpha = [comb(m + 2, i) for i in range(1, m + 3)]
         return cls(int(m), 1.0 / float(epsilon), _hurwitz(alpha, m))
-
-    @property
-    def epsilon(self) -> float:
-        """eps [s]: all poles are of the order of 1 / eps."""
-        return 1.0 / self.scale
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:

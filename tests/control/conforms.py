@@ -32,7 +32,7 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import LinearOutputs, Outputs
 from biped_adrc.gait.reference import check_point
-from biped_adrc.hardware.motors import Line, Motors, TorqueLine, line_at_rest
+from biped_adrc.hardware.motors import Line, Motors, TorqueLine
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Look, Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -243,8 +243,8 @@ def _(motors: Motors):
     """The line of torques in machine code, with every delay, and in the loop behind a controller."""
     random = np.random.default_rng(7)
     for delay in (0.0, 1.3 * PERIOD):
-        rest, f = line_at_rest(4, motors.lag, delay, PERIOD)
-        k, layout = motors.sampled(PERIOD, f), Layout.of(rest)
+        k, rest = motors.sampled(4, delay, PERIOD)
+        layout = Layout.of(rest)
         assert len(rest.queue) == int(delay / PERIOD)
         for _ in range(3):
             line, u = layout.tree(20.0 * random.normal(size=layout.size)), random.normal(size=4)

@@ -103,7 +103,7 @@ def line(j, waiting):
 @pytest.mark.parametrize("j", [0, 1, 3])
 @pytest.mark.parametrize("f", [0.0, 0.4])
 def test_a_torque_acts_when_its_delay_is_over(j, f):
-    k = Motors().sampled(T, f)
+    k, _ = Motors().sampled(2, (j + f) * T, T)
     at = line(j, int(f > 0))
     asked = RANDOM.normal(size=(10, 2))
     nothing = np.zeros(2)
@@ -121,7 +121,7 @@ def test_a_torque_acts_when_its_delay_is_over(j, f):
 
 
 def test_the_rate_limit_follows_what_was_sent_last():
-    k = Motors(rate_limit=2000.0).sampled(T, 0.0)
+    k, _ = Motors(rate_limit=2000.0).sampled(2, 0.0, T)
     for j in (0, 2):
         at, last = line(j, 0), np.zeros(2)
         for _ in range(20):
