@@ -46,8 +46,7 @@ class Nodes:
     @cached_property
     def at(self) -> NodeRow:
         """The columns by name, with a leading axis of K; a repeated time is a jump."""
-        columns: NodeRow = node_layout(self.p).tree(self.rows)
-        return columns
+        return node_layout(self.p).tree(self.rows)
 
     @cached_property
     def _starts(self) -> Indices:

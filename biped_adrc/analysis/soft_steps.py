@@ -181,8 +181,7 @@ def contact_errors(x: Signals) -> ContactErrors:
 def starts(x: Signals) -> Array:
     """Time [s] at which the single support of each node began (K,)."""
     _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
-    begins: Array = x.t[first][places]
-    return begins
+    return x.t[first][places]
 
 
 def _largest(error: Array) -> float | None:

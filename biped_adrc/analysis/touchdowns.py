@@ -109,5 +109,4 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     began = loop.layout_of(x[0]).tree(x).tail.belief
     step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
     at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
-    times: Array = start[np.append(at_once, np.diff(step) > 0.0)]
-    return times
+    return start[np.append(at_once, np.diff(step) > 0.0)]

@@ -311,8 +311,7 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The coordinates of the exponential method on symbols."""
-        form: ErrorForm = trace.on_symbols(self.symbols[1].split)
-        return form
+        return trace.on_symbols(self.symbols[1].split)
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""

@@ -83,8 +83,7 @@ class Program(Equations):
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
-            function: SymbolicFunction = getattr(self, name)()
-            return function
+            return getattr(self, name)()
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""

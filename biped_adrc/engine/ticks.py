@@ -37,8 +37,7 @@ BLOCK, TERMS = 256, len(Reduction._fields)
 @lru_cache(maxsize=64)
 def _numbers_at(address: int, size: int) -> Array:
     """The numbers (size,) at an address, as a view."""
-    numbers: Array = np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
-    return numbers
+    return np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
 
 
 class PythonTicks:

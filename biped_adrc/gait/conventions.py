@@ -58,8 +58,7 @@ class AngleMap:
 
     def rates(self, v: Array) -> Array:
         """Map rates [rad/s] or accelerations (n,), or each row of (K, n): A v."""
-        mapped: Array = v @ self.A.T
-        return mapped
+        return v @ self.A.T
 
     @cached_property
     def inverse(self) -> AngleMap:

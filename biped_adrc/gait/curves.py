@@ -86,8 +86,7 @@ class Curve(Shown, ABC):
             raise GaitError(
                 f"the {type(self).__name__} has {len(a)} pieces, expected one polynomial; take a bezier curve"
             )
-        whole: Array = a[0]
-        return whole
+        return a[0]
 
     @derived
     def breaks(self) -> Array:

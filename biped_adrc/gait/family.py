@@ -102,8 +102,7 @@ class StepMap(Part):
 
     def delta_squared(self, v: float, L: float) -> float:
         """delta^2 of the impact of the periodic walk of the member (v, L)."""
-        result: float = self.to_decision(np.array((v, L, L, L)))[0]
-        return result
+        return self.to_decision(np.array((v, L, L, L)))[0]
 
 
 @dataclass(frozen=True)

@@ -160,7 +160,6 @@ class FunctionOutputs(Outputs):
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:
     """Finite difference of f along dq (n,): sum_k w_k f(q + k dq), k = -2 .. 2, with weights w (5,)."""
-    total: Array = np.asarray(
+    return np.asarray(
         sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
     )
-    return total

@@ -175,8 +175,7 @@ class ZeroDynamics(Shown):
 
         Negative from the phase on at which the step comes to a stop.
         """
-        square: Array = sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
-        return square
+        return sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
 
     def orbit(self, sigma_plus: float) -> ZeroDynamicsOrbit:
         """The step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the nodes.

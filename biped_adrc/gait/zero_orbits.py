@@ -202,8 +202,7 @@ class ZeroOrbits(Shown):
         """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step after zeta; negative
         behind a phase where it stops.
         """
-        square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
-        return square
+        return 2.0 * (self.delta**2 * zeta - self.potential(theta))
 
     def period(self, zeta: float) -> float:
         """Duration [s] of the step after zeta, int |I / sigma| dTheta; also at the lower end of the domain.

@@ -83,8 +83,7 @@ def no_coordinates() -> InputError:
 
 def _times(A: Array, B: Array) -> Array:
     """A B, both (k, k), by plain sums."""
-    product: Array = np.einsum("ij,jk->ik", A, B)
-    return product
+    return np.einsum("ij,jk->ik", A, B)
 
 
 def _series(Z: Array) -> Phi:

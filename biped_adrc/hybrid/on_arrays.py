@@ -183,8 +183,7 @@ def finite(x: Array, size: int) -> bool:
 
 def matrix(r: Run, level: int, which: int) -> Array:
     """One of the six matrices (k, k) of a level; `which` is HALF, HALF_PHI, ..."""
-    M: Array = r.phi[level, which]
-    return M
+    return r.phi[level, which]
 
 
 def matvec(r: Run, M: Array, y: Array, out: Array) -> None:

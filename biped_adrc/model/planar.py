@@ -103,8 +103,7 @@ def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
 
     M is counter-clockwise with x to the right and z up.
     """
-    zeta: Array = f[:2] @ jacobian(k.A, turned(k.A, q), k.re, k.im) + k.turn * f[2]
-    return zeta
+    return f[:2] @ jacobian(k.A, turned(k.A, q), k.re, k.im) + k.turn * f[2]
 
 
 def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -> LinkPoint:

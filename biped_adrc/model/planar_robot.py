@@ -230,8 +230,7 @@ class PlanarRobot:
 
     def momentum(self, q: Array, v: Array) -> Array:
         """m v_com (2,) [N s]."""
-        momentum: Array = jacobian(self.A, turned(self.A, q), self.K.w_re, self.K.w_im) @ v
-        return momentum
+        return jacobian(self.A, turned(self.A, q), self.K.w_re, self.K.w_im) @ v
 
     def swing_foot(self, q: Array) -> Array:
         """(x, z) from the stance foot (2,) [m]."""

@@ -121,8 +121,7 @@ def speed_error(found: PoincareResult | str) -> AtTwoSteps:
 
 def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
     """A number of a member under one controller."""
-    result: AtTwoSteps = getattr(o.walked[controller], name)
-    return result
+    return getattr(o.walked[controller], name)
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:

@@ -104,8 +104,7 @@ def judgement(r: Runs) -> dict[str, Any]:
         "multipliers": {name: result.record() for name, result in r.multipliers.items()},
         "push_map": [cell.row() for cell in r.cells],
     }
-    summary: dict[str, Any] = plain(parts)
-    return summary
+    return plain(parts)
 
 
 def probe(out: Path) -> None:

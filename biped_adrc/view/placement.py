@@ -345,8 +345,7 @@ def contact_changes(scene: WalkScene, arc: Arc) -> Array:
     if FORCE not in arc.read:
         return np.zeros(0)
     contact = np.column_stack((foot_slips(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
-    times: Array = arc.t[1:][np.any(contact[1:] != contact[:-1], axis=1)]
-    return times
+    return arc.t[1:][np.any(contact[1:] != contact[:-1], axis=1)]
 
 
 def check_frames(count: float) -> None:

@@ -149,8 +149,7 @@ class Loaded:
 
     def touchdown(self, x: Record, m: Record) -> int:
         """Call touchdown with state and measurement; returns its flag. x changes in place."""
-        flag: int = self.functions["touchdown"](_at(x), _at(m))
-        return flag
+        return self.functions["touchdown"](_at(x), _at(m))
 
 
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:

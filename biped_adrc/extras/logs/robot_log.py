@@ -96,8 +96,7 @@ class RobotLog(Shown):
     @property
     def _ways(self) -> Array:
         """Times between two rows of the same single support [s]."""
-        ways: Array = np.diff(self.t)[np.diff(self.step) == 0.0]
-        return ways
+        return np.diff(self.t)[np.diff(self.step) == 0.0]
 
     def even(self, period: float) -> bool:
         """Whether the rows of every single support are `period` [s] apart."""

@@ -111,8 +111,7 @@ def apart(
             (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
         )
 
-    result: Array = least_squares(miss, near, bounds=bounds).x
-    return result
+    return least_squares(miss, near, bounds=bounds).x
 
 
 def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:

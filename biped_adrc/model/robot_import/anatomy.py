@@ -254,5 +254,4 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
     lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
     counter_clockwise = -joints[-1].axis[1]
     rows = urdf.absolute_angles(tree, tuple(joint.name for joint in joints), links)
-    c: Array = counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
-    return c
+    return counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
