@@ -128,7 +128,6 @@ ZERO = {
 
 STUDY = {
     "workers": Row("--workers 3", attrgetter("workers"), 3),
-    "cluster": Row("--cluster tcp://host:1", attrgetter("cluster"), "tcp://host:1"),
 }
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),

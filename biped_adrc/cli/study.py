@@ -1,4 +1,4 @@
-"""`biped-adrc study` and `reproduce`: many walks on all cores or a cluster.
+"""`biped-adrc study` and `reproduce`: many walks on all cores.
 
 `study` carries out a study file; what is finished is never lost. `reproduce` carries out the paper again: it
 makes a `paper.scenarios.Plan` of the options, runs it (`paper.reproduction`), and prints ten lines: the checks,
@@ -27,7 +27,6 @@ def study(
     study: Path,
     out: Path,
     workers: int | None = None,
-    cluster: str | None = None,
     table: Path | None = None,
     dry_run: bool = False,
 ) -> None:
@@ -55,7 +54,7 @@ def study(
                 if p.note:
                     console.print(p.note)
 
-            done = ba.study(result, out, workers, cluster=cluster, progress=progress)
+            done = ba.study(result, out, workers, progress=progress)
     except KeyboardInterrupt:
         for each in (signal.SIGINT, signal.SIGTERM):
             signal.signal(each, signal.SIG_IGN)

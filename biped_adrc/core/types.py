@@ -27,9 +27,6 @@ MuJoCoModel: TypeAlias = Any
 MuJoCoData: TypeAlias = Any
 """`mujoco.MjData`, the state and work space of a model."""
 
-DaskClient: TypeAlias = Any
-"""`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
-
 
 def read_only(values: ArrayLike) -> Array:
     """A copy in float64 that cannot be written to, of the shape of `values`; for frozen records."""

@@ -36,14 +36,13 @@ def study(
     out: Path | str,
     workers: Executor | int | None = None,
     *,
-    cluster: str | None = None,
     progress: Callable[[StudyProgress], None] | None = None,
     function: Function | None = None,
 ) -> Results:
     """Make all walks of a study whose rows are not yet in the folder `out`, and hand out its results.
 
     study: its TOML file, or the tables of one. out: the folder of its rows. workers: processes, one per core if
-    None, or an executor. cluster: address of a Dask scheduler in their place. progress: called now and then.
+    None, or an executor, such as that of a Dask client. progress: called now and then.
     function: rows of records, walks if None. Raises InputError, also where no candidate of any case keeps all
     limits, OutputError, WorkersError. After Ctrl-C or a kill what is finished is kept, and the same call goes
     on with the same rows.
@@ -62,7 +61,7 @@ def study(
     >>> [row["peak_error"] < 0.1 for row in results.rows()]
     [True, True]
     """
-    crew = Crew(workers, cluster)
+    crew = Crew(workers)
     study_ = study if isinstance(study, Study) else read_study(study)
     if study_.search is not None:
         optuna_library()
@@ -70,9 +69,6 @@ def study(
     if function is None:
         undrawn = study_.rehearse()
         function = partial(run_trials, aside="rounding" in study_.columns)
-    files = [x for x in study_.versions if x.startswith("file ")]
-    if cluster is not None and files:
-        raise InputError(f"run '{study_.name}' here, workers elsewhere may lack its files {files}")
     folder = Path(out)
     with opened(folder, study_) as store, crew:
         fits, total = store.mend(), study_.count_of(undrawn)

@@ -13,15 +13,12 @@ import json
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent import futures
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from biped_adrc.core.errors import InputError, SimulationError, optional
+from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.processes import cores, end_all, processes
 from biped_adrc.core.registry import FOLDERS
-from biped_adrc.core.types import DaskClient
-from biped_adrc.core.versions import differences, numerical_versions
 from biped_adrc.studies.build import CRASHED
 from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of
@@ -35,8 +32,6 @@ AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 MOST_CRASHED = 20
 """Walks that kill their workers one after the other, and so end the study."""
-TIMEOUT = 10.0
-"""For a Dask scheduler to answer, and for its first worker to appear [s]."""
 
 
 class WorkersError(SimulationError):
@@ -55,84 +50,42 @@ class StudyProgress(NamedTuple):
 
 @dataclass
 class Crew:
-    """Who walks: processes of this machine, the workers of a Dask scheduler, or an executor of the user's.
+    """Who walks: processes of this machine, or an executor of the user's, such as that of a Dask client.
 
     workers: a number of processes, one per core if None, or an executor, which is used as it is and not ended.
-    cluster: address of the scheduler, such as tcp://host:8786. A context manager; processes of this machine
-    begin to load the package before.
+    A context manager; processes begin to load the package before.
     """
 
     workers: Executor | int | None = None
-    cluster: str | None = None
 
     def __post_init__(self) -> None:
-        if self.cluster is None:
-            self.start()
-        elif self.workers is not None:
-            raise InputError("a cluster brings its own workers; leave out their number")
+        self.start()
 
     def __enter__(self) -> Crew:
-        if self.cluster is not None:
-            self.start()
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
-        if self.cluster is not None:
-            self.client.close(timeout=2)
-        elif self.executor is not self.workers:
+        if self.executor is not self.workers:
             end_all(self.executor)
 
     def start(self) -> None:
         """Start the executor, if it is none of the user's."""
         if isinstance(self.workers, Executor):
             self.executor: Executor = self.workers
-        elif self.cluster is None:
-            self.executor = processes(self.workers, PRELOADED)
         else:
-            self.client = dask(self.cluster)
-            self.executor = self.client.get_executor(pure=False)
+            self.executor = processes(self.workers, PRELOADED)
 
     @property
     def count(self) -> int:
         """How many chunks are walked at the same time."""
-        if self.cluster is not None:
-            return max(1, sum(self.client.nthreads().values()))
         return int(getattr(self.executor, "_max_workers", None) or cores())
 
     def renew(self) -> None:
         """Start another pool in place of one of which a process died. Raises WorkersError for a user's."""
-        if self.cluster is not None:
-            return  # which starts workers itself
         if self.executor is self.workers:
             raise WorkersError("a worker of the executor died, which the study cannot start anew")
         end_all(self.executor)
         self.start()
-
-
-def dask(address: str) -> DaskClient:
-    """The client of a Dask scheduler.
-
-    Raises InputError where none answers, it has no workers, or they have other versions than this machine.
-    """
-    with optional("study", "a study on a cluster needs Dask, which is not installed"):
-        from distributed import Client
-    connect: Callable[..., DaskClient] = Client
-    with ExitStack() as stack:
-        try:
-            client = connect(address, timeout=TIMEOUT, set_as_default=False)
-            stack.callback(client.close, timeout=1)
-            client.wait_for_workers(1, timeout=TIMEOUT)
-            there = client.run(numerical_versions)
-        except (OSError, ValueError, TypeError, ImportError) as error:
-            raise InputError(
-                f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s ({type(error).__name__}: "
-                f"{error}); expected one as tcp://host:8786, and 'dask worker {address}' beside biped-adrc"
-            ) from error
-        for worker, result in there.items():
-            if text := differences(result, numerical_versions()):
-                raise InputError(f"worker {worker} would give other numbers: {text}")
-        stack.pop_all()
-    return client
 
 
 @dataclass
@@ -200,7 +153,7 @@ class Runner:
             if error is None:
                 self.crashed = 0
                 self._keep(chunk, future.result())
-            elif isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker":
+            elif isinstance(error, BrokenExecutor):
                 lost += chunk
             else:
                 raise WorkersError(

@@ -36,8 +36,7 @@ ROWS = {
 def carried(tables, folder, function, workers=None, **more):
     """The results of a study, walked in a thread of this process where no workers are said."""
     with ThreadPoolExecutor(1) as pool:
-        workers = workers or (None if "cluster" in more else pool)
-        return ba.study(tables, folder, workers, function=function, **more)
+        return ba.study(tables, folder, workers or pool, function=function, **more)
 
 
 def rows(records):

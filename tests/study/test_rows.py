@@ -1,7 +1,6 @@
 """The same rows whoever makes them and whenever they are killed; what cannot run is refused before."""
 
 import json
-import os
 import signal
 import sqlite3
 import subprocess
@@ -42,43 +41,6 @@ def expected(tmp_path_factory):
 @pytest.mark.parametrize("workers", [1, 2])
 def test_rows_do_not_depend_on_the_number_of_workers(tmp_path, expected, workers):
     assert made(tmp_path, workers) == expected
-
-
-SCHEDULER = """
-import sys
-sys.path.insert(0, sys.argv[1])
-from distributed import LocalCluster
-if __name__ == "__main__":
-    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
-                      silence_logs=50) as cluster:
-        # a nanny gives up a worker that is killed while it starts: others are started, as on real clusters
-        cluster.adapt(minimum=2, maximum=2, interval="500ms")
-        print(cluster.scheduler_address, flush=True)
-        sys.stdin.read()
-"""
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_a_dask_cluster_makes_the_same_rows_and_names_what_kills_its_workers(tmp_path, expected):
-    env = {**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"}
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    line = [sys.executable, "-c", SCHEDULER, str(FOLDER)]
-    process = subprocess.Popen(line, **pipes, text=True, env=env)
-    try:
-        address = process.stdout.readline().strip()
-        assert made(tmp_path / "whole", None, cluster=address) == expected
-        found = made(tmp_path / "killed", None, {"controller.kill": 105}, cluster=address)
-        check_left_out(found, expected, "CRASHED", "died")
-        with pytest.raises(InputError, match="brings its own workers"):
-            made(tmp_path / "both", 2, cluster=address)
-    finally:
-        process.communicate("")
-
-
-def test_a_scheduler_that_does_not_answer(tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "TIMEOUT", 1.0)
-    with pytest.raises(InputError, match=r"no Dask scheduler answers at 'tcp://127\.0\.0\.1:9'"):
-        made(tmp_path, None, cluster="tcp://127.0.0.1:9")
 
 
 def check_left_out(found, expected, status, detail):
@@ -378,8 +340,6 @@ def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
         gait.write_text(json.dumps(json.loads(gait.read_text()), indent=3))
         with pytest.raises(InputError, match=r"other versions.*file .*mine.json"):
             ba.study(study, out, pool)
-    with pytest.raises(InputError, match="workers elsewhere"):
-        ba.study(study, tmp_path / "there", cluster="tcp://127.0.0.1:9")
 
 
 def test_the_command_walks_writes_and_goes_on(tmp_path):
