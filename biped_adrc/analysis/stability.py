@@ -23,7 +23,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import eig
 
 from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.return_map import (
@@ -158,6 +157,8 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
+    from scipy.linalg import eig
+
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
