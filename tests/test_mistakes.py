@@ -25,7 +25,7 @@ PYTHON = {
         lambda r: ba.walk(ba.Walker(r.biped, ba.NPDController(r.h)), r.gait, impacts="4"),
         "asks for 4 impacts ('4' is a str), expected a whole number",
     ),
-    "a step as text": (lambda r: ba.RK4("1e-3"), "is 1e-3 ('1e-3' is a str), expected a positive"),
+    "a step as text": (lambda r: ba.RK4("1e-3"), "h of RK4 is '1e-3' (a str), expected a number"),
     "a torque too few": (lambda r: r.walk(push=ba.TorquePulse([30.0] * 4)), "expected 5"),
     "gains of five joints": (
         lambda r: r.walk(ba.NPDController(r.h, ba.Gains([1.0] * 5, [1.0] * 5))),
@@ -61,7 +61,7 @@ PYTHON = {
     "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
     "a number as the timing": (
         lambda r: ba.Walker(r.biped, ba.NPDController(r.h), timing=1e-3),
-        "SampledTime(0.001)",
+        "SampledTime(1e-3)",
     ),
     "a clock slower than a fall": (lambda r: ba.SampledTime(1000.0), "at most"),
     "half an impact": (lambda r: r.walk(impacts=2.5), "whole number"),
@@ -191,6 +191,13 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
         with pytest.raises(ba.BipedError) as caught:
             read()
         assert TABLES[text] in str(caught.value)
+
+
+def test_a_file_of_a_thousand_brackets_is_refused(tmp_path):
+    file = tmp_path / "deep.toml"
+    file.write_text(f"x = {10_000 * '['}")
+    with pytest.raises(ba.BipedError, match=r"deep\.toml' is nested too deeply"):
+        ba.study(file, tmp_path / "out")
 
 
 def test_a_public_name_that_is_not_there_has_a_nearest_one():

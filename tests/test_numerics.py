@@ -289,5 +289,5 @@ def test_the_distance_of_neighbours_is_that_of_the_linear_map(bare, published):
 def test_what_cannot_be_repeated_is_refused(bare, published, tmp_path):
     walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, 1)
     stored = ba.load_walk(walk.save(tmp_path / "walk.npz"))
-    with pytest.raises(ba.BipedError, match="has no steps to repeat; ask one just made"):
+    with pytest.raises(ba.BipedError, match="has no steps; ask a new one"):
         stored.rounding()

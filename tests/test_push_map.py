@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from biped_adrc.gait.constraint import continued
+from biped_adrc.paper.figures import push_map_figure
 from biped_adrc.paper.pushes import push_map, word_of
 from biped_adrc.paper.reproduction import _map
 from biped_adrc.paper.scenarios import MapPush
@@ -22,6 +23,15 @@ def test_marginal_cells_carry_no_claim():
         ["identified, unlimited", "NPD", 2, 0, 1, 1, 0, 0, 0],
         ["identified, unlimited", "ADRC", 2, 0, 0, 0, 1, 0, 1],
     ]
+
+
+def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
+    words = [("but_impact", "feasible"), ("fell", "infeasible"), ("ended", "feasible")]
+    cells = [cell(*pair, k == 2, 0.1 * k) for k, pair in enumerate(words)]
+    npd, adrc, *_ = push_map_figure([c.row() for c in cells]).axes
+    assert (npd.get_title("left"), adrc.get_title("left")) == ("NPD, unlimited", "ADRC, unlimited")
+    assert [text.get_text() for text in npd.texts] == ["1", "0", "0"]
+    assert [text.get_text() for text in adrc.texts] == ["1", "0.5", ""]
 
 
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():

@@ -348,3 +348,10 @@ def test_loops_together_are_the_loops_one_by_one():
     assert loops.delay_margin(0.05) == pytest.approx(min(margins), abs=2e-9)
     assert np.ptp(margins) > 1e-4
     np.testing.assert_allclose(loops[2, 3].sensitivity()[:100], loops.sensitivity()[2, 3, :100])
+
+
+def test_a_controller_without_a_state_has_a_delay_margin():
+    """At the margin the first of its loops grows, and none before."""
+    loops = specification_of(ba.Scenario("NPD", hardware={"period": 1e-3})).loops
+    margin = loops.delay_margin(0.05)
+    assert np.max(loops.growth(0.999 * margin)) < 0.0 < np.max(loops.growth(1.001 * margin))

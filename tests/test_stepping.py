@@ -196,6 +196,11 @@ def test_plants_that_break_the_contract_are_refused():
     with pytest.raises(InputError, match="put the lag into the plant"):
         loop(motors=Motors(lag=1e-3))
 
+    with pytest.raises(
+        InputError, match=r"OneTooFar\.swap is array\(\[2\]\), expected an array of int"
+    ):
+        loop(plant=type("OneTooFar", (Ball,), {"swap": np.array([2])})())
+
     class Lazy(Ball):
         def advance(self, t, row, u, load, until):
             return super().advance(t, row, u, load, 0.5 * (t + until))

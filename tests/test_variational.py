@@ -23,7 +23,7 @@ from biped_adrc.analysis.variational import (
 )
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
-from biped_adrc.scenario.cycle import gait_cycle
+from biped_adrc.scenario.cycle import cycle_of
 
 EXACT = ba.Adaptive(1e-10, 1e-10)
 FIRST = ba.Mode()
@@ -263,7 +263,7 @@ def test_recipe_gait_without_invariance(biped):
 def test_differences_are_within_their_noise_and_their_noise_is_small():
     """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred: the bound has to hold, to fall
     with the step to the tolerance, and to be seen where d is small."""
-    cycle = gait_cycle(ba.Scenario("NPD", gait="v0.8"))
+    cycle = cycle_of(ba.Scenario("NPD", gait="v0.8"))
     bounds = {}
     for h, widths in ((1e-3, [1e-4]), (5e-4, [1e-4, 1e-7])):
         P = replace(cycle.P, method=ba.RK4(h))

@@ -37,15 +37,15 @@ from biped_adrc.core.files import data_folder
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
-from biped_adrc.gait.published import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.cycle import gait_cycle
+from biped_adrc.scenario.cycle import cycle_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from validation.passive import simplest
 from validation.published_gait import design_published_gait
+from validation.recipe import design_recipe_gait
 from validation.row import Row, at_most
 
 FASTER = 0.01  # of the speed before impact, dimensionless
@@ -86,7 +86,7 @@ def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
 
     Twice: by the variational equation along the walk, and by two walks whose starts differ by 2 % of the speed.
     """
-    cycle = gait_cycle(Scenario("NPD", robot={"preset": preset}, gait=gait))
+    cycle = cycle_of(Scenario("NPD", robot={"preset": preset}, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-7)
@@ -124,7 +124,7 @@ def designed_three_link() -> Cycle:
     return Cycle(P, walker.initial_state(gait.q_minus, gait.v_minus))
 
 
-def cycle_of(robot: str) -> Cycle:
+def robot_cycle(robot: str) -> Cycle:
     """A walking cycle of a registered robot.
 
     The simplest walker has heavier feet here: with nearly massless ones finite differences of its map are
@@ -134,7 +134,7 @@ def cycle_of(robot: str) -> Cycle:
         cycle = simplest(1e-4)
         return replace(cycle, P=replace(cycle.P, difference=2e-4))
     if robot == "rabbit":
-        return gait_cycle(Scenario("NPD"))
+        return cycle_of(Scenario("NPD"))
     return designed_three_link() if robot == "three_link" else known_cycle(Biped.load(robot))
 
 
@@ -143,7 +143,7 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
 
     The second row is the largest gap in units of the tolerance that the stability table itself uses.
     """
-    cycle = cycle_of(robot)
+    cycle = robot_cycle(robot)
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-9)
     table = stability_table(cycle.P, step)
     one, other = (float(np.abs(z[0])) for z in (table.central, step.multipliers))

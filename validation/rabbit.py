@@ -36,7 +36,7 @@ from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.reproduction import PRINTED_TABLE_I
-from biped_adrc.scenario.cycle import gait_cycle
+from biped_adrc.scenario.cycle import cycle_of
 from biped_adrc.scenario.scenario import Scenario
 from validation.hip_push import HipCase, PushedWalk
 from validation.row import PRESETS, Row, at_most, nothing
@@ -59,7 +59,7 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
     The height of the swing foot at x* shows how exact the printed angles are.
     """
     biped, (q, v) = Biped.load("rabbit", preset), np.split(X_STAR, 2)
-    cycle = gait_cycle(Scenario("NPD", robot={"preset": preset}))
+    cycle = cycle_of(Scenario("NPD", robot={"preset": preset}))
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-8)
     gap = np.abs(cycle.P.lift(step.image) - X_STAR)
     name = f"RABBIT {preset}, published gait"

@@ -8,7 +8,7 @@ its first violation, for studies that count feasible steps only. `scenario.walk`
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -59,13 +59,6 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
     if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"
-
-
-def because(words: str, broken: Mapping[str, str]) -> str:
-    """The text `words`, followed by the reasons in `broken` if there are any; broken:
-    name in `REASONS` -> text.
-    """
-    return f"{words}: {'; '.join(broken.values())}" if broken else words
 
 
 def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
@@ -134,7 +127,7 @@ class Feasibility(Shown):
 
     def text(self) -> str:
         """The outcome in words, with the reasons."""
-        return because(OUTCOMES[self.outcome], self.reasons)
+        return ": ".join(filter(None, (OUTCOMES[self.outcome], "; ".join(self.reasons.values()))))
 
 
 class Violation(NamedTuple):

@@ -40,7 +40,7 @@ from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
+from biped_adrc.gait.zero_dynamics import JointCurve, ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
@@ -186,14 +186,6 @@ NODES = 16
 """Gauss nodes of each part of a step."""
 
 
-@dataclass(frozen=True)
-class _OnCurve:
-    """A function h of Theta as a curve on which there are configurations."""
-
-    phase: Array
-    h: Callable[[float], tuple[Array, Array, Array]]
-
-
 def library(
     biped: Biped,
     speeds: Sequence[float],
@@ -256,13 +248,6 @@ def design_family(
         provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
-    return with_steps(biped, family, members, seed)
-
-
-def with_steps(
-    biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int
-) -> GaitFamily:
-    """The family with its `StepMap`, from random steps, and with the numbers of its members."""
     random, low, high = np.random.default_rng(seed), family.low, family.high
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
@@ -283,28 +268,30 @@ def step_integrals(
     """
     c, p, mu = family.phase, biped.p, np.array((v, L))
     earlier = family.member(v, before)
-    plus = float(c @ biped.relabel(configuration(earlier, earlier.theta_minus)[0]))
+    plus = float(c @ biped.relabel(configuration(c, earlier.h, earlier.theta_minus)[0]))
     minus = family.curve(mu)[2]
-    q, dq, _ = configuration(_OnCurve(c, lambda theta: family.h(mu, plus, theta)), minus)
+    q, dq, _ = configuration(c, lambda theta: family.h(mu, plus, theta), minus)
     v_minus = np.sign(minus - plus) * dq
     impact = biped.impact(q, v_minus)
     delta = biped.angular_momentum(impact.q, impact.v) / biped.angular_momentum(q, v_minus)
     start = float(c @ impact.q)
     slope = impact.v[:p] / float(c @ impact.v)
     reset = step_reset(family, np.array((v, ahead)), start, impact.q[:p], slope)
-    curve = _OnCurve(c, StepCurve(family, v, end, ahead, start, reset))
+    curve = StepCurve(family, v, end, ahead, start, reset)
     decision = start + DECISION * (family.curve(np.array((v, ahead)))[2] - start)
-    first = _integrals(biped, curve, start, decision)
-    last = _integrals(biped, curve, decision, family.curve(np.array((end, ahead)))[2])
+    first = _integrals(biped, c, curve, start, decision)
+    last = _integrals(biped, c, curve, decision, family.curve(np.array((end, ahead)))[2])
     return np.array((delta**2, *first, *slope, *last))
 
 
-def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple[float, float]:
+def _integrals(
+    biped: Biped, c: Array, curve: JointCurve, start: float, end: float
+) -> tuple[float, float]:
     """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2] from start to end [rad]."""
     s, weights, _ = gauss_nodes(NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
-        q, dq, _ = configuration(curve, float(theta))
+        q, dq, _ = configuration(c, curve, float(theta))
         inertia = float(biped.inertia(q)[-1] @ dq)
         W -= weight * inertia * float(biped.gravity(q)[-1])
         J += weight * inertia

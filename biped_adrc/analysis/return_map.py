@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import tan
 
 import numpy as np
@@ -28,7 +27,7 @@ from biped_adrc.core.linear import solve
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.program import COMPILED, CompiledWalker
-from biped_adrc.engine.run import PINOCCHIO, check_engine
+from biped_adrc.engine.run import check_engine
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
@@ -147,12 +146,6 @@ class ReturnMap(Shown):
             if not walked.status.ok:
                 raise _no_return(walked.status, walked.detail)
         return [self.project(walked.x_minus[-1]) for walked in images]
-
-    @cached_property
-    def ran(self) -> str:
-        """Name of the engine on which P runs: `engine`, or "pinocchio" where a part has no compiled form."""
-        q = np.zeros(self.walker.plant.n)
-        return PINOCCHIO if self._compiled(self.walker.initial_state(q, q)) is None else COMPILED
 
     def _compiled(self, x: Array) -> CompiledWalker | None:
         """The compiled walker with states as x (nx,), or None where there is no compiled form."""

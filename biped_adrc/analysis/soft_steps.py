@@ -20,19 +20,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.feet import NAMES, Readings, readings
-from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import SLIP
 
 AT_CONE = 0.99
@@ -72,30 +70,16 @@ class SoftStep(Shown):
         return self.duration - self.double_support - self.flight
 
 
-def soft_steps(
-    loop: SteppingLoop, run: Trajectory, apart: float | None = None
-) -> tuple[SoftStep, ...]:
-    """Measure every single support of a run on soft ground, the unfinished last one included.
-
-    apart [s]: time between two readings; None for one at each step of the engine. Raises InputError for
-    a run that is not of this loop.
-    """
-    plant: Any = loop.plant
-    apart = plant.h if apart is None else apart
-    mu, axes = plant.ground.friction, ground_axes(plant.slope)
-    return tuple(step_of(readings(loop, arc, apart), mu, axes) for arc in run.arcs)
-
-
 def recorded_steps(
     run: Trajectory, friction: float, axes: tuple[Array, Array]
 ) -> tuple[SoftStep, ...]:
-    """Measure every single support from the readings at the nodes of a run alone (`feet.with_readings`).
+    """Measure every single support of a run on soft ground, the unfinished last one included.
 
-    Coarser than `soft_steps`, and without computing forces: a slip is off by up to the time
+    run: with the readings of the feet at its nodes (`feet.with_readings`); a slip is off by up to the time
     between two nodes times the speed at which it begins. friction: mu [1]. axes: unit vectors (x,
     z) (2,) along and out of the ground.
     """
-    return tuple(step_of(_recorded(arc), friction, axes) for arc in run.arcs)
+    return tuple(step_of(arc, friction, axes) for arc in run.arcs)
 
 
 def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
@@ -103,44 +87,39 @@ def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> t
 
     Arguments and accuracy as for `recorded_steps`.
     """
-    return tuple(_slip_time(_recorded(arc), friction, axes) for arc in run.arcs)
+    return tuple(_slip_time(arc, friction, axes) for arc in run.arcs)
 
 
-def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float:
-    """Time [s] at which a foot has slipped by more than SLIP, from the readings of one
-    single support; or infinite.
-    """
-    slips = slipping(r.force, r.speed, friction, axes) * np.abs(r.speed @ axes[0])
-    slipped = np.cumsum(weights(r.t)[:, np.newaxis] * slips, axis=0)
+def _slip_time(arc: Arc, friction: float, axes: tuple[Array, Array]) -> float:
+    """Time [s] at which a foot has slipped by more than SLIP in one single support; or infinite."""
+    force, _, speed = feet_of(arc)
+    slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
+    slipped = np.cumsum(weights(arc.t)[:, np.newaxis] * slips, axis=0)
     beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
-    return float(r.t[beyond[0]]) if len(beyond) else math.inf
+    return float(arc.t[beyond[0]]) if len(beyond) else math.inf
 
 
-def _recorded(arc: Arc) -> Readings:
-    """Readings of the feet that a run has stored at the nodes of an arc; fields without readings stay empty."""
-    (*feet, level), none = (arc.read[name] for name in NAMES), np.zeros((len(arc.t), 0))
-    force, place, speed = (x.reshape(-1, 2, 2) for x in feet)
-    return Readings(arc.t, none, none, none, force, place, speed, level)
+def feet_of(arc: Arc) -> list[Array]:
+    """Forces [N], places [m] and speeds [m/s] of the feet at the K nodes of an arc, each (K, 2, 2)."""
+    return [arc.read[name].reshape(-1, 2, 2) for name in NAMES[:3]]
 
 
-def step_of(r: Readings, friction: float, axes: tuple[Array, Array]) -> SoftStep:
-    """Measure one single support, from readings at K times.
-
-    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
-    """
+def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
+    """Measure one single support; arguments as for `recorded_steps`."""
     along, out = axes
-    w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
-    speed, carries = np.abs(r.speed @ along), normal > CARRYING
-    slips = slipping(r.force, r.speed, friction, axes)
+    force, place, velocity = feet_of(arc)
+    w, normal, tangential = weights(arc.t), force @ out, np.abs(force @ along)
+    speed, carries = np.abs(velocity @ along), normal > CARRYING
+    slips = slipping(force, velocity, friction, axes)
     pressed = normal > PRESSED
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
     feet, (stance, other) = carries.sum(axis=1), map(float, w @ (slips * speed))
     return SoftStep(
-        duration=float(r.t[-1] - r.t[0]),
+        duration=float(arc.t[-1] - arc.t[0]),
         double_support=float(w @ (feet == 2)),
         flight=float(w @ (feet == 0)),
         slip=(stance, other),
-        depth=float(max(0.0, np.max(r.level * out[1] - r.place @ out))),
+        depth=float(max(0.0, np.max(arc.read[NAMES[3]] * out[1] - place @ out))),
         friction_used=float(np.max(used)),
     )
 

@@ -85,21 +85,16 @@ def matched(impacts: Array, found: Array) -> Noticed:
     them are both missed, two detections without a touchdown both false.
     """
     late, false = np.full(len(impacts), np.nan), []
-    events = [(t, 0, i) for i, t in enumerate(impacts)] + [(t, 1, i) for i, t in enumerate(found)]
-    waits: tuple[int, int] | None = None
-    for t, kind, i in sorted(events):
-        if waits is None:
-            waits = kind, i
-        elif waits[0] != kind:
-            at = i if kind == 0 else waits[1]
-            late[at] = (found[waits[1]] if kind == 0 else t) - impacts[at]
-            waits = None
-        else:
-            false += [found[waits[1]], t] if kind else []
-            waits = None
-    if waits is not None and waits[0] == 1:
-        false.append(found[waits[1]])
-    return Noticed(impacts, late, np.array(false), waits is not None and waits[0] == 0)
+    struck = [(t, "touchdown", i) for i, t in enumerate(impacts)]
+    events = sorted([*struck, *((t, "notice", -1) for t in found)], key=lambda x: x[0])
+    for (t, kind, i), (then, other, j) in zip(events[::2], events[1::2], strict=False):
+        if kind != other:
+            late[max(i, j)] = then - t if kind == "touchdown" else t - then
+        elif kind == "notice":
+            false += [t, then]
+    alone = events[-1][:2] if len(events) % 2 else (0.0, "")
+    false += [alone[0]] if alone[1] == "notice" else []
+    return Noticed(impacts, late, np.array(false), alone[1] == "touchdown")
 
 
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:

@@ -20,7 +20,7 @@ from biped_adrc.core.shown import Shown, columns
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
 from biped_adrc.gait.zero_domain import UNLIMITED, Bound, Domain, DomainLimits, domain
-from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
@@ -145,7 +145,7 @@ def zero_report(
     check_part(biped, "biped", Biped)
     limits = DomainLimits(biped.description.friction_coefficient) if limits is None else limits
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
-    x, z = biped.swing_foot(configuration(constraint, constraint.theta_minus)[0])
+    x, z = biped.swing_foot(orbits.zero.end_state(0.0)[0])
     height = float(z + math.tan(limits.slope) * x)
     if not abs(height) < CLOSES:
         raise GaitError(

@@ -93,14 +93,10 @@ class Terminal(Console):
             self.say(f"written to {path}")
 
     def table(
-        self,
-        header: Iterable[str | Column],
-        rows: Iterable[Iterable[str]],
-        title: str | None = None,
-        **style: Any,
+        self, header: Iterable[str | Column], rows: Iterable[Iterable[str]], **style: Any
     ) -> None:
-        """Print a table. style: more arguments of rich's."""
-        table = Table(*header, title=title, title_justify="left", **style)
+        """Print a table. style: more arguments of rich's, such as its title."""
+        table = Table(*header, title_justify="left", **style)
         for row in rows:
             table.add_row(*row)
         self.print(table)

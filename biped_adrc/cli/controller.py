@@ -56,7 +56,7 @@ def observer_command(
     )
     console.say(report.verdict)
     for section in report.sections:
-        console.table(section.header, section.rows, section.title)
+        console.table(section.header, section.rows, title=section.title)
     if out is not None:
         from biped_adrc.view.plots.figures import observer_figure
         from biped_adrc.view.style import write_figure
@@ -100,8 +100,7 @@ def export_command(
     scene = RobotAndGait.of(s)
     if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
         console.say(
-            f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
-            "walk the least difference grows too, so compare it in closed loop"
+            f"by itself this controller is unstable ({growth:.0f} /s): compare it in closed loop, not on a log"
         )
 
 

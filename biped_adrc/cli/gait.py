@@ -49,9 +49,7 @@ def gait_design(
     limits = with_sets(ba.StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if steps is not None:
         if others:
-            raise InputError(
-                f"--set {others[0]}: a family takes limits alone, as limits.torque=100"
-            )
+            raise InputError(f"--set {others[0]}: a family takes limits, as limits.torque=100")
         _family(ba.Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
         return
     if speeds is None:
@@ -133,9 +131,7 @@ def _numbers(text: str) -> tuple[float, ...]:
             return tuple(round(first + k * by, 9) for k in range(count))
         return tuple(float(word) for word in text.split(","))
     except ValueError:
-        raise InputError(
-            f"found '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1'"
-        ) from None
+        raise InputError(f"found '{text}', expected numbers as '0.4,0.5' or 0.4:1.1:0.1") from None
 
 
 @gait_app.command("show")

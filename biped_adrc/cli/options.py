@@ -131,9 +131,7 @@ def pairs(
         if not (name and equals and x):
             raise InputError(f"{option} is '{text}', expected {form}")
         if name in result or name in taken:
-            raise InputError(
-                f"'{name}' is given twice, as {option} {text} too; leave one of them out"
-            )
+            raise InputError(f"'{name}' is given twice, as {option} {text} too; leave one out")
         result[name] = x
     return result
 

@@ -55,10 +55,7 @@ def _print_values() -> None:
         default = "" if what.default in (None, {}) else f"{what.default}"
         words = ", ".join(x for x in (default, what.range_text) if x)
         console.say(f"  {what.name}{what.in_brackets}{f' ({words})' if words else ''}: {what.text}")
-    console.say(
-        "A controller, observer, contact, sensor, touchdown, push or plant takes its own parameters the same "
-        "way, such as controller.K_i=90000 of NPID."
-    )
+    console.say("A part takes its own parameters the same way, as controller.K_i=90000 of NPID.")
 
 
 @robot_app.command("check")

@@ -16,7 +16,7 @@ from typing import Any
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, command, console
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, command, console, target
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
 
@@ -34,11 +34,7 @@ def study(
     """Walk a study: cases, conditions, grids, draws, or a search; killed, the same command goes on."""
     from biped_adrc.studies.study import read_study
 
-    result = read_study(study)
-    if table is not None:
-        from biped_adrc.studies.results import check_table
-
-        check_table(table)
+    result, table = read_study(study), target(table, (".csv",))
     if dry_run:
         undrawn = result.rehearse()
         most = "at most " if result.search else ""
@@ -75,11 +71,9 @@ def study(
     for status, (count, detail) in statuses.items():
         if status in NO_WALK:
             console.say(f"{count} {status}, such as: {detail}")
-    written = [write_page(done)]
     if table is not None:
         done.export(table)
-        written.append(table)
-    console.written(*written)
+    console.written(write_page(done), table)
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
 

@@ -33,12 +33,6 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate, Support
     from biped_adrc.analysis.soft_steps import SoftStep
 
-WHY = {
-    "compiled": "generated from Pinocchio's model and checked against it",
-    "pinocchio": "as asked for",
-}
-"""Why the engine is the one it is, where the run itself gives no reason."""
-
 
 @app.command()
 @options("simulate", *WALKS, "impacts", "period", "torque_limit", "plant", "engine")
@@ -58,9 +52,7 @@ def simulate(
     read = inputs(s.robot.name, s.gait.name)
     out, log = target(out, (".npz", ".mat", ".csv"), read), target(log, (".csv",), read)
     if log is not None and s.hardware.period is None:
-        raise InputError(
-            "--log needs sample instants, and this walk is in continuous time; give a --period, such as '1 ms'"
-        )
+        raise InputError("--log needs sample instants; give a --period, such as '1 ms'")
     _walk(s, limits(s), end_infeasible, out, log)
 
 
@@ -97,7 +89,8 @@ def _walk(
     _print_on_ground(full.soft_steps)
     _print_end(full, half, limits)
     settings = full.trajectory.settings
-    console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
+    why = settings.get("why")
+    console.print(f"engine {settings['engine']}" + (f": {why}" if why else ""))
     for remark in full.remarks:
         console.say(f"note: {remark}")
     if near > DECIDES:
@@ -125,10 +118,8 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
         fall = " up to the fall" if run.status in FALLS else ""
         error = f"largest tracking error {error_text(*ends)}{fall}"
         about = f"{error}, peak torque {walk.peak_torque:.1f} N m, {run.settings['method']}"
-    console.print(
-        f"{run.status.name}: {run.status.value} {run.detail}".strip()
-        + f"\n{walk.impacts_text}, {about}\n{feasibility.text()}"
-    )
+    console.print(f"{run.status.name}: {run.status.value} {run.detail}".strip())
+    console.print(f"{walk.impacts_text}, {about}\n{feasibility.text()}")
     stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
     if stays and half is not None:
         console.print(f"the old stance foot does not lift off after steps {stays}")

@@ -26,7 +26,7 @@ from biped_adrc.control.base import Controller, Measurement, check_methods, nest
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
-from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends, check_timing
+from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.disturbances.base import Disturbance
@@ -124,7 +124,6 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
-        check_timing(self.timing)
         check_fields(self)
         check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
         if self.nominal.n != self.plant.n:

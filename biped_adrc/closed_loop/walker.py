@@ -45,7 +45,7 @@ from biped_adrc.hardware.sample_hold import Tail
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, Stones, check_slope, check_steps, drop_of
+from biped_adrc.model.ground import GroundSteps, Slope, Stones, drop_of
 
 
 @dataclass(frozen=True)
@@ -130,16 +130,14 @@ class Walker(ClosedLoop[Biped]):
     model: Biped | None = None
     fall_height: float = 0.35
     max_step_time: float = 2.0
-    slope: float | None = None
-    ground_steps: tuple[StepDown | StepUp, ...] = ()
+    slope: Slope | None = None
+    ground_steps: GroundSteps = ()
     impact_gain: tuple[float, ...] = ()
     stones: Stones | None = None
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
         super().__post_init__()
-        check_slope(self.ground_slope)
-        check_steps(self.ground_steps)
         if self.disturbance is not None:
             self.disturbance.check_size(self.plant.n)
         check_ends(self.max_step_time, self.fall_height, self.runaway_speed, self.runaway_torque)

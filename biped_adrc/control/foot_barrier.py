@@ -113,9 +113,9 @@ class FootBarrier(Around):
 
     def foot(self, q: Array, v: Array) -> tuple[float, float, Array, float]:
         """x [m], x' [m/s], dx/dq (n,) [m], and x'' [m/s^2] without q'' of the swing foot."""
-        k, t = self.swing, turned(self.swing, q)
+        k, t = self.swing, turned(self.swing.A, q)
         rate2 = (k.A @ v) ** 2
-        J: Any = jacobian(k, t, k.re, k.im)[0]
+        J: Any = jacobian(k.A, t, k.re, k.im)[0]
         x: Any = point(t, k.re, k.im)[0]
         turning: Any = point(Turned(t.c * rate2, t.s * rate2), k.re, k.im)[0]
         return x, J @ v, J, -turning

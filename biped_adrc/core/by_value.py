@@ -16,10 +16,13 @@ import numpy as np
 class ByValue:
     """Base of dataclasses that are equal by class and fields; a class that writes its own `__eq__` keeps it."""
 
+    KEPT = frozenset({"__eq__", "__hash__"})
+    """Methods that a dataclass would otherwise replace by its own."""
+
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        """Copy both methods into the class, since a dataclass would otherwise replace them."""
+        """Copy the inherited methods into the class."""
         super().__init_subclass__(**kwargs)
-        for name in {"__eq__", "__hash__"} - vars(cls).keys():
+        for name in cls.KEPT - vars(cls).keys():
             setattr(cls, name, getattr(cls, name))
 
     def __eq__(self, other: object) -> bool:

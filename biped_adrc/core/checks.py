@@ -158,9 +158,7 @@ def numbers(values: object, what: str) -> Array:
     try:
         return np.array(values, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(
-            f"{what} is {_shown(values)}, expected numbers, as many in every row"
-        ) from None
+        raise InputError(f"{what} is {_shown(values)}, expected numbers in equal rows") from None
 
 
 FLOAT = np.dtype(float)
@@ -193,10 +191,9 @@ def _sentence(part: object, method: str, field: bool) -> str:
     """Beginning of a sentence about a result: "X.output (own.py:12) returned", or "X gives q_d =" for
     a field.
     """
-    name = spoken(part)
-    return (
-        f"{name} gives {method} =" if field else f"{name}.{method}{line_of(part, method)} returned"
-    )
+    if field:
+        return f"{spoken(part)} gives {method} ="
+    return f"{spoken(part)}.{method}{line_of(part, method)} returned"
 
 
 def line_of(part: object, method: str) -> str:
@@ -240,9 +237,8 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
     `returned`, with the name of the field.
     """
     if not isinstance(found, kind):
-        raise InputError(
-            f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({', '.join(kind._fields)})"
-        )
+        fields = ", ".join(kind._fields)
+        raise InputError(f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({fields})")
     matrix = "J" if "J" in kind._fields else "H"
     if p is None:
         shape = getattr(getattr(found, matrix), "shape", ())
@@ -359,9 +355,8 @@ def _looked_at(kind: Any) -> bool:
 
 def _is_number(value: object) -> bool:
     """Whether a value is a real number, or an array without axes."""
-    return isinstance(value, Real) or (
-        getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
-    )
+    no_axes = getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
+    return isinstance(value, Real) or no_axes
 
 
 def _shown(value: Any) -> str:

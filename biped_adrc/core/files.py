@@ -57,9 +57,7 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
         return path
     if default and not _KIND.fullmatch(path.suffix):
         return output_path(path.with_name(path.name + suffixes[0]), suffixes)
-    raise InputError(
-        f"cannot write '{path}': the name ends in '{path.suffix}', expected {' or '.join(suffixes)}"
-    )
+    raise InputError(f"cannot write '{path}', expected {' or '.join(suffixes)} at its end")
 
 
 def check_place(path: Path) -> None:
@@ -70,9 +68,7 @@ def check_place(path: Path) -> None:
         if path.is_symlink():
             taken, kind = True, f"a link to '{path.readlink()}'"
     except OSError as error:
-        raise OutputError(
-            f"cannot write '{path}': {error.strerror}; choose another name"
-        ) from error
+        raise OutputError(f"cannot write '{path}': {error.strerror}; take another name") from error
     if taken:
         raise OutputError(f"'{path}' is {kind}, expected the name of a file to write")
 
@@ -83,9 +79,7 @@ def check_folder(path: Path | str) -> None:
     there = next(each for each in (whole, *whole.parents) if os.path.lexists(each))
     if not there.is_dir():
         kind = "a file" if there.is_file() else "not a regular file"
-        raise InputError(
-            f"the results are to go to '{path}', and '{there}' is {kind}; expected a folder"
-        )
+        raise InputError(f"'{there}' is {kind}, expected a folder for the results in '{path}'")
 
 
 def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None:
@@ -107,9 +101,7 @@ def beside(file: Path, name: object) -> Path:
     path = file.parent / str(name)
     folders = {file.parent.resolve(), file.resolve().parent}
     if not any(path.resolve().is_relative_to(folder) for folder in folders):
-        raise InputError(
-            f"'{file}' names the file '{name}', expected one in its own folder or below; copy it there"
-        )
+        raise InputError(f"'{file}' names '{name}', expected one in its own folder; copy it there")
     return path
 
 
@@ -118,18 +110,12 @@ def _named(path: object) -> Path:
     OutputError for one too long.
     """
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
-        raise InputError(
-            f"cannot write {path!r}, expected the name of a file, text without control characters"
-        )
+        raise InputError(f"cannot write {path!r}, expected a file name without control characters")
     for part in Path(path).parts:
         if (size := len(os.fsencode(part))) > LONGEST:
-            raise OutputError(
-                f"cannot write '{path}': a name of {size} bytes is too long, expected at most {LONGEST}"
-            )
+            raise OutputError(f"'{path}' has a name too long, {size} bytes of at most {LONGEST}")
     if Path(path).parts[:1] == ("~",):
-        raise InputError(
-            f"cannot write '{path}': '~' would be a folder of that name; give Path('{path}').expanduser()"
-        )
+        raise InputError(f"cannot write '{path}' with its '~'; take Path('{path}').expanduser()")
     return Path(path)
 
 
@@ -142,9 +128,7 @@ def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     for read in inputs:
         if any(_same(read, written) for written in outputs):
             written = " and ".join(f"'{path}'" for path in outputs)
-            raise InputError(
-                f"this would write {written}, and '{read}' is what it reads; choose another name for the output"
-            )
+            raise InputError(f"{written} would overwrite the input '{read}'; choose another name")
 
 
 def _same(a: Path, b: Path) -> bool:
@@ -205,9 +189,7 @@ class CsvTable(NamedTuple):
         head = rows[0][1] if rows else []
         for line, row in rows:
             if len(row) != len(head):
-                raise InputError(
-                    f"line {line} has {len(row)} entries, expected {len(head)}: {head}"
-                )
+                raise InputError(f"line {line} has {len(row)} entries, not {len(head)}: {head}")
         return cls(head, rows[1:])
 
     def numbers(self, at: int) -> Array:
@@ -353,9 +335,8 @@ def replacing(path: Path) -> Iterator[Path]:
         os.chmod(temporary, 0o666 & ~umask)
         os.replace(temporary, path)
     except OSError as error:
-        raise OutputError(
-            f"cannot write '{path}': {error.strerror or error}; choose a folder you may write to"
-        ) from error
+        why = error.strerror or error
+        raise OutputError(f"cannot write '{path}': {why}; choose another folder") from error
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
@@ -372,8 +353,7 @@ def data_folder(kind: str) -> Path:
     for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
         if candidate.is_dir():
             return candidate
-    what = f"the data folder '{kind}' is neither in the installed package nor beside it"
-    raise FileNotFoundError(f"{what}; reinstall with 'pip install .'")
+    raise FileNotFoundError(f"no data folder '{kind}' is installed; reinstall with 'pip install .'")
 
 
 def data_file(kind: str, *names: str) -> Path:

@@ -11,9 +11,8 @@ import multiprocessing
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
 from threading import Thread
@@ -33,7 +32,7 @@ KEPT = 3 * 2**23
 """Bytes that a worker takes and gives back at first: glibc then keeps twice as many of those it frees, so that
 a chunk of walks need not ask for its pages anew."""
 SAFE_PATH = "PYTHONSAFEPATH"
-"""Environment variable: the working directory is not put first on the path."""
+"""Environment variable: new interpreters import nothing from the working directory."""
 
 
 @dataclass(frozen=True)
@@ -68,13 +67,15 @@ def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
     if count is not None and not 1 <= count <= MOST_WORKERS:
         raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        why = "worker processes import the script that starts them"
-        raise InputError(f"{why}: put what starts them under if __name__ == '__main__':")
+        raise InputError("workers import this script: start them under if __name__ == '__main__':")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
-    with _safe_path():
+    before, os.environ[SAFE_PATH] = os.environ.get(SAFE_PATH, ""), "1"
+    try:
         resource_tracker.ensure_running()
         forkserver.ensure_running()
+    finally:
+        os.environ[SAFE_PATH] = before
     return ProcessPoolExecutor(count or cores(), context, initializer=_begin)
 
 
@@ -120,17 +121,6 @@ def _timed(task: Task[T]) -> Timed[T]:
     begin = time.perf_counter()
     value = task.function(*task.arguments)
     return Timed(value, time.perf_counter() - begin)
-
-
-@contextmanager
-def _safe_path() -> Iterator[None]:
-    """Context in which new interpreters import nothing from the working directory."""
-    before = os.environ.get(SAFE_PATH, "")
-    os.environ[SAFE_PATH] = "1"
-    try:
-        yield
-    finally:
-        os.environ[SAFE_PATH] = before
 
 
 def _begin() -> None:

@@ -107,12 +107,8 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     check_part(name, f"the name of a {kind}", str)
     if not callable(thing):
         raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
-    names_ = {_plain(known) for known in names(kind)}
-    if _plain(name) in names_ or is_own(name) or not name.strip():
-        raise InputError(
-            f"the {kind} '{name}' cannot be registered: that name is taken or reads as module:Class; there are "
-            f"{list(names(kind))}, choose another name"
-        )
+    if _plain(name) in map(_plain, names(kind)) or is_own(name) or not name.strip():
+        raise InputError(f"{kind} '{name}' is taken or reads as module:Class; choose another name")
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
     REGISTRY[kind][name] = Entry(home, words, given=thing)
 
@@ -152,9 +148,7 @@ def known_name(kind: str, name: str) -> str:
     known = next((x for x in names(kind) if _plain(x) == _plain(name)), name)
     if known in REGISTRY[kind] or is_own(known) or kind in ("robot", "gait"):
         return known
-    raise InputError(
-        f"{kind} '{name}': {unknown(name, names(kind))}; one of your own is package.module:Class"
-    )
+    raise InputError(f"{kind} '{name}': {unknown(name, names(kind))}; your own is module:Class")
 
 
 def unit_in(kind: str, name: object, value: str, usual: str) -> str:
@@ -190,8 +184,7 @@ def _imported(home: str) -> Callable[..., object]:
             return resolve_name(home)
         except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
             raise InputError(
-                f"'{home}' cannot be imported, {type(error).__name__}: {error}; expected "
-                f"package.module:Class, in '{here}' or installed, here and where workers run"
+                f"'{home}' cannot be imported, {type(error).__name__}: {error}; is it in '{here}' or installed?"
             ) from error
         finally:
             for x in added:
@@ -232,10 +225,7 @@ def construct(
     names, missing = takes(make), lacking(make, values)
     if missing:
         name = f"{place}.{missing[0]}".lstrip(".")
-        raise InputError(
-            f"{what}, which has to make a {kind.__name__}, needs {', '.join(missing)}; give {name}; it gets "
-            f"by itself {sorted(values)}"
-        )
+        raise InputError(f"{what} needs {', '.join(missing)}; give {name} beside {sorted(values)}")
     try:
         made = make(**{name: x for name, x in values.items() if name in names})
     except BipedError:
@@ -243,7 +233,5 @@ def construct(
     except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
         raise InputError(f"{what} could not be made: {type(error).__name__}: {error}") from error
     if not isinstance(made, kind):
-        raise InputError(
-            f"{what} made a {type(made).__name__}, expected one of class {kind.__name__}"
-        )
+        raise InputError(f"{what} made a {type(made).__name__}, expected a {kind.__name__}")
     return made

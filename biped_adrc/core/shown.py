@@ -27,11 +27,7 @@ SHORT = 48
 class Shown(ByValue):
     """Base of dataclasses whose repr is `one_line`; a class that writes a `__repr__` keeps it."""
 
-    def __init_subclass__(cls, **kwargs: Any) -> None:
-        """Copy the inherited `__repr__` into the class, since a dataclass would otherwise replace it."""
-        super().__init_subclass__(**kwargs)
-        if "__repr__" not in vars(cls):
-            cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
+    KEPT = ByValue.KEPT | {"__repr__"}
 
     def __repr__(self) -> str:
         return one_line(self)
@@ -105,11 +101,7 @@ def columns(rows: Sequence[Sequence[str]], least: int = 0, gap: int = 2) -> list
     least: least width of the first column, in characters. gap: spaces between two columns.
     """
     table = [row for row in rows if len(row) > 1]
-    widths = [max(map(len, column)) for column in zip_longest(*table, fillvalue="")]
-    widths[:1] = [max(width, least) for width in widths[:1]]
-    return [
-        (" " * gap).join(cell.ljust(w) for cell, w in zip(row, widths, strict=False)).rstrip()
-        if len(row) > 1
-        else "".join(row)
-        for row in rows
-    ]
+    widths = [max(map(len, column)) for column in zip_longest(*table, fillvalue="")] or [0]
+    widths[0] = max(widths[0], least)
+    cells = ([x.ljust(w) for x, w in zip(row, widths, strict=False)] for row in rows)
+    return [(" " * gap).join(line).rstrip() for line in cells]

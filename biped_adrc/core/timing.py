@@ -67,20 +67,7 @@ class SampledTime(Checked):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.delay <= LONGEST_DELAY * self.period:
-            found = f"the computation delay is {self.delay} s"
-            raise InputError(f"{found}, expected 0 to {LONGEST_DELAY} periods of {self.period} s")
-
-
-def check_timing(timing: object) -> None:
-    """Raise InputError for a timing that is neither `ContinuousTime` nor `SampledTime`.
-
-    A number alone, the usual mistake, gets a message that shows how to write it as a period.
-    """
-    if isinstance(timing, ContinuousTime | SampledTime):
-        return
-    number = isinstance(timing, int | float) and not isinstance(timing, bool)
-    meant = f"SampledTime({timing:g})" if number else "SampledTime(period)"
-    raise InputError(f"timing is {timing!r}, expected {meant} or ContinuousTime()")
+            raise InputError(f"the delay is {self.delay} s, expected 0 to {LONGEST_DELAY} periods")
 
 
 def check_ends(max_step_time: float, fall_height: float, speed: float, torque: float) -> None:

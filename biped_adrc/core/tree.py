@@ -29,8 +29,7 @@ def flatten(tree: Any) -> Array:
     # by `ndim` and not by class: a leaf may be an array, an array of symbols, NumPy's or Python's number, or a
     # single symbol (`engine.symbols.Scalar`), which is no number and has no shape
     if hasattr(tree, "ndim") and tree.ndim > 0:
-        vector: Array = tree.reshape(-1)
-        return vector
+        return tree.reshape(-1)
     return np.array([tree])
 
 

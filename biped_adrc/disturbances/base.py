@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.core.checks import PositiveInt, check_part, numbers, returned
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part, derived, setup
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, read_only
 
 
 class Disturbance(Part):
@@ -157,22 +157,18 @@ class Windowed(Disturbance):
     stop: float = math.inf
 
     def __post_init__(self) -> None:
-        amplitude = numbers(self.amplitude, "torque amplitude")
+        amplitude = read_only(numbers(self.amplitude, "torque amplitude"))
         finite = amplitude.ndim == 1 and np.all(np.isfinite([*amplitude, self.start]))
         if not (finite and 0.0 <= self.start < self.stop):
             raise InputError(
                 f"torque amplitude is {amplitude} over [{self.start}, {self.stop}] s, expected one finite "
                 "number [N m] per coordinate, and 0 <= start < stop"
             )
-        amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
 
     def check_size(self, n: int) -> None:
-        if len(self.amplitude) != n:
-            raise InputError(
-                f"{type(self).__name__} has an amplitude of {len(self.amplitude)} numbers, expected {n}, one "
-                "for each coordinate (0 where nothing acts)"
-            )
+        if (size := len(self.amplitude)) != n:
+            raise InputError(f"{type(self).__name__} has {size} amplitudes, expected {n}")
 
     @derived
     def support(self) -> float:

@@ -59,8 +59,7 @@ class OnLink(Disturbance):
     def __post_init__(self) -> None:
         if len(self.wave.amplitude) != 3:
             raise InputError(
-                f"the wave on link '{self.link}' has the amplitude {self.wave.amplitude}, expected three "
-                "numbers (F_x, F_z, M) [N, N, N m]"
+                f"amplitude {self.wave.amplitude} on link '{self.link}', expected (F_x, F_z, M) [N, N, N m]"
             )
         _ = self.point
 
@@ -143,8 +142,7 @@ class AddedForce(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         k = self.point
-        zeta: Array = self.force @ planar.jacobian(k, planar.turned(k, q), k.re, k.im)
-        return zeta
+        return self.force @ planar.jacobian(k.A, planar.turned(k.A, q), k.re, k.im)
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
         return 1.0 * self.force

@@ -78,8 +78,7 @@ class RecordedTorque(Disturbance):
         torques = read_only(numbers(self.torques, "the torques of the recording"))
         if times.ndim != 1 or torques.ndim != 2 or len(torques) != len(times) or len(times) < 2:
             raise InputError(
-                f"the recording has times of shape {times.shape} and torques of shape {torques.shape}, "
-                "expected (K,) and (K, n) for K >= 2 rows and n coordinates"
+                f"times of shape {times.shape} and torques of {torques.shape}, expected (K,) and (K, n), K >= 2"
             )
         finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
         bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
@@ -88,10 +87,8 @@ class RecordedTorque(Disturbance):
                 f"row {bad[0] + 1} of the recording has t = {times[bad[0]]:g} s and torques "
                 f"{torques[bad[0]].tolist()} N m, expected finite numbers, and times that increase"
             )
-        if not (math.isfinite(self.start) and self.start + times[0] >= 0.0):
-            raise InputError(
-                f"the recording begins at {self.start + times[0]:g} s, expected a time from 0 on"
-            )
+        if not 0.0 <= (begin := self.start + times[0]) < math.inf:
+            raise InputError(f"the recording begins at {begin:g} s, expected a time from 0 on")
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "torques", torques)
 
@@ -106,14 +103,11 @@ class RecordedTorque(Disturbance):
         """
         check_part(file, "the file of a recording", str, Path)
         check_part(biped, "the robot of a recording", Biped)
-        check_part(start, "the start of a recording", float)
         with reading("recording", file, InputError):
             table = CsvTable.read(file)
             head = table.head
             if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
-                raise InputError(
-                    f"its columns are {head}, expected one 't' [s] and different joints, as t,q1,q3"
-                )
+                raise InputError(f"columns {head}, expected one 't' [s] and different joints")
             columns = {name: table.numbers(k) for k, name in enumerate(head)}
             times = columns.pop("t")
             torques = np.zeros((len(times), biped.n))
@@ -200,9 +194,7 @@ def _terms(
     if not y.size:
         return []
     if y.shape != (len(t), size) or not np.all(np.isfinite([*y.ravel(), *t])):
-        raise InputError(
-            f"the {what} of the hand have shape {y.shape}, expected finite numbers ({len(t)}, {size})"
-        )
+        raise InputError(f"{what} of the hand are {y.shape}, expected finite ({len(t)}, {size})")
     y, windows = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
     for first, last in pairwise([*range(0, len(t), PIECES), len(t)]):
         at, jumps = np.full(PIECES, np.inf), np.zeros((size + moment, PIECES))

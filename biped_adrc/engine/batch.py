@@ -203,9 +203,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         return lambda: left_by(case, run)
     read, table = 0, case.curve is not None
     if table and (not walker.sampled or walker.touchdown is not None):
-        return lambda: left_by(
-            case, simulate_compiled(compiled, x, case.mode, case.method, options)
-        )
+        return lambda: left_by(case, simulate_compiled(compiled, x, case.mode, options))
     if table:
         read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, options.t_end, case.impacts, read)

@@ -63,8 +63,7 @@ class Call:
 
     def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
         """K (size,): its parameters; inputs, outputs: how many numbers."""
-        self.owner, self.K = machine, K
-        self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
+        self.K, self.inp, self.out = K, np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = FUNCTION(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 

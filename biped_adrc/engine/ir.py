@@ -140,7 +140,7 @@ def generated(key: Hashable, functions: Functions, vectors: bool = False) -> Loa
     """These functions in memory, by name; traced once per structure.
 
     - key: the structure of what they are made from (`engine.structure`).
-    - vectors: as of `machine.compiled`.
+    - vectors: as of `machine.object_code`.
 
     Raises NotCompiled, each time without tracing anew.
     """

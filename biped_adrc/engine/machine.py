@@ -29,12 +29,10 @@ LOCK = threading.RLock()
 
 @dataclass(frozen=True)
 class LoadedCode:
-    """Functions in memory; they live as long as `owner` does."""
+    """Functions in memory, where they stay until the process ends."""
 
     addresses: dict[str, int]
     """By name."""
-    owner: object
-    """LLVM's engine."""
     text: str
     """The module in LLVM's language."""
 
@@ -50,7 +48,8 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
     with LOCK:
         code = stored(key)
         if code is None:
-            code = compiled(text, vectors)
+            host = target()
+            code = object_code(parsed(text, host), host, vectors)
             keep(key, code)
         return loaded(text, code, names)
 
@@ -74,21 +73,27 @@ def target() -> binding.TargetMachine:
     )
 
 
-def compiled(text: str, vectors: bool = False) -> bytes:
-    """Object code of a module in LLVM's language, optimised for this processor at level 3.
+def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:
+    """A module in LLVM's language for this target machine."""
+    module = binding.parse_assembly(text)
+    module.triple, module.data_layout = machine.triple, str(machine.target_data)
+    return module
+
+
+def object_code(
+    module: binding.ModuleRef, machine: binding.TargetMachine, vectors: bool = False
+) -> bytes:
+    """Object code of a module, optimised for this target machine at level 3.
 
     No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
     which helps `matvec` and takes its time elsewhere.
     """
-    host = target()
-    module = binding.parse_assembly(text)
-    module.triple, module.data_layout = host.triple, str(host.target_data)
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
     tuning.slp_vectorization = vectors
-    builder = binding.create_pass_builder(host, tuning)
+    builder = binding.create_pass_builder(machine, tuning)
     builder.getModulePassManager().run(module, builder)
-    return bytes(host.emit_object(module))
+    return bytes(machine.emit_object(module))
 
 
 _ENGINES: list[object] = []
@@ -102,7 +107,7 @@ def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     engine.finalize_object()
     _ENGINES.append(engine)
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, engine, text)
+    return LoadedCode(addresses, text)
 
 
 def _path(key: str) -> Path:

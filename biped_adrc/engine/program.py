@@ -154,6 +154,8 @@ class CompiledWalker:
     """Keeps the code in memory and holds the parameters."""
     plan: CompiledRun
     """A run that has not begun: sizes, addresses and settings."""
+    label: str
+    """Of the method of integration, for records."""
 
     @classmethod
     def of(
@@ -213,4 +215,4 @@ class CompiledWalker:
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         fields |= {name: program.address(name) for name in FUNCTIONS}
-        return cls(walker, program, plan(tables, fields))
+        return cls(walker, program, plan(tables, fields), method.label)

@@ -104,7 +104,7 @@ def run_compiled(
     layout = walker.layout_of(np.asarray(x0))
     try:
         compiled = CompiledWalker.of(walker, method, layout, options.t0)
-        run = simulate_compiled(compiled, x0, mode, method, options)
+        run = simulate_compiled(compiled, x0, mode, options)
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
         why = f"{reason}; it runs in Python on the compiled plant"
@@ -114,7 +114,7 @@ def run_compiled(
             compiled = CompiledWalker.of(walker, method, layout, options.t0, in_python=True)
             ticks = PythonTicks(compiled, walker, references)
             with ticks.interrupted():
-                result = simulate_compiled(compiled, x0, mode, method, options, ticks)
+                result = simulate_compiled(compiled, x0, mode, options, ticks)
     result = result or simulator.run(walker, x0, mode, method, options)
     return replace(result, settings={**result.settings, "engine": COMPILED_PLANT, "why": why})
 
@@ -123,7 +123,6 @@ def simulate_compiled(
     compiled: CompiledWalker,
     x0: Array,
     mode: Mode,
-    method: OneStepMethod,
     options: RunOptions,
     ticks: PythonTicks | None = None,
 ) -> Trajectory:
@@ -153,7 +152,7 @@ def simulate_compiled(
         status = Status.COMPLETED if status is Status.TIME_OUT else status
         return FlownArc(arc, status, detail, outcome)
 
-    walked = run_arcs(flown, x0, mode, method.label, options)
+    walked = run_arcs(flown, x0, mode, compiled.label, options)
     return replace(walked, settings={**walked.settings, "engine": COMPILED})
 
 

@@ -205,6 +205,14 @@ def bernstein_to_power(degree: int) -> Array:
     return np.array(T, dtype=float)
 
 
+def basis_at(kind: type[Curve], degree: int, s: Array) -> tuple[Array, ...]:
+    """The basis of a kind of curve at s (K,), its first and second derivatives, each (K, M + 1).
+
+    It is the curve whose coefficients are the identity matrix.
+    """
+    return tuple(map(np.array, zip(*map(kind(np.eye(degree + 1)), s), strict=True)))
+
+
 def curve_kind(name: str) -> type[Curve]:
     """The class of a curve by its name in the registry, imported now.
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -109,8 +109,7 @@ class LinearOutputs(Outputs):
         """
         d = self.desired
         q = all_coordinates(d.curve, self.H0, d.phase, (d.theta_plus, d.theta_minus))
-        curve = type(q)(q.coefficients[:-1])
-        return VirtualConstraint(curve, d.phase, d.theta_plus, d.theta_minus)
+        return replace(d, curve=type(q)(q.coefficients[:-1]))
 
 
 def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, float]) -> Curve:

@@ -36,7 +36,7 @@ from scipy.optimize import minimize_scalar
 from biped_adrc.core.checks import Checked, PositiveFloat
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
-from biped_adrc.model.ground import check_slope, ground_axes
+from biped_adrc.model.ground import Slope, ground_axes
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"
@@ -55,11 +55,8 @@ class DomainLimits(Checked):
     """mu, largest |F_T| / F_N."""
     torque: PositiveFloat | None = None
     """Largest |u_i| [N m]."""
-    slope: float = 0.0
+    slope: Slope = 0.0
     """Slope of the ground [rad], positive downhill."""
-
-    def __post_init__(self) -> None:
-        check_slope(self.slope)
 
 
 class Bound(NamedTuple):

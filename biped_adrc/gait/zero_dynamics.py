@@ -22,7 +22,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Protocol
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -35,6 +34,8 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.model.biped import Biped
 
+JointCurve = Callable[[float], tuple[Array, Array, Array]]
+"""A function of Theta [rad] that returns h [rad], dh/dTheta, d2h/dTheta2, each (p,)."""
 NODES = 40
 """Gauss nodes over a step, enough for curves of degree 6 to be integrated to round-off."""
 
@@ -116,7 +117,9 @@ class ZeroDynamics(Shown):
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
-        rows = zip(*(configuration(constraint, th) for th in theta), strict=True)
+        rows = zip(
+            *(configuration(constraint.phase, constraint.h, th) for th in theta), strict=True
+        )
         q, dq, ddq = map(np.array, rows)
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
@@ -132,8 +135,9 @@ class ZeroDynamics(Shown):
     @cached_property
     def _end(self) -> tuple[Array, Array]:
         """State (q-, q'-) on the constraint at |Theta'-| = 1 rad/s, in the direction of the walk."""
-        q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
-        return q, np.sign(self.constraint.theta_minus - self.constraint.theta_plus) * dq
+        h = self.constraint
+        q, dq, _ = configuration(h.phase, h.h, h.theta_minus)
+        return q, np.sign(h.theta_minus - h.theta_plus) * dq
 
     @property
     def delta(self) -> float:
@@ -215,25 +219,13 @@ class ZeroDynamics(Shown):
         return a, u, b.ground_reaction(q, v, a)
 
 
-class PhaseCurve(Protocol):
-    """Joint angles as a function of Theta = c q, such as a `VirtualConstraint`."""
+def configuration(c: Array, curve: JointCurve, theta: float) -> tuple[Array, Array, Array]:
+    """q [rad], dq/dTheta and d2q/dTheta2 at theta [rad], each (n,), where q_b = h(Theta) and Theta = c q.
 
-    @property
-    def phase(self) -> Array:
-        """c (n,)."""
-
-    @property
-    def h(self) -> Callable[[float], tuple[Array, Array, Array]]:
-        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,)."""
-
-
-def configuration(constraint: PhaseCurve, theta: float) -> tuple[Array, Array, Array]:
-    """q [rad], dq/dTheta and d2q/dTheta2 on the constraint at theta [rad], each (n,).
-
-    The last coordinate comes from Theta = c q: q_N = (Theta - c_b h) / c_N.
+    curve: h as a function of theta. The last coordinate comes from Theta = c q: q_N = (Theta - c_b h) / c_N.
     """
-    h, dh, ddh = constraint.h(theta)
-    c_b, c_N = constraint.phase[:-1], constraint.phase[-1]
+    h, dh, ddh = curve(theta)
+    c_b, c_N = c[:-1], c[-1]
     return (
         np.append(h, (theta - c_b @ h) / c_N),
         np.append(dh, (1.0 - c_b @ dh) / c_N),

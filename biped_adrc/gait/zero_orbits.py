@@ -42,7 +42,7 @@ from scipy.optimize import brentq
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
 
 _GRID = 401
 """Number of phases at which signs and extremes are searched; zeros between two of them are then solved for."""
@@ -236,7 +236,7 @@ class ZeroOrbits(Shown):
     @cached_property
     def step_length(self) -> float:
         """Distance between the feet at impact [m], along the ground where that has a slope."""
-        q = configuration(self.zero.constraint, self.zero.constraint.theta_minus)[0]
+        q, _ = self.zero.end_state(0.0)
         return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
 
     def speed(self, zeta: float) -> float:

@@ -30,7 +30,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.checks import Checked, PositiveFloat
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.hybrid.constants import MATRICES
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -55,7 +56,7 @@ def matrices(half: Phi, phi: Phi, h: float) -> tuple[Array, ...]:
 
 
 @dataclass(frozen=True)
-class Exponential(OneStepMethod):
+class Exponential(Checked, OneStepMethod):
     """ETD-RK4 with a fixed step, in the coordinates of the system's `split`; for continuous time.
 
     h [s]: length of the step. Raises InputError, when a run begins, for a system without such coordinates.
@@ -65,10 +66,7 @@ class Exponential(OneStepMethod):
     1
     """
 
-    h: float = 5e-4
-
-    def __post_init__(self) -> None:
-        check_positive(self.h, f"step h [s] is {self.h}")
+    h: PositiveFloat = 5e-4
 
     @property
     def label(self) -> str:

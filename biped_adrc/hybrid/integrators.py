@@ -16,7 +16,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.errors import NotFiniteError, RanAwayError, SingularError, check_positive
+from biped_adrc.core.checks import Checked, PositiveFloat
+from biped_adrc.core.errors import NotFiniteError, RanAwayError, SingularError
 from biped_adrc.core.types import Array
 
 Flow = Callable[[float, Array], Array]
@@ -53,7 +54,7 @@ class OneStepMethod(ABC):
 
 
 @dataclass(frozen=True)
-class RK4(OneStepMethod):
+class RK4(Checked, OneStepMethod):
     """The classical explicit Runge-Kutta method of order 4 with a fixed step.
 
     h [s]: length of the step.
@@ -63,10 +64,7 @@ class RK4(OneStepMethod):
     1
     """
 
-    h: float = 1e-3
-
-    def __post_init__(self) -> None:
-        check_positive(self.h, f"step h [s] is {self.h}")
+    h: PositiveFloat = 1e-3
 
     @property
     def label(self) -> str:
@@ -87,22 +85,18 @@ that chatters they would go on for days."""
 
 
 @dataclass(frozen=True)
-class _SciPy(Solver):
+class _SciPy(Checked, Solver):
     """A SciPy solver, used one step at a time; events are located on its own dense output.
 
     - rtol [1], atol: relative and absolute tolerance of a step.
     - max_step [s]: longest step, so that the event functions are looked at often enough.
     """
 
-    rtol: float = 1e-9
-    atol: float = 1e-9
-    max_step: float = 0.02
+    rtol: PositiveFloat = 1e-9
+    atol: PositiveFloat = 1e-9
+    max_step: PositiveFloat = 0.02
     solver: ClassVar[str]
     """Its name in `scipy.integrate`, which is loaded when a step is taken."""
-
-    def __post_init__(self) -> None:
-        for name in ("rtol", "atol", "max_step"):
-            check_positive(getattr(self, name), f"{name} is {getattr(self, name)}")
 
     @property
     def label(self) -> str:

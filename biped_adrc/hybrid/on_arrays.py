@@ -125,14 +125,11 @@ class Run:
         self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
         if isinstance(method, ClassicalRungeKutta):
-            self._set_rk4(method)
+            self.kind, self.h, relaxing = constants.RK4, method.h, self.system.relaxing()
+            if relaxing is not None:
+                self.lags, self.lag_speed, self.relaxing = 1, relaxing.speed, relaxing
         elif isinstance(method, Exponential):
             self._set_etd(method)
-
-    def _set_rk4(self, method: ClassicalRungeKutta) -> None:
-        self.kind, self.h, relaxing = constants.RK4, method.h, self.system.relaxing()
-        if relaxing is not None:
-            self.lags, self.lag_speed, self.relaxing = 1, relaxing.speed, relaxing
 
     def _set_etd(self, method: Exponential) -> None:
         form = self.system.split(self.mode)

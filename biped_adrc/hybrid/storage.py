@@ -12,17 +12,16 @@ from __future__ import annotations
 import io
 import json
 import math
-import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from biped_adrc.core.errors import BipedError, InputError
-from biped_adrc.core.files import check_regular, output_path, write_bytes
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import output_path, reading, write_bytes
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
@@ -35,21 +34,15 @@ BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
 
 
-def run_path(path: Path | str) -> Path:
-    """The .npz of a run; .npz is put behind a name without a kind, such as 'push_0.1'.
-
-    Raises InputError for a name of another kind.
-    """
-    return output_path(path, (".npz",), default=True)
-
-
 def save(
     trajectory: Trajectory,
     path: Path | str,
     settings: Mapping[str, object] | None = None,
     beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
-    """Write `path` (.npz), and return it. Modes are stored as tuples of numbers.
+    """Write `path` (.npz), which is put behind a name without a kind, such as 'push_0.1'; returns the path.
+
+    Modes are stored as tuples of numbers.
 
     - trajectory: states (K, nx) and what else its arcs hold, in full precision.
     - settings: noted beside those of the trajectory.
@@ -57,7 +50,8 @@ def save(
 
     Raises InputError for a name of another kind or settings that JSON has not, and OutputError.
     """
-    path, events = run_path(path), [arc.event for arc in trajectory.arcs]
+    path = output_path(path, (".npz",), default=True)
+    events = [arc.event for arc in trajectory.arcs]
     meta = {
         "format": FORMAT,
         "status": trajectory.status.name,
@@ -92,11 +86,12 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
 
     Raises InputError for a file that is missing, damaged or of another format.
     """
-    with reading_run(path):
-        check_regular(path, "it", InputError)
-        if not os.path.isfile(path):
-            raise InputError("not found")
-        with np.load(io.BytesIO(_zipped(Path(path))), allow_pickle=False) as data:
+    check_part(path, "the file of a run", str, Path)
+    with reading("run", path, InputError):
+        content = Path(path).read_bytes()
+        if not content.startswith(b"PK"):
+            raise InputError("it is no run, expected a .npz file that 'simulate -o' has written")
+        with np.load(io.BytesIO(content), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
                 raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
@@ -110,41 +105,11 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
         return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
 
 
-def _zipped(path: Path) -> bytes:
-    """The bytes of a .npz. Raises InputError for another kind of file, ValueError for a damaged one."""
-    result = path.read_bytes()
-    if result.startswith(b"PK"):
-        return result
-    run = path.with_suffix(".npz")
-    if path != run:
-        instead = f"take '{run}'" if run.is_file() else "give one that 'simulate -o' has written"
-        raise InputError(f"it is no run, expected a .npz file; {instead}")
-    raise ValueError("it does not begin as a .npz file does")
-
-
 def load_beside(path: Path | str) -> dict[str, Stored]:
     """The arrays beside the trajectory, by name, in a file that `load` has read. Raises InputError."""
-    with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
+    with reading("run", path, InputError), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
-
-
-@contextmanager
-def reading_run(path: Path | str) -> Iterator[None]:
-    """While a run is read: whatever goes wrong becomes an InputError that names the file."""
-    if not isinstance(path, str | os.PathLike):
-        raise InputError(f"a run is read from {path!r}, expected the name of a file")
-    try:
-        yield
-    except BipedError as error:
-        raise InputError(f"run '{path}': {error}") from error
-    except OSError as error:
-        raise InputError(f"run '{path}' cannot be read: {error.strerror or error}") from error
-    except Exception as error:  # whatever damaged bytes may raise
-        raise InputError(
-            f"run '{path}' is damaged and cannot be read: {type(error).__name__}: {error}; take a "
-            "copy, or walk it again"
-        ) from error
 
 
 def _arc(
@@ -168,12 +133,13 @@ def _check(arcs: Sequence[Arc]) -> None:
         t, x, read = arc.t, arc.x, arc.read.values()
         ends = [] if arc.event is None else [arc.event.x_minus, arc.event.x_plus]
         states = [state for state in ends if state is not None]
-        if any(values.dtype.kind != "f" for values in (t, x, arc.dx, *read, *states)):
-            raise ValueError(f"arc {i} has what is no floating point")
-        if t.ndim != 1 or x.ndim != 2 or {len(x), *map(len, read)} != {len(t) or -1}:
-            raise ValueError(f"arc {i} has {len(t)} times and states {x.shape}")
-        if arc.dx.shape != x.shape or any(state.shape != x.shape[1:] for state in states):
-            raise ValueError(f"arc {i} has slopes or ends of another size than its {x.shape}")
+        rows = t.ndim == 1 and x.ndim == 2 and {len(x), *map(len, read)} == {len(t) or -1}
+        widths = arc.dx.shape == x.shape and all(state.shape == x.shape[1:] for state in states)
+        floats = all(values.dtype.kind == "f" for values in (t, x, arc.dx, *read, *states))
+        if not (rows and widths and floats):
+            raise ValueError(
+                f"arc {i} has {t.shape} times, states {x.shape} and others that do not fit"
+            )
         if not all(np.isfinite(values).all() for values in (t, x, arc.dx, *states)):
             raise ValueError(f"arc {i} has NaN or infinity")
         if t[0] < end or np.any(np.diff(t) < 0.0) or (arc.event and arc.event.t != t[-1]):

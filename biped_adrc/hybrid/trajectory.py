@@ -82,10 +82,10 @@ class Arc(Shown):
 
     def __call__(self, t: float, side: str = "right") -> Array:
         """x(t) (nx,) by cubic Hermite interpolation, t in [s]; the limit from `side` where x or x' jumps."""
-        i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
-        i = min(max(i, 0), len(self.t) - 2) if len(self.t) > 1 else 0
         if len(self.t) == 1:
             return self.x[0].copy()
+        i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
+        i = min(max(i, 0), len(self.t) - 2)
         at, x, dx = self.t, self.x, self.dx
         return hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
 

@@ -19,7 +19,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
@@ -155,12 +154,7 @@ class Biped(Shown):
 
     def relabel(self, q: Array) -> Array:
         """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad]."""
-        return self.R @ q + self._offset
-
-    @cached_property
-    def _offset(self) -> Array:
-        """Offset r (n,) [rad] of the relabelling q+ = R q- + r; zero except for robots with spokes."""
-        return read_only(self.description.offset)
+        return self.R @ q + self.description.offset
 
     @cached_property
     def swap(self) -> Indices:
@@ -169,9 +163,9 @@ class Biped(Shown):
         Controllers, observers and torques on their way are relabelled by it (`types.relabelled`). A motor
         between the legs changes its sign. Raises ModelError for motors that are combined, or have an offset.
         """
-        p, moved = self.p, self.R[: self.p]
+        p, moved, offset = self.p, self.R[: self.p], np.array(self.description.offset)
         ones = np.concatenate((moved[:, :p], -moved[:, :p]), axis=1) == 1.0
-        fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (self._offset[:p] == 0.0)
+        fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (offset[:p] == 0.0)
         if not fits.all():
             bad = [self.description.actuated[i] for i in np.flatnonzero(~fits)]
             raise ModelError(
@@ -190,9 +184,7 @@ class Biped(Shown):
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
-        """Single-support dynamics (1), from the model pinned at the stance foot. Raises ModelError
-        for a wrong base.
-        """
+        """Dynamics (1), from the model pinned at the stance foot. Raises ModelError for a wrong base."""
         d, pitch = self.description, self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != d.unactuated:
             raise ModelError(
@@ -230,11 +222,7 @@ class Biped(Shown):
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
-        k = self.pinned
-        T, x = k.T, k.T @ self._angles(q)
-        D = T.T @ pin.crba(k.model, k.data, x) @ T
-        Omega = T.T @ pin.nonLinearEffects(k.model, k.data, x, T @ self._angles(v))
-        return reduce(D, Omega, self.p)
+        return reduce(self.inertia(q), self.bias(q, v), self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """Gravity G, C' q' (n,) [N m], the ground's force as F_a q'' + F_0 (2,) [N], J_2 (2, n) [m], mass [kg].
@@ -353,12 +341,12 @@ class Biped(Shown):
         return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the
-        relabelled state after it.
+        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the relabelled state.
 
         Raises SingularError where (7) is singular.
         """
-        return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
+        q, v = self._angles(q), self._angles(v)
+        return self.floating.impact(q, v, self.R, np.array(self.description.offset))
 
     # -- variations ------------------------------------------------------------------------------
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
@@ -366,33 +354,18 @@ class Biped(Shown):
 
         Raises ModelError for an unknown body, or one without mass.
         """
-        inertials: dict[str, Inertial] = {}
+        d, inertials = self.description, dict[str, Inertial]()
+        bodies = {**d.links, **{link: (link,) for link in self.tree.links if link not in d.links}}
         for kind, by_body in factors.items():
             for body, factor in by_body.items():
-                for link in self._links(body):
+                if body not in bodies:
+                    raise ModelError(f"robot '{d.name}' has no body '{body}'; it has {[*bodies]}")
+                for link in bodies[body]:
                     old = inertials.get(link) or self.tree.links[link].inertial
                     if old is None:
                         raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
                     inertials[link] = old.scaled(kind, factor)
         return self.tree.with_inertials(inertials)
-
-    def _links(self, body: str) -> tuple[str, ...]:
-        """Names of the links of a body: a group of the robot's record ("thigh" for both),
-        or one link; or ModelError.
-        """
-        if body in self.description.links:
-            return self.description.links[body]
-        if body in self.tree.links:
-            return (body,)
-        known = [*self.description.links, *self.tree.links]
-        raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
-
-    if not TYPE_CHECKING:  # a type checker would let every name pass
-
-        def __getattr__(self, name: str) -> Any:
-            hint = "; ba.ModelErrors(mass={'torso': 0.2}).apply(biped) is a torso of 20 % more"
-            also = hint if name == "with_errors" else ""
-            raise AttributeError(f"'Biped' has no attribute '{name}'{also}")
 
     def _angles(self, q: Array) -> Array:
         """q (n,) after a check of its shape and that it is finite."""

@@ -52,22 +52,14 @@ def acceleration_derivatives(
 
     The force is B_s u + delta + zeta; friction is included where the biped has it.
     """
-    dq, dv = torque_derivatives(biped, q, v, biped.acceleration(q, v, force))
+    pinned, T, a = biped.pinned, biped.pinned.T, biped.acceleration(q, v, force)
+    pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
+    parts = pinned.data.dtau_dq, pinned.data.dtau_dv
+    dq, dv = (T.T @ np.reshape(part, T.shape) @ T for part in parts)
     inverse: Array = np.asarray(np.linalg.inv(biped.inertia(q)), dtype=np.float64)
     return AccelerationDerivatives(
         -inverse @ dq, inverse @ (biped.friction_derivative(v) - dv), inverse
     )
-
-
-def torque_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
-    """Derivatives of D_s(q) a + Omega(q, q') by q [N m/rad] and by q' [N m s/rad], each (n, n).
-
-    a (n,) [rad/s^2] is fixed, and friction is left out.
-    """
-    pinned, T = biped.pinned, biped.pinned.T
-    pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
-    dq, dv = (np.reshape(part, T.shape) for part in (pinned.data.dtau_dq, pinned.data.dtau_dv))
-    return T.T @ dq @ T, T.T @ dv @ T
 
 
 def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
@@ -113,9 +105,9 @@ def pose_function(robot: PlanarRobot) -> ca.Function:
     q = ca.SX.sym("q", n)
     x = each(q)
     rest: Symbols = np.zeros(n, dtype=object)
-    t = turned(robot, x)
+    t, A = turned(robot.A, x), robot.A
     D, _ = robot.inertia_and_bias(x, rest)
-    J_m, J_2 = jacobian(robot, t, K.w_re, K.w_im), jacobian(robot, t, K.foot_re, K.foot_im)
+    J_m, J_2 = jacobian(A, t, K.w_re, K.w_im), jacobian(A, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 

@@ -18,7 +18,6 @@ from typing import Annotated, Any
 import numpy as np
 
 from biped_adrc.core.checks import Checked, PositiveFloat, PositiveFloats, PositiveInt, Range
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 
@@ -32,12 +31,7 @@ def ground_axes(slope: float) -> tuple[Array, Array]:
     return along, np.array([math.sin(slope), math.cos(slope)])
 
 
-def check_slope(slope: float) -> None:
-    """Raise InputError unless the slope [rad] is less than a right angle either way."""
-    if not abs(slope) < 0.5 * math.pi:
-        raise InputError(f"the slope is {slope} rad, expected less than a right angle")
-
-
+Slope = Annotated[float, Range("less than a right angle", lambda x: abs(x) < 0.5 * math.pi)]
 RISING = Range("0 < first <= second < 1", lambda d: len(d) == 2 and 0.0 < d[0] <= d[1] < 1.0)
 
 
@@ -154,28 +148,32 @@ def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
     return L
 
 
-def check_steps(steps: object) -> None:
-    """Raise InputError unless `steps` is a tuple of steps of the ground."""
-    if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
-        raise InputError(
-            f"ground_steps is {steps!r:.60}, expected a tuple of steps, such as (StepDown(3, 0.02),), or ()"
-        )
+def _are_steps(steps: object) -> bool:
+    return isinstance(steps, tuple) and all(isinstance(x, StepDown | StepUp) for x in steps)
 
 
-def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
+STEPS = Range("a tuple of steps, such as (StepDown(3, 0.02),), or ()", _are_steps)
+GroundSteps = Annotated[tuple[StepDown | StepUp, ...], STEPS]
+
+
+Steps = tuple[StepDown | StepUp, ...]
+"""Changes of the ground's height."""
+
+
+def drop_of(steps: Steps, number: int) -> float:
     """Depth by which these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
-def random_steps(seed: int, height: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+def random_steps(seed: int, height: float, steps: int) -> Steps:
     """A step down or up in each single support from 1 to `steps`, uniform within `height` [m] either way.
 
     The same seed gives the same ground.
     """
-    return _stepped(np.random.default_rng(seed).uniform(-height, height, steps))
+    return stepped(np.random.default_rng(seed).uniform(-height, height, steps))
 
 
-def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
     """Make random steps up and down, with heights of footholds of mean zero.
 
     seed: of the heights, a whole number from 0. rms [m]: their root mean square. steps: how many. The heights
@@ -188,13 +186,13 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
     [1, 2, 3]
     """
     heights = np.concatenate(([0.0], np.random.default_rng(seed).normal(0.0, rms, steps)))
-    return _stepped(-np.diff(heights))
+    return stepped(-np.diff(heights))
 
 
-def _stepped(drops: Array) -> tuple[StepDown | StepUp, ...]:
-    """Steps down and up by `drops` [m], one for each single support from 1 on."""
+def stepped(drops: Array, first: int = 1) -> Steps:
+    """Steps down and up by `drops` [m], one for each single support from `first` on; none for a drop of 0."""
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)
-        for step, drop in enumerate(drops.tolist(), 1)
+        for step, drop in enumerate(drops.tolist(), first)
         if drop != 0.0
     )

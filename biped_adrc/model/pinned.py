@@ -181,8 +181,9 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     `torso` is the link that the floating base carries; what is above it is dropped. Raises
     ModelError when `foot` does not hang below `torso`.
     """
-    chain = _chain(tree, foot, torso)
-    pitch = tree.joint_above(torso)
+    chain, pitch = tree.path_below(foot, torso), tree.joint_above(torso)
+    if chain is None:
+        raise ModelError(f"'{tree.source}': foot '{foot}' does not hang below '{torso}'")
     assert pitch is not None
     origin = {joint.parent: joint.origin for joint in chain}  # of the new frames in the old ones
     pin_joint = Joint(PIN_JOINT, "revolute", "ground", foot, ZERO, pitch.axis)
@@ -200,14 +201,6 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     }
     ground = {"ground": Link("ground", None, ())}
     return Tree(f"{tree.name}_pinned", {**ground, **links}, tuple(joints), tree.source)
-
-
-def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
-    """Joints from `foot` up to `torso`, the nearest first. Raises ModelError where there is no such path."""
-    chain = tree.path_below(foot, torso)
-    if chain is None:
-        raise ModelError(f"'{tree.source}': foot '{foot}' does not hang below '{torso}'")
-    return chain
 
 
 def _beside(tree: Tree, link: str, chain: tuple[Joint, ...]) -> Iterator[Joint]:

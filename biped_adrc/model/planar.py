@@ -18,27 +18,19 @@ disturbances: with J(q) (2, n) the Jacobian of the point, and b (n,) that of the
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Generic, NamedTuple, Protocol, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.core.types import Array, ComplexArray, Indices
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
 
 Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
 """Arrays of numbers, or of symbols; a function that is given one kind returns the same kind."""
-
-
-class Joined(Protocol):
-    """Anything with the matrix A of the absolute angles: a `PlanarRobot` or a `LinkPoint`."""
-
-    @property
-    def A(self) -> NDArray[np.int_] | Array:
-        """Matrix (n, n) of the absolute angles [rad], a = A q."""
 
 
 def parts(z: ComplexArray) -> tuple[Array, Array]:
@@ -73,9 +65,9 @@ class Turned(NamedTuple, Generic[Numbers]):
     """sin a."""
 
 
-def turned(robot: Joined, q: Numbers) -> Turned[Numbers]:
-    """cos and sin of a = A q at the angles q (n,) [rad]."""
-    a = robot.A @ q
+def turned(A: Indices | Array, q: Numbers) -> Turned[Numbers]:
+    """cos and sin of a = A q, with A (n, n), at the angles q (n,) [rad]."""
+    a = A @ q
     return Turned(np.cos(a), np.sin(a))
 
 
@@ -84,9 +76,9 @@ def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
     return re @ t.c - im @ t.s, im @ t.c + re @ t.s
 
 
-def jacobian(robot: Joined, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
-    """Jacobian d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]."""
-    return np.array([robot.A.T @ (-(re * t.s) - im * t.c), robot.A.T @ (re * t.c - im * t.s)])
+def jacobian(A: Indices | Array, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
+    """Jacobian d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]; A (n, n): of `turned`."""
+    return np.array([A.T @ (-(re * t.s) - im * t.c), A.T @ (re * t.c - im * t.s)])
 
 
 POINT_EXACT = 1e-10
@@ -111,7 +103,7 @@ def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
 
     M is counter-clockwise with x to the right and z up.
     """
-    zeta: Array = f[:2] @ jacobian(k, turned(k, q), k.re, k.im) + k.turn * f[2]
+    zeta: Array = f[:2] @ jacobian(k.A, turned(k.A, q), k.re, k.im) + k.turn * f[2]
     return zeta
 
 

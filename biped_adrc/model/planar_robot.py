@@ -175,7 +175,7 @@ class PlanarRobot:
 
     def inertia_and_bias(self, q: Numbers, v: Numbers) -> tuple[Numbers, Numbers]:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] at q (n,) [rad], v = q' (n,) [rad/s], by the module."""
-        t, A, K = turned(self, q), self.A, self.K
+        t, A, K = turned(self.A, q), self.A, self.K
         C, S = _differences(t)
         D = K.W_re * C - K.W_im * S
         np.fill_diagonal(D, K.inertia)
@@ -202,9 +202,9 @@ class PlanarRobot:
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
-        t = turned(self, q)
-        F_a = jacobian(self, t, self.K.w_re, self.K.w_im)
-        J_2 = jacobian(self, t, self.K.foot_re, self.K.foot_im)
+        t = turned(self.A, q)
+        F_a = jacobian(self.A, t, self.K.w_re, self.K.w_im)
+        J_2 = jacobian(self.A, t, self.K.foot_re, self.K.foot_im)
         return BodyTerms(*self.gravity_and_turning(t, v), F_a, F_0, J_2, self.K.mass)
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
@@ -223,23 +223,23 @@ class PlanarRobot:
 
         q (n,) [rad], v = q' (n,) [rad/s]; a = q'' (n,) [rad/s^2], not the absolute angles.
         """
-        K, t, rate2 = self.K, turned(self, q), (self.A @ v) ** 2
-        F_x, F_z = jacobian(self, t, K.w_re, K.w_im) @ a
+        K, t, rate2 = self.K, turned(self.A, q), (self.A @ v) ** 2
+        F_x, F_z = jacobian(self.A, t, K.w_re, K.w_im) @ a
         x, z = point(Turned(t.c * rate2, t.s * rate2), K.w_re, K.w_im)
         return np.array([F_x - x, F_z - z + K.mass * K.gravity])
 
     def momentum(self, q: Array, v: Array) -> Array:
         """m v_com (2,) [N s]."""
-        momentum: Array = jacobian(self, turned(self, q), self.K.w_re, self.K.w_im) @ v
+        momentum: Array = jacobian(self.A, turned(self.A, q), self.K.w_re, self.K.w_im) @ v
         return momentum
 
     def swing_foot(self, q: Array) -> Array:
         """(x, z) from the stance foot (2,) [m]."""
-        return np.array(point(turned(self, q), self.K.foot_re, self.K.foot_im))
+        return np.array(point(turned(self.A, q), self.K.foot_re, self.K.foot_im))
 
     def hip(self, q: Array) -> Array:
         """(x, z) from the stance foot (2,) [m]."""
-        return np.array(point(turned(self, q), self.K.hip_re, self.K.hip_im))
+        return np.array(point(turned(self.A, q), self.K.hip_re, self.K.hip_im))
 
     def kinetic_energy(self, q: Array, v: Array) -> Array:
         """(1/2) v' D_s v [J], at q (n,) [rad], v (n,) [rad/s]."""
@@ -248,16 +248,16 @@ class PlanarRobot:
 
     def potential_energy(self, q: Array) -> Array:
         """[J], zero at the height of the stance foot, at q (n,) [rad]."""
-        return self.K.gravity * point(turned(self, q), self.K.w_re, self.K.w_im)[1]
+        return self.K.gravity * point(turned(self.A, q), self.K.w_re, self.K.w_im)[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
         """State and impulse after (7), (8) from q (n,) [rad], v (n,) [rad/s], by the equation of the module.
 
         The impulse is that of the rows of p_e of (7): F_2 = J_m (q+' - q-') - m J_2 q+'.
         """
-        K, t = self.K, turned(self, q)
+        K, t = self.K, turned(self.A, q)
         D, _ = self.inertia_and_bias(q, v)
-        J_m, J_2 = jacobian(self, t, K.w_re, K.w_im), jacobian(self, t, K.foot_re, K.foot_im)
+        J_m, J_2 = jacobian(self.A, t, K.w_re, K.w_im), jacobian(self.A, t, K.foot_re, K.foot_im)
         before = D - J_2.T @ J_m
         after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
         v_plus = solve_positive(after, before @ v, "N' D_e N")

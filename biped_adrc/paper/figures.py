@@ -5,23 +5,29 @@ Drawing takes longer than some of the runs, so each figure is a task of `process
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 from matplotlib.figure import Figure
 
+from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.files import write_bytes
 from biped_adrc.core.processes import Task, run_tasks
+from biped_adrc.core.types import PlainRecord
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
+from biped_adrc.paper.pushes import LOST
 from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.plots import figures
 from biped_adrc.view.plots.figures import push_window
-from biped_adrc.view.plots.study import push_map_figure
+from biped_adrc.view.plots.study import map_figure
 from biped_adrc.view.style import render
 
 
@@ -47,7 +53,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
-    does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
+    does not: the disturbance estimate, the ground's force, energies, multipliers, and the map
     of pushes.
     """
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
@@ -65,12 +71,30 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
         "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),
         "energy": (figures.energy_figure, adrc, pushed, window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
-        "return_map": (figures.return_map_figure, *r.returns["map"]),
     }
     for preset in r.plan.presets if r.plan.full else ():
         rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
         inputs[f"push_map_{preset}"] = (push_map_figure, rows)
     return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
+
+
+def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
+    """Draw the map of pushes of one preset, rows as `PushCell.row` has them: a panel for each controller and
+    torque limit, onset [ms] against joints and amplitude [N m].
+
+    1: feasible, the impact aside; 0.5: makes all steps otherwise; 0: does not; empty: marginal.
+    """
+    ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": math.nan}
+    panels: dict[str, list[tuple[float, str, float]]] = {}
+    for c, r in itertools.product(CONTROLLERS, rows):
+        limit = "unlimited" if r["torque_limit"] is None else f"{r['torque_limit']:g} N m"
+        push = r["onset_ms"], f"{r['pattern']} {r['amplitude']:3.0f}"
+        end = ends.get(r[f"{c.lower()}_word"], 0.5)
+        panels.setdefault(f"{c}, {limit}", []).append((*push, end))
+    columns = ((name, zip(*panel, strict=True)) for name, panel in panels.items())
+    numbers = {name: (x, y, np.array(end)) for name, (x, y, end) in columns}
+    names = "onset in the step [ms]", "joints, amplitude [N m]"
+    return map_figure(numbers, names, "1 feasible, 0.5 makes all steps, 0 does not", log=False)
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:

@@ -188,15 +188,10 @@ def periods(found: Mapping[str, float]) -> float:
     return found["period"] / longest_step(LEAST_PRINTED)
 
 
-# -- what of (name, scenario) a verdict may depend on ------------------------------------------------
-def theta_of(name: str, o: MemberOutcome) -> str:
+# -- what of a scenario a verdict may depend on ----- ------------------------------------------------
+def theta_of(o: MemberOutcome) -> str:
     """The choice of Theta'' of a member: it alone causes the error that remains under ADRC."""
     return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
-
-
-def setting_of(name: str, cell: PushCell) -> str:
-    """Preset and torque limit of a push of the map."""
-    return cell.setting
 
 
 # -- scenarios -------------------------------------------------------------------------------------

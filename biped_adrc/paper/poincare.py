@@ -1,7 +1,7 @@
 """The stability test of the reproduction: fixed point, multipliers by central differences, delta^2.
 
-A `PoincareResult` at two steps says how far the multipliers are from converged; `return_map_samples` is the map
-in Theta' for its figure. The paper's own test is linear regression (26), (27) through the sampled states:
+A `PoincareResult` at two steps says how far the multipliers are from converged. The paper's own test is linear
+regression (26), (27) through the sampled states:
 
     x-(k + 1) - x* = Phi (x-(k) - x*)
 
@@ -132,17 +132,3 @@ def regression_of(outcome: Outcome) -> Regression:
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
     x_minus = outcome.x_minus[:, : len(x_star)]
     return regress_multipliers(x_minus, x_star)
-
-
-def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tuple[Array, Array]:
-    """Samples of the return map in Theta': its value before one impact, and before the next.
-
-    The rates of the fixed point are scaled by 1 - size to 1 + size. Returns both arrays (count,) [rad/s].
-    Raises SimulationError where the walker does not reach another impact.
-    """
-    P, scene = gait_map(run, observer_states=False).P, RobotAndGait.of(run)
-    biped, gait = scene.biped, scene.walked
-    factors, c = np.linspace(1.0 - size, 1.0 + size, count), biped.phase
-    starts = (np.concatenate((gait.q_minus, factor * gait.v_minus)) for factor in factors)
-    after = [c @ P.lift(P(P.project(x)))[biped.n : 2 * biped.n] for x in starts]
-    return factors * float(c @ gait.v_minus), np.array(after)

@@ -18,13 +18,14 @@ from scipy.optimize import brentq
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
-from biped_adrc.core.types import Array, relabelled
+from biped_adrc.core.types import relabelled
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
+from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
+from biped_adrc.paper.poincare import PoincareResult, poincare
 from biped_adrc.paper.pushes import MemberOutcome, PushCell, member_outcomes, member_walk, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.two_steps import AtTwoSteps
@@ -132,18 +133,12 @@ def starts(preset: str) -> list[Start]:
 def least_speed(preset: str) -> float:
     """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
 
-    sigma is the angular momentum about the stance foot. On the zero dynamics sigma^2(Theta) is its initial
-    value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
-    passes mid-stance.
+    sigma is the angular momentum about the stance foot; it has to exceed sqrt(2 V_max) after the impact.
     """
     scene = RobotAndGait.of(scenarios.starting("NPD", preset, 1.0))
-    zero = ZeroDynamics.of(scene.biped, scene.walked.constraint, nodes=120)
+    orbits = ZeroOrbits.of(ZeroDynamics.of(scene.biped, scene.walked.constraint))
     sigma = scene.biped.angular_momentum(*scene.walked.start(scene.biped))
-    gained = zero.sigma_squared(0.0)
-    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
-    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
-    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))
-    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
+    return math.sqrt(2.0 * orbits.v_max) / abs(sigma)
 
 
 def jumps(preset: str) -> dict[str, float]:
@@ -248,7 +243,6 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     for name, run in scenarios.multiplier_runs(plan).items():
         add("multipliers", name, poincare, run)
     add("orders", plan.presets[0], orders, plan.presets[0])
-    add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
     return result
 
 
@@ -286,8 +280,6 @@ class Runs:
     """Parts of the map of pushes."""
     numerics: Mapping[str, dict[str, float]] = field(default_factory=dict)
     """Figures of the numerical methods, one entry."""
-    returns: Mapping[str, tuple[Array, Array]] = field(default_factory=dict)
-    """By "map": Theta' before an impact and before the next one [rad/s], both (K,)."""
 
     @classmethod
     def of(cls, plan: Plan, values: Mapping[str, Any]) -> Runs:

@@ -165,7 +165,7 @@ def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
     variant = _function(said["variant"]) if "variant" in said else None
     bound, round_off = limit(said["limit"]), _number(said.get("round_off", str(ROUND_OFF)))
     return tuple(
-        Probe.of(name, AtTwoSteps.of(measure(x)), bound, round_off, variant and variant(name, x))
+        Probe.of(name, AtTwoSteps.of(measure(x)), bound, round_off, variant and variant(x))
         for name, x in _function(said["scenarios"])(r).items()
     )
 

@@ -38,14 +38,7 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import (
-    SoftGround,
-    StepDown,
-    StepUp,
-    Stones,
-    random_steps,
-    uneven_ground,
-)
+from biped_adrc.model.ground import SoftGround, Steps, Stones, random_steps, stepped, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
@@ -120,9 +113,7 @@ class RobotAndGait:
         for name, added in x.own.items():
             place = int(name[1:]) - 1
             if not 0 <= place < len(q):
-                raise InputError(
-                    f"start.{name}: robot '{s.robot.name}' has the coordinates 1 to {len(q)}"
-                )
+                raise InputError(f"start.{name}: '{s.robot.name}' has coordinates 1 to {len(q)}")
             (q if name[0] == "q" else v)[place] += added
         return q, v
 
@@ -136,7 +127,7 @@ class RobotAndGait:
         """The gait, where there has to be one. Raises InputError for a robot without motors."""
         if self.gait is None:
             raise InputError(
-                f"robot '{self.biped.description.name}' has 0 motors and walks no gait; choose one with motors"
+                f"robot '{self.biped.description.name}' has 0 motors and walks no gait"
             )
         return self.gait
 
@@ -153,8 +144,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     biped, name = scene.biped, s.controller.name
     if (name == "passive") != (biped.p == 0):
         raise InputError(
-            f"controller '{name}' does not fit robot '{s.robot.name}' with {biped.p} motors; 'passive' is for "
-            "robots without motors, and for no others"
+            f"'{name}' does not fit robot '{s.robot.name}' with {biped.p} motors; 'passive' is for 0 motors"
         )
     if scene.cycle is not None:
         return _passive(s, scene, scene.cycle)
@@ -195,10 +185,7 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
     """
     for name in s.dotted():
         if not name.startswith(WITHOUT_MOTORS):
-            raise InputError(
-                f"robot '{s.robot.name}' has no motors, so it takes no {name}; leave that out, or take "
-                "a robot with motors ('biped-adrc robot list')"
-            )
+            raise InputError(f"robot '{s.robot.name}' has no motors, so no {name}; leave it out")
     slope, time, speed = scene.slope(s), known.max_step_time, s.run.runaway_speed
     return Walker(scene.biped, Passive(), slope=slope, max_step_time=time, runaway_speed=speed)
 
@@ -281,7 +268,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     return stepping_loop(walker, plant, s.run.engine, s.run.first_step)
 
 
-def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
+def ground(s: Scenario) -> Steps:
     """Changes of the ground's height: uneven ground, and a step down (or up) at `drop_step`; () if level.
 
     `rms`: random heights [m], drawn for all steps of the walk. `step_height`: largest of the random steps [m].
@@ -290,10 +277,7 @@ def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
     seed = drawn(s, "ground")
     steps = uneven_ground(seed, g.rms, last) + random_steps(seed, g.step_height, last)
-    if g.drop == 0.0:
-        return steps
-    edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)
-    return (*steps, edge)
+    return steps + stepped(np.array([g.drop]), g.drop_step)
 
 
 def stones(s: Scenario) -> Stones | None:
@@ -345,8 +329,7 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
     if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
-        walked = f"the walk has the single supports {first} to {last}"
-        raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
+        raise Misfit(f"pushes.{i}.step", f"is {push.step}, the walk has {first} to {last}")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 
 

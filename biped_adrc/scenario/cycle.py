@@ -40,20 +40,6 @@ FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
 """The same of a robot without motors."""
 
 
-def gait_cycle(s: Scenario, observer_states: bool = True) -> Cycle:
-    """Return map of a stored gait under the controller of a scenario, without its pushes.
-
-    observer_states: whether the controller's states belong to the state of the map. By the scenario's method
-    and step where it has them; else RK4 at 0.5 ms, which is within 2e-7 of delta^2 on the published gaits, and
-    for controllers with states, such as ADRC, the exponential method at 1 ms.
-    """
-    cycle = gait_map(s, observer_states)
-    if cycle.P.walker.split(Mode()) is not None:
-        return cycle
-    method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
-    return replace(cycle, P=replace(cycle.P, method=method, difference=DIFFERENCE))
-
-
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     """Return map of a scenario by its own integration method, without its pushes; the guess is the gait's
     orbit.
@@ -72,21 +58,25 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
         walking = cycle_of(ba.Scenario("ADRC"), observer_states=False)
         passive = cycle_of(ba.Scenario("passive", robot="compass", ground={"slope": 0.01}))
 
-    observer_states: as `gait_cycle`. Raises InputError for values that have no effect on a return map, and for
-    a controller that does not fit the robot; GaitError where no cycle is stored.
+    observer_states: whether the controller's states belong to the state of the map. By the scenario's method
+    and step where it has them; else RK4 at 0.5 ms, which is within 2e-7 of delta^2 on the published gaits, and
+    for controllers with states, such as ADRC, the exponential method at 1 ms. Raises InputError for values that
+    have no effect on a return map, and for a controller that does not fit the robot; GaitError where no cycle
+    is stored.
     """
     gait = RobotAndGait.of(s).gait
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
     useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:
-        raise InputError(
-            f"the return map is of one step of the undisturbed cycle{'' if gait else ', by a fixed method,'} "
-            f"and takes no {', '.join(useless)}: this would do nothing, leave it out"
-        )
-    if gait:
-        return gait_cycle(s, observer_states)
-    walker = build(s)
-    return known_cycle(walker.plant, walker.ground_slope)
+        raise InputError(f"a return map takes no {', '.join(useless)}; leave it out")
+    if not gait:
+        walker = build(s)
+        return known_cycle(walker.plant, walker.ground_slope)
+    cycle = gait_map(s, observer_states)
+    if cycle.P.walker.split(Mode()) is not None:
+        return cycle
+    method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
+    return replace(cycle, P=replace(cycle.P, method=method, difference=DIFFERENCE))
 
 
 def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
@@ -98,8 +88,7 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
     plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.ground.plant != RIGID:
-        what = f"a specification was asked for on plant '{s.ground.plant}'"
-        raise InputError(f"{what}, expected '{RIGID}', whose equations it linearises")
+        raise InputError(f"a specification on plant '{s.ground.plant}', expected '{RIGID}'")
     scene = RobotAndGait.of(s) if scene is None else scene
     return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
 

@@ -89,9 +89,7 @@ class HardwareRecord(Record):
         """Raise Misfit for a value that would do nothing in continuous time."""
         idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
         if self.period is None and idle:
-            raise Misfit(
-                min(idle), "does nothing in continuous time; give hardware.period too, as '1 ms'"
-            )
+            raise Misfit(min(idle), "does nothing in continuous time; give hardware.period too")
         return self
 
     def record(self, usual: Record | None = None) -> dict[str, Any]:

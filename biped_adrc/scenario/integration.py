@@ -169,8 +169,7 @@ def in_parts(
     """
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
-            f"the walk has {len(parts)} parts, and its clock does not restart at impact; expected one part, or "
-            "SampledTime(..., restart=True)"
+            f"a walk of {len(parts)} parts needs a clock that restarts at impact, SampledTime(restart=True)"
         )
     check_start(*start, walker)
     walker.check_foot(*start, mode)
@@ -214,10 +213,7 @@ def check_start(q: Array, v: Array, walker: Walker) -> None:
         if np.shape(x) != (n,) or not np.all(np.isfinite(numbers(x, f"the start {name}"))):
             raise InputError(f"the start {name} is {x}, expected {n} finite numbers")
     if np.max(np.abs(q)) > 2.0 * math.pi:
-        raise InputError(
-            f"the start q is {q} rad, with an angle beyond a whole turn; expected radians: np.radians(q) and "
-            "np.radians(v) if these are degrees"
-        )
+        raise InputError(f"the start q is {q} rad, beyond a whole turn; give np.radians(q)")
 
 
 def _joined(runs: Sequence[Trajectory]) -> Trajectory:
@@ -245,8 +241,7 @@ def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> floa
     parts.
     """
     if not parts:
-        what = "a walk from a file, on another plant or cut short has no steps to repeat"
-        raise InputError(f"{what}; ask one just made by walk or walk_scenario")
+        raise InputError("a walk from a file, on another plant or cut has no steps; ask a new one")
     n, first = walker.plant.n, run.arcs[0]
     k = np.arange(len(first.x[0]))
     x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)  # in no direction of symmetry

@@ -245,10 +245,7 @@ class Walk(Shown):
         is not of a scenario.
         """
         if self.scenario is None:
-            raise InputError(
-                "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals "
-                "and feasibility, or walk with biped_adrc.walk_scenario"
-            )
+            raise InputError("an outcome is of a scenario's walk; take signals, or walk_scenario")
         run, s = self.trajectory, self.signals.before_fall
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
         return Outcome(
@@ -367,8 +364,7 @@ class Walk(Shown):
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `study`."""
-        need = "a table of a walk needs pandas, which is not installed"
-        with optional("study", need, ", or write a file with walk.to_csv(path)"):
+        with optional("study", "pandas is not installed", ", or use walk.to_csv(path)"):
             import pandas
         frame = pandas.DataFrame(self._columns())
         frame.attrs["note"] = self.note

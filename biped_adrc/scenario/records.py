@@ -21,15 +21,8 @@ from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
 import numpy as np
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    ValidationError,
-    ValidationInfo,
-    field_validator,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, ValidationInfo
+from pydantic.functional_validators import field_validator, model_validator
 
 from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
@@ -142,10 +135,8 @@ class Described(NamedTuple):
     @property
     def range_text(self) -> str:
         """Its range, or its choices, in a few words."""
-        parts = [
-            f"{SIGNS[sign]} {x if isinstance(x, int) else f'{x:g}'}" for sign, x in self.limits
-        ]
-        return " or ".join(self.choices) or ", ".join(parts)
+        ends = (f"{SIGNS[sign]} {x:g}" for sign, x in self.limits)
+        return " or ".join(self.choices) or ", ".join(ends)
 
 
 class Record(BaseModel):
@@ -241,9 +232,7 @@ class Record(BaseModel):
             at = inner
         if at.SHORT in at.model_fields:
             return at.field_of(at.SHORT)._replace(name=name)
-        raise Misfit(
-            name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}"
-        )
+        raise Misfit(name, f"is a record; name a value, as {name}.{next(iter(at.model_fields))}")
 
     @classmethod
     def value_of(cls, name: str, x: object) -> Any:

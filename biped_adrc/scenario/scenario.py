@@ -238,9 +238,7 @@ class RunRecord(Record):
     @model_validator(mode="after")
     def _own_step(self) -> Self:
         if self.method in FREE and (step := self.h or self.fine) is not None:
-            raise Misfit(
-                "h", f"is {step:g} s, and method '{self.method}' chooses its own; leave it out"
-            )
+            raise Misfit("h", f"is {step:g} s, and '{self.method}' chooses its own; leave it out")
         return self
 
 
@@ -283,7 +281,7 @@ class Scenario(Record):
 
     def __init__(
         self,
-        controller: ControllerRecord | Values | None = None,
+        controller: ControllerRecord | Values = USUAL,
         *,
         robot: RobotRecord | Values = by_default(RobotRecord),
         gait: GaitRecord | Values = by_default(GaitRecord),
@@ -296,8 +294,7 @@ class Scenario(Record):
         run: RunRecord | Values = by_default(RunRecord),
         **dotted: Any,
     ) -> None:
-        here = vars() if controller is not None else vars() | {"controller": USUAL}
-        fields = type(self).model_fields.items()
+        here, fields = vars(), type(self).model_fields.items()
         records = {name: here[name] for name, x in fields if here[name] is not x.default}
         super().__init__(**nested(records | dotted))
 

@@ -97,15 +97,10 @@ class Stepper:
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
-            raise InputError(
-                "walks go from one sample instant to the next here, and there are none; give hardware.period, "
-                "as '1 ms', or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
-            )
+            raise InputError("no sample instants; give hardware.period or timing=SampledTime(1e-3)")
         if isinstance(what, Scenario):
             if what.run.fine is not None:
-                raise InputError(
-                    f"steps of a sample have one length; leave out run.fine = {what.run.fine:g} s"
-                )
+                raise InputError(f"steps have one length; leave out run.fine = {what.run.fine:g} s")
             self.scene = RobotAndGait.of(what)
             self.curve = self.scene.walked.constraint
         self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
@@ -170,9 +165,7 @@ class Stepper:
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:
-            raise InputError(
-                "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
-            )
+            raise InputError("a walker has no seed or start; call reset(start=gait.start(biped))")
         else:
             walker, outside = with_inputs(s)
             loop, method = walker, default_method(walker)
@@ -214,12 +207,9 @@ class Stepper:
         """
         if self.codes.min() < 0:
             raise InputError("there is a walk that has not begun; call reset() first")
-        parts = (
-            ("torque", torque, self.inputs[:, : self.p]),
-            ("force", force, self.inputs[:, self.p :]),
-        )
-        for name, values, part in parts:
-            part[:] = 0.0 if values is None else finite_numbers(name, values, part.shape)
+        torques, forces = self.inputs[:, : self.p], self.inputs[:, self.p :]
+        torques[:] = 0.0 if torque is None else finite_numbers("torque", torque, torques.shape)
+        forces[:] = 0.0 if force is None else finite_numbers("force", force, forces.shape)
         self.move()
         return self.sample
 
@@ -272,14 +262,11 @@ class Stepper:
         Raises InputError for a walk of another state, and for one whose nodes were not kept, to be judged.
         """
         walker, walk, code = snapshot
-        if self.rows.size and 2 + len(walk.at[2]) != self.rows.shape[1]:
-            raise InputError(
-                f"the walk has {len(walk.at[2])} states, expected {self.rows.shape[1] - 2}"
-            )
+        size, expected = len(walk.at[2]), self.rows.shape[1] - 2
+        if self.rows.size and size != expected:
+            raise InputError(f"the walk has {size} states, expected {expected}")
         if self.within and isinstance(walk, CompiledWalk) and not walk.run.nodes.size:
-            raise InputError(
-                "the walk was saved by a Stepper without `within`, and here walks are judged"
-            )
+            raise InputError("the walk was saved without `within`, and here walks are judged")
         self.walkers[i] = walker
         self._put(i, walk.copy(), code)
 

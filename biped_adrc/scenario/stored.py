@@ -24,6 +24,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.hybrid import storage
@@ -79,12 +80,9 @@ def load_walk(path: Path | str) -> Walk:
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
-    with storage.reading_run(path):
+    with reading("run", path, InputError):
         if "walker" not in beside:
-            raise InputError(
-                "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
-                "'biped-adrc simulate' and 'reproduce' do"
-            )
+            raise InputError("it names no walker, as runs of Walk.save, simulate and reproduce do")
         record = json.loads(str(beside["walker"]))
         reader = Reader(record["parts"])
         walker = _walker(reader, record["parts"][record["walker"]])

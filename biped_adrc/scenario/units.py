@@ -28,11 +28,14 @@ class Unit(NamedTuple):
 
 TABLES = packaged("biped_adrc.scenario", "units.toml")
 """The tables of units.toml."""
-SYMBOLS, WHOLE = (
-    {name: Unit(factor, tuple(powers)) for name, (factor, *powers) in TABLES[kind].items()}
-    for kind in ("prefixed", "whole")
-)
-"""Units by the symbols that take an SI prefix, and by those that take none."""
+WHOLE = {name: Unit(k, tuple(powers)) for name, (k, *powers) in TABLES["whole"].items()}
+"""Units by the symbols that take no SI prefix."""
+SYMBOLS = WHOLE | {
+    prefix + name: Unit(times * k, tuple(powers))
+    for name, (k, *powers) in TABLES["prefixed"].items()
+    for prefix, times in ({"": 1.0} | TABLES["prefixes"]).items()
+}
+"""All units by symbol, with prefix and without."""
 
 ANY = "any"
 """Unit of a value that only a part of the user's own knows."""
@@ -91,9 +94,9 @@ def unit_of(text: str) -> Unit:
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
             match = _FACTOR.fullmatch(word)
-            symbol = match and _symbol(match[1])
+            symbol = match and SYMBOLS.get(match[1])
             if match is None or symbol is None:
-                known = ", ".join([*SYMBOLS, *WHOLE])
+                known = ", ".join([*TABLES["prefixed"], *WHOLE])
                 raise ValueError(
                     f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
                 )
@@ -103,16 +106,6 @@ def unit_of(text: str) -> Unit:
     if not 0.0 < factor < math.inf:
         raise ValueError(f"the unit '{text}' is out of range")
     return Unit(factor, powers)
-
-
-def _symbol(name: str) -> Unit | None:
-    """The unit of one symbol, with or without a prefix; None where it is unknown ("min" is minutes, not
-    milli-in).
-    """
-    if name in WHOLE or name in SYMBOLS:
-        return WHOLE.get(name) or SYMBOLS[name]
-    prefix, rest = TABLES["prefixes"].get(name[:1]), SYMBOLS.get(name[1:])
-    return None if prefix is None or rest is None else Unit(prefix * rest.factor, rest.powers)
 
 
 def _scaled(number: float, factor: float) -> float:

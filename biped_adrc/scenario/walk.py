@@ -113,9 +113,8 @@ def walk(
         assert gait is not None
         if (count := len(gait.q_minus)) != (n := walker.nominal.n):
             raise InputError(
-                f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
-                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot: "
-                "load_gait(name, biped) or design_gait(biped, speed)"
+                f"gait '{gait.name}' is of '{gait.robot}' with {count} coordinates, and the walker is "
+                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot"
             )
         start = gait.start(walker.nominal)
     parts = tuple[WalkPart, ...]()

@@ -12,7 +12,7 @@ import:
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from functools import partial
 from pathlib import Path
@@ -72,8 +72,7 @@ def study(
         function = partial(run_trials, aside="rounding" in study_.columns)
     files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
-        what = f"names files that workers elsewhere may not have: {files}"
-        raise InputError(f"study '{study_.name}' {what}; run it on this machine")
+        raise InputError(f"run '{study_.name}' here, workers elsewhere may lack its files {files}")
     folder = Path(out)
     with opened(folder, study_) as store, crew:
         fits, total = store.mend(), study_.count_of(undrawn)
@@ -118,8 +117,8 @@ class _Searched:
                 words = f"{search.objective.words} {c.objective:.4g}{missed}"
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
-        def walk(kind: str, study_: Sequence[Candidate]) -> list[Walks]:
-            return self.walk(kind, [(c.number, c.values, located(case=case)) for c in study_])
+        def walk(kind: str, found: Sequence[Candidate]) -> list[Walks]:
+            return self.walk(kind, [(c.number, c.values, located(case=case)) for c in found])
 
         result = searched(search, base, partial(walk, "search"), report)
         failure = self.failure(result, case, "search")
@@ -145,27 +144,24 @@ class _Searched:
         self.runner.total = self.runner.done
         self.runner.tell()
 
-    def walk(self, kind: str, study_: Candidates) -> list[Walks]:
+    def walk(self, kind: str, candidates: Candidates) -> list[Walks]:
         """The walks of each candidate on a set; one without a seed counts for each of them."""
         walks = getattr(self.search.walks, kind)
         conditions = self.study.conditions_of(walks)
-        first, places = self.place, itertools.count(self.place)
-
-        def points() -> Iterator[Point]:
-            for (number, values, named), c in itertools.product(study_, conditions):
-                there = {**values, **self.study.conditions.get(c, {})}
-                at = located(set=kind, **named, candidate=number, condition=c)
-                for seed in self.study.seeded(walks.seeds, at, self.undrawn):
-                    yield Point(next(places), at | seed, there | seed)
-
-        made, count = list(points()), len(conditions) * len(walks.seeds)
-        self.place += len(made)
-        self.runner.run(made, len(made))
+        first, points = self.place, list[Point]()
+        for (number, values, named), c in itertools.product(candidates, conditions):
+            there = {**values, **self.study.conditions.get(c, {})}
+            at = located(set=kind, **named, candidate=number, condition=c)
+            for seed in self.study.seeded(walks.seeds, at, self.undrawn):
+                points.append(Point(first + len(points), at | seed, there | seed))
+        self.place += len(points)
+        self.runner.run(points, len(points))
         result = [
             (str(at.get("condition", "")), row)
-            for at, row in self.runner.store.results(first, len(made))
+            for at, row in self.runner.store.results(first, len(points))
             for _ in range(1 if SEED in at else len(walks.seeds))
         ]
+        count = len(conditions) * len(walks.seeds)
         return [result[i : i + count] for i in range(0, len(result), count)]
 
     def failure(self, found: Sequence[Candidate], case: str, kind: str) -> str:

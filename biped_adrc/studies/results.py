@@ -28,8 +28,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
-from biped_adrc.core.errors import InputError, OutputError, optional
-from biped_adrc.core.files import check_folder, check_place, output_path, replacing, write_csv
+from biped_adrc.core.errors import InputError, OutputError
+from biped_adrc.core.files import check_folder, check_place, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.versions import differences
 from biped_adrc.scenario.dotted import flat
@@ -166,17 +166,11 @@ def _errors(path: Path) -> Iterator[None]:
     except (sqlite3.Error, OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         if isinstance(error, OSError | sqlite3.OperationalError):
             raise OutputError(
-                f"cannot write the results file '{path}': {error}; what was finished is kept, and the same "
-                "command goes on"
+                f"cannot write '{path}': {error}; what was finished is kept, and the same command goes on"
             ) from error
         raise InputError(
-            f"'{path}' is no results file, or is empty or damaged: {error}; it is left as it is, choose "
-            "another folder"
+            f"'{path}' is no results file, or is empty or damaged: {error}; choose another folder"
         ) from error
-
-
-SUFFIXES = (".csv", ".parquet")
-"""Suffixes of tables that can be written."""
 
 
 class Choice(NamedTuple):
@@ -313,29 +307,10 @@ class Results(Shown):
         return {s: (len(x), x[0]) for s, x in sorted(details.items(), key=lambda one: -len(one[1]))}
 
     def export(self, path: Path) -> None:
-        """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""
-        check_table(path)
+        """Write all rows as CSV. Raises InputError, OutputError."""
         rows = list(self.rows())
         names = dict.fromkeys(name for row in rows for name in row)
-        columns = {name: [row.get(name) for row in rows] for name in names}
-        if path.suffix.lower() == ".csv":
-            write_csv(columns, path)
-            return
-        import pyarrow
-        from pyarrow import parquet
-
-        for name, x in columns.items():
-            if any(isinstance(one, str) for one in x):  # one type in a column
-                columns[name] = [None if one is None else str(one) for one in x]
-        with replacing(path) as made:
-            parquet.write_table(pyarrow.table(columns), made)
-
-
-def check_table(path: Path) -> None:
-    """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
-    if output_path(path, SUFFIXES).suffix.lower() == ".parquet":
-        with optional("study", "Parquet needs pyarrow, which is not installed"):
-            import pyarrow  # noqa: F401
+        write_csv({name: [row.get(name) for row in rows] for name in names}, path)
 
 
 def _name(at: Mapping[str, Any]) -> str:

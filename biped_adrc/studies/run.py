@@ -49,10 +49,7 @@ WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 Function = Callable[[Sequence[Record]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
-OF_FEASIBILITY = (
-    *("feasible_impacts", "mean_normal_force", "mean_friction"),
-    *("scuffing", "peak_torque"),
-)
+JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque")
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""
@@ -173,7 +170,7 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
         **{f"bad_{name}": int(name in found.reasons) for name in judged},
-        **{name: getattr(found, name) for name in OF_FEASIBILITY},
+        **{name: getattr(found, name) for name in JUDGED},
         "impulse_ratio": found.impulse_ratio if found.touchdowns and not soft else None,
     }
 

@@ -125,15 +125,12 @@ def dask(address: str) -> DaskClient:
             there = client.run(numerical_versions)
         except (OSError, ValueError, TypeError, ImportError) as error:
             raise InputError(
-                f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s, with workers that have "
-                f"biped-adrc ({type(error).__name__}: {error}); expected an address such as tcp://host:8786, "
-                f"which 'dask scheduler' prints, and 'dask worker {address}' where biped-adrc is installed"
+                f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s ({type(error).__name__}: "
+                f"{error}); expected one as tcp://host:8786, and 'dask worker {address}' beside biped-adrc"
             ) from error
         for worker, result in there.items():
             if text := differences(result, numerical_versions()):
-                raise InputError(
-                    f"worker {worker} of the scheduler at {address} would give other numbers: {text}"
-                )
+                raise InputError(f"worker {worker} would give other numbers: {text}")
         stack.pop_all()
     return client
 

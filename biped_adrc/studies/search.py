@@ -53,8 +53,6 @@ from biped_adrc.studies.space import Section, Seeds, Span, each, read_list, read
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
-FINALISTS = 5
-"""Candidates on the second set of walks where the file does not say."""
 
 
 class WalkSet(Section):
@@ -127,7 +125,7 @@ class Search(Section):
     """Candidates of each case that are walked on the first set, the setting of the case among them."""
     generation: int = Field(ge=1)
     """Candidates that are proposed together, without knowing of each other's walks."""
-    finalists: int = Field(default=FINALISTS, ge=1)
+    finalists: int = Field(default=5, ge=1)
     """Candidates that are walked on the second set."""
     seed: int = Field(default=0, ge=0)
     """Of the sampler."""
@@ -242,8 +240,7 @@ def searched(
     result: list[Candidate] = []
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in result)) > 0:
-        batch: list[Candidate] = []
-        new: list[Candidate] = []
+        batch, new = list[Candidate](), list[Candidate]()
         for number in itertools.islice(numbers, ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
             if number == 0 or not any(c.missed):

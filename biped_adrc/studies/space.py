@@ -67,8 +67,7 @@ class Span(Section):
         log = self.scale == "log"
         if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
             raise ValueError(
-                f"found {self.low:g} to {self.high:g}, expected from < to, and on a logarithmic scale a field "
-                "with a fraction and from > 0"
+                f"found {self.low:g} to {self.high:g}, expected from < to; on scale 'log' from > 0, not whole"
             )
         return self
 
@@ -90,8 +89,7 @@ class Levels(Span):
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
         spaced = np.geomspace if self.scale == "log" else np.linspace
-        levels: list[float] = spaced(self.low, self.high, self.count).tolist()
-        return levels
+        return spaced(self.low, self.high, self.count).tolist()
 
 
 R = TypeVar("R", bound=Span)
@@ -110,9 +108,7 @@ def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     row = value if isinstance(value, list | tuple) else ()
     result = tuple(Scenario.value_of(name, x) for x in row)
     if len({repr(x) for x in result}) < max(least, len(result)):
-        raise ValueError(
-            f"found {value!r}, expected a list of different values or {{from, to, ..}}"
-        )
+        raise ValueError(f"found {value!r}, expected a list of different values or {{from, to}}")
     return result
 
 

@@ -96,13 +96,12 @@ class Study(Section):
 
     def _twice(self) -> Iterator[str]:
         """Fields that two places set; the base may be overridden by cases, conditions and variables."""
-        drawn = {} if self.draw is None else self.draw.ranges
         places: dict[str, Mapping[str, object]] = {
             "base": self.base,
             "cases": dict.fromkeys(n for x in self.cases.values() for n in x),
             "conditions": dict.fromkeys(n for x in self.conditions.values() for n in x),
             "grid": self.grid,
-            "draw": drawn,
+            "draw": {} if self.draw is None else self.draw.ranges,
             "seeds": dict.fromkeys([SEED] if self.seeds or self.search else []),
             "search.variables": {} if self.search is None else self.search.variables,
         }

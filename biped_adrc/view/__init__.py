@@ -7,6 +7,6 @@
     placement, style, export    what these share
 
 Everything becomes a figure, bytes or a file; no window is opened and pyplot's global state is not
-used. The data are a walk (`Recorded`: walker and trajectory), its `Signals`, or plain summaries.
+used. The data are a walk (`Drawable`: walker, trajectory and signals), or plain summaries.
 Studies and paper import this folder; it knows nothing of them.
 """

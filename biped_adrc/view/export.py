@@ -17,13 +17,13 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import output_path, write_text
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture, write_strip
 from biped_adrc.view.meshcat.view import animation_html
-from biped_adrc.view.placement import Clip, Recorded
+from biped_adrc.view.placement import Clip, Drawable
 
 SUFFIXES = (".html", ".gif", ".png", ".svg")
 """Kinds of files a walk can be drawn to."""
 
 
-def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
+def export(path: Path, walks: Mapping[str, Drawable], clip: Clip | None = None) -> None:
     """Write the walks to `path` as its suffix says; a strip shows the last of them.
 
     walks: name -> walk, one or more; the names are shown. clip: the part shown and how, the defaults

@@ -26,13 +26,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, NamedTuple, Protocol, runtime_checkable
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis import soft_steps as meters
-from biped_adrc.analysis.signals import FORCE, PLACE, SPEED, Signals, footholds
+from biped_adrc.analysis.signals import FORCE, PLACE, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import Checked, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
@@ -217,25 +217,13 @@ class Clip(Checked):
         return start, stop
 
 
-class Recorded(Protocol):
-    """The walk that a drawing needs; `scenario.recording.Walk` is one.
-
-    walker: the closed loop that walked. trajectory: its run. recorded: its signals where the controller is not
-    at hand to compute them again, as in a file of another version; None otherwise.
-    """
+class Drawable(Protocol):
+    """The walk that a drawing needs; `scenario.recording.Walk` is one."""
 
     @property
     def walker(self) -> Walker: ...
     @property
     def trajectory(self) -> Trajectory: ...
-    @property
-    def recorded(self) -> Signals | None: ...
-
-
-@runtime_checkable
-class Drawable(Recorded, Protocol):
-    """A walk with its signals at hand, the tracking error among them."""
-
     @property
     def signals(self) -> Signals: ...
 
@@ -244,22 +232,21 @@ class Drawable(Recorded, Protocol):
 class WalkScene:
     """A walk laid out in the world: every single support with the place of its stance foot.
 
-    walker, trajectory: as recorded. footholds, heights (arcs,): x and z of the stance foot [m] in
-    each arc.
+    footholds, heights (arcs,): x and z of the stance foot [m] in each arc.
     """
 
     walker: Walker
     trajectory: Trajectory
     footholds: Array
     heights: Array
-    recorded: Signals | None = None
-    """Signals of a walk whose controller is not at hand; None where they can be computed."""
+    walk: Drawable | None = None
+    """The walk, whose signals have the loads; None for a robot that stands, which has none."""
 
     @classmethod
-    def of(cls, walk: Recorded) -> WalkScene:
+    def of(cls, walk: Drawable) -> WalkScene:
         """Lay a walk out along the ground, its first foothold at x = z = 0."""
         x, z = footholds(walk.walker, walk.trajectory).T
-        return cls(walk.walker, walk.trajectory, x, z, walk.recorded)
+        return cls(walk.walker, walk.trajectory, x, z, walk)
 
     @property
     def biped(self) -> Biped:
@@ -329,22 +316,16 @@ class DrawnLoads(NamedTuple):
 def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
     """Forces and torques on the robot at the last stored node up to t [s]; of the ends of the run outside it.
 
-    They are computed from the state at the node, or taken from `recorded`. States of controllers are not
-    interpolated between nodes: for a fast observer the result would be far from the truth.
+    They are not interpolated between nodes: for a fast observer the result would be far from the truth.
     """
-    arcs, at = scene.trajectory.arcs, scene.arc_at(t)
-    arc, known = arcs[at], scene.recorded
+    assert scene.walk is not None
+    arcs, at, s = scene.trajectory.arcs, scene.arc_at(t), scene.walk.signals
+    arc, other, slips = arcs[at], np.zeros(2), False
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
-    other, slips = np.zeros(2), False
     if FORCE in arc.read:
-        force, other = arc.read[FORCE][k, :2], arc.read[FORCE][k, 2:]
-        zeta, slips = arc.read["zeta"][k], bool(foot_slips(scene, arc)[k])
-    elif known is None:
-        i = scene.walker.instant(float(arc.t[k]), arc.x[k], arc.mode)
-        force, zeta = scene.walker.ground_reaction(i, arc.mode), i.zeta
-    else:
-        row = k + sum(len(before.t) for before in arcs[:at])
-        force, zeta = known.ground_reaction[row], known.zeta[row]
+        other, slips = arc.read[FORCE][k, 2:], bool(foot_slips(scene, arc)[k])
+    row = k + sum(len(before.t) for before in arcs[:at])
+    force, zeta = s.ground_reaction[row], s.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
     drawn = scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
     return DrawnLoads(force, drawn, other, slips)
@@ -353,7 +334,7 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
 def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
-    F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
+    F, _, v = meters.feet_of(arc)
     return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.ground_slope)), axis=1)
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from importlib.resources import files
 from pathlib import Path
@@ -75,22 +75,6 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
 def literal(text: str) -> str:
     """Escape the dollars in a text from a user's file, so that matplotlib does not read them as formulas."""
     return text.replace("$", r"\$")
-
-
-def named_cells(
-    axes: Axes, rows: Sequence[str], columns: Sequence[str], rotation: float = 0.0
-) -> None:
-    """Prepare axes for a table drawn as cells, with the names of rows and columns as tick labels.
-
-    Rows run from the top, columns from the left; cell (i, j) is at x = j, y = i.
-    rotation [deg]: of column names.
-    """
-    axes.set_xlim(-0.5, len(columns) - 0.5)
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    aligned = "right" if rotation else "center"
-    axes.set_xticks(range(len(columns)), columns, rotation=rotation, ha=aligned)
-    axes.set_yticks(range(len(rows)), rows)
-    axes.grid(False)
 
 
 def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:

@@ -286,7 +286,7 @@ def test_a_push_that_goes_on_over_impacts_begins_with_its_single_support(gait, k
 def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
     late = ba.TorqueStep([1.0, 2.0], step=9)
     for disturbance in (late, ba.TorqueStep(np.ones(5)) + late):
-        with pytest.raises(InputError, match="2 numbers, expected 5"):
+        with pytest.raises(InputError, match="2 amplitudes, expected 5"):
             ba.Walker(biped, ba.NPDController(gait.constraint), disturbance)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.engine import machine
-from biped_adrc.engine.machine import VARIABLE, compiled, load_or_compile, stored
+from biped_adrc.engine.machine import VARIABLE, load_or_compile, object_code, stored
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {
@@ -45,13 +45,13 @@ def make(monkeypatch):
 
     def counted(*text):
         made.append(1)
-        return compiled(*text)
+        return object_code(*text)
 
     def load():
         made.clear()
         return result(load_or_compile(TEXT, ["f"])), len(made)
 
-    monkeypatch.setattr(machine, "compiled", counted)
+    monkeypatch.setattr(machine, "object_code", counted)
     return load
 
 

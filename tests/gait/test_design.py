@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import signal
+from dataclasses import replace
 from threading import Timer, get_ident
 
 import casadi as ca
@@ -11,10 +12,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.gait_design import DesignedGait, design_gait
+from biped_adrc.analysis.gait_design import DesignedGait, certify, design_gait
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import data_folder
-from biped_adrc.gait.design.optimise import audit, optimise
+from biped_adrc.gait.design.optimise import Optimum, audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
@@ -41,6 +42,14 @@ def level() -> DesignedGait:
 @pytest.fixture(scope="module")
 def downhill() -> DesignedGait:
     return design_gait("rabbit", 0.7, preset="identified-bare", slope=0.06)
+
+
+def test_a_design_says_its_numbers_and_one_that_falls_is_refused(level: DesignedGait) -> None:
+    assert "step length          0.400000 m" in level.text()
+    still = replace(level.gait, v_minus=0.2 * level.gait.v_minus)
+    biped = Biped.load("rabbit", preset="tac2003")
+    with pytest.raises(GaitError, match="does not walk"):
+        certify(biped, level.request, Optimum(still, 0.0, 0, 0.0))
 
 
 # -- gaits on level ground and downhill ----------------------------------------------------------------

@@ -323,7 +323,8 @@ def test_another_gravity_is_told_from_other_masses_and_lengths(k, step, biped):
 
 def of_robot(biped, gait):
     """Samples at the nodes of the zero dynamics of a robot with the poses of a gait, whose impact it has."""
-    q, dq, _ = configuration(gait.constraint, gait.constraint.theta_minus)
+    h = gait.constraint
+    q, dq, _ = configuration(h.phase, h.h, h.theta_minus)
     h = invariant_constraint(Bezier, biped, onto_section(biped, q), dq, 6)
     zero = ZeroDynamics.of(biped, h)
     cycle = zero.cycle

@@ -8,17 +8,17 @@ from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.gait import load_gait, onto_section
-from biped_adrc.gait.published import (
+from biped_adrc.gait.published import X_STAR
+from biped_adrc.gait.zero_dynamics import configuration, impact_jump
+from biped_adrc.hybrid.integrators import RK4
+from validation.recipe import (
     HUMAN_STEP,
-    X_STAR,
     design_recipe_gait,
     fit_to_x_star,
     inverse_kinematics,
     joint_trajectories,
     recipe_constraint,
 )
-from biped_adrc.gait.zero_dynamics import configuration, impact_jump
-from biped_adrc.hybrid.integrators import RK4
 
 LENGTH = 0.4  # [m], thigh and shin of RABBIT
 EDGE = 1e-6  # share of a step over which end slopes are taken
@@ -52,8 +52,8 @@ def test_the_feet_and_the_hip_follow_the_recipe(biped):
 def test_the_step_ends_in_the_pose_of_x_star_and_starts_in_it_relabelled(any_biped):
     pose = onto_section(any_biped, X_STAR[:5])
     constraint, _ = recipe_constraint(any_biped, fit_to_x_star(any_biped))
-    end, _, _ = configuration(constraint, constraint.theta_minus)
-    begin, _, _ = configuration(constraint, constraint.theta_plus)
+    end, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_minus)
+    begin, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_plus)
     np.testing.assert_allclose(end, pose, atol=1e-12)
     np.testing.assert_allclose(begin, any_biped.relabel(pose), atol=1e-12)
     np.testing.assert_allclose(pose, X_STAR[:5], atol=5e-4)

@@ -1,11 +1,13 @@
 """A walk for each line of the registry, each robot and each preset, in both engines, as it is stored.
 
-A change of a number on purpose writes the file anew, `python -m tests.golden.test_golden`, and says why.
+A change of a number on purpose writes the walks that it changes anew, and says why:
+`python -m tests.golden.test_golden NAME ..`.
 """
 
 from __future__ import annotations
 
 import json
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -82,5 +84,6 @@ def test_each_line_of_the_registry_walks(kind: str) -> None:
 
 
 if __name__ == "__main__":
-    walks = {name: {e: walked(name, e) for e in ENGINES} for name in CASES["walk"]}
+    walks = written() | {name: {e: walked(name, e) for e in ENGINES} for name in sys.argv[1:]}
+    walks = {name: walks[name] for name in CASES["walk"]}
     FILE.write_text(json.dumps(walks, indent=1) + "\n", encoding="utf-8")

@@ -18,7 +18,7 @@ RANDOM = np.random.default_rng(11)
 
 
 def ticks(sensors, path, count, n=2, p=1, period=T):
-    """(q^, v^) at each tick along path(t) -> (q, v)."""
+    """(q^, v^) at each tick along path(t) -> (q, v): the first numbers of the state w of encoders."""
     sampled = sensors.sampled(n, p, period)
     w = sampled.start(*path(0.0))
     seen = []

@@ -52,10 +52,6 @@ def test_python_and_a_scenario_say_one_thing_alike(biped):
     for plant in plants:
         assert plant.mass - biped.mass == pytest.approx(0.2 * 12.0, abs=1e-12)
         assert np.array_equal(plant.inertia(np.ones(5)), plants[0].inertia(np.ones(5)))
-    with pytest.raises(AttributeError, match="ModelErrors"):
-        _ = biped.with_errors
-    with pytest.raises(AttributeError, match=r"no attribute 'mas'$"):
-        _ = biped.mas
 
 
 L = 0.4  # [m], thigh and shin

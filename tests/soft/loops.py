@@ -1,8 +1,11 @@
 """Loops around MuJoCo's plant, and their runs."""
 
 import biped_adrc as ba
+from biped_adrc.analysis.soft_steps import recorded_steps
+from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.model.ground import ground_axes
 
 TICK = ba.SampledTime(1e-3)
 SOFT = {"ground.plant": "mujoco", "hardware.period": 1e-3, "hardware.torque_limit": 150.0}
@@ -19,3 +22,9 @@ def run_of(loop, gait, t_end=4.0, impacts=None):
     stop = None if impacts is None else ("foot_strike", impacts)
     x0 = loop.initial_state(*gait.start(loop.model))
     return loop.run(x0, RunOptions(t_end, stop_after=stop))
+
+
+def steps_of(loop, run):
+    """What the feet did in each single support of a run of this loop."""
+    axes = ground_axes(loop.plant.slope)
+    return recorded_steps(with_readings(loop, run), loop.plant.ground.friction, axes)

@@ -8,25 +8,27 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.soft_steps import soft_steps, step_of, weights
-from biped_adrc.closed_loop.feet import Readings, readings, with_readings
-from biped_adrc.closed_loop.protocols import Load
+from biped_adrc.analysis.soft_steps import feet_of, step_of, weights
+from biped_adrc.closed_loop.feet import NAMES, with_readings
+from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.ground import SoftGround
 
-from .loops import loop_on, run_of
+from .loops import loop_on, run_of, steps_of
 
 STILL = Load(np.zeros(5), np.zeros(2))
 FLAT = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 
 
 def under_npd(plant, gait, **more):
-    return loop_on(plant, ba.NPDController(gait.constraint), **more)
+    """A loop that is sampled, and keeps its state, at every step of the engine."""
+    law, tick = ba.NPDController(gait.constraint), ba.SampledTime(plant.h)
+    return loop_on(plant, law, **{"timing": tick} | more)
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +39,10 @@ def walk(biped, gait):
     return loop, run_of(loop, gait, impacts=2)
 
 
-def momentum(plant, r, k):
-    """Of the whole robot (x, z) [N s], by MuJoCo's own sum over its bodies."""
-    plant.footing(r.row[k], r.u[k], STILL)
+def momentum(loop, arc, k):
+    """Of the whole robot (x, z) [N s] at a node, by MuJoCo's own sum over its bodies."""
+    plant, x = loop.plant, arc.x[k]
+    plant.footing(loop.row(x), x[-plant.p :], STILL)
     mujoco().mj_subtreeVel(plant.engine.model, plant.engine.data)
     return plant.engine.model.body_subtreemass[0] * plant.engine.data.subtree_linvel[0, [0, 2]]
 
@@ -49,27 +52,25 @@ def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
     """Impulse of the ground = change of momentum + m g T - that of the force at the hip."""
     plant = MuJoCoPlant(biped)
     loop = under_npd(plant, gait, disturbance=ba.HipForce(biped, force))
-    run = run_of(loop, gait, 0.1)
-    r = readings(loop, run.arcs[0], plant.h)
-    assert not any(array.flags.writeable for array in vars(r).values())
-    a, b = 100, len(r.t) - 1
-    impulse = weights(r.t[a:]) @ r.force[a:].sum(axis=1)
+    (arc,) = with_readings(loop, run_of(loop, gait, 0.1)).arcs
+    a, b, t = 100, len(arc.t) - 1, arc.t
+    impulse = weights(t[a:]) @ feet_of(arc)[0][a:].sum(axis=1)
     outside = np.array([0.0, biped.weight]) - force
-    change = momentum(plant, r, b) - momentum(plant, r, a)
-    np.testing.assert_allclose(impulse, change + outside * (r.t[b] - r.t[a]), rtol=3e-3)
+    change = momentum(loop, arc, b) - momentum(loop, arc, a)
+    np.testing.assert_allclose(impulse, change + outside * (t[b] - t[a]), rtol=3e-3)
 
 
 def test_the_point_that_touches_moves_as_the_places_say(walk):
     """v = d(place)/dt with a point for a foot, between the readings of one piece."""
-    loop, run = walk
-    r = readings(loop, run.arcs[1], loop.plant.h)
-    inside = np.flatnonzero(np.diff(r.t) > 0.0)
-    h = np.diff(r.t)[inside, np.newaxis, np.newaxis]
-    slope = (r.place[inside + 1] - r.place[inside]) / h
-    middle = 0.5 * (r.speed[inside + 1] + r.speed[inside])
+    arc = with_readings(*walk).arcs[1]
+    _, place, speed = feet_of(arc)
+    inside = np.flatnonzero(np.diff(arc.t) > 0.0)
+    h = np.diff(arc.t)[inside, np.newaxis, np.newaxis]
+    slope = (place[inside + 1] - place[inside]) / h
+    middle = 0.5 * (speed[inside + 1] + speed[inside])
     rolling = 1e-3 * 8.0  # radius times the largest rate of a shin
     assert np.quantile(np.abs(slope - middle), 0.99) < rolling
-    assert np.max(np.abs(r.speed)) > 1.0
+    assert np.max(np.abs(speed)) > 1.0
 
 
 def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
@@ -94,10 +95,10 @@ def test_a_block_that_slides_to_rest():
     force[:, 0, 0] = np.where(v > 0.0, -mu * mass * g, -0.5 * mu * mass * g)
     speed[:, 0, 0] = v
     place = np.full((len(t), 2, 2), -2e-4)
-    none = np.zeros((len(t), 1))
-    found = step_of(
-        Readings(t, none, none - 7.0, none, force, place, speed, np.zeros((len(t), 2))), mu, FLAT
-    )
+    none = np.zeros((len(t), 2))
+    feet = (x.reshape(-1, 4) for x in (force, place, speed))
+    read = dict(zip(NAMES, (*feet, none), strict=True))
+    found = step_of(Arc(Mode(), t, none, none, read=read), mu, FLAT)
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
 
@@ -105,9 +106,9 @@ def test_a_block_that_slides_to_rest():
 def test_less_friction_slips_and_flies(biped, gait):
     """At 0.2 where 1.0 does not; single support, double support and flight are the whole step."""
     rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0)), gait)
-    holds = soft_steps(rough, run_of(rough, gait, impacts=1))
+    holds = steps_of(rough, run_of(rough, gait, impacts=1))
     smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2)), gait)
-    slips = soft_steps(smooth, run := run_of(smooth, gait, impacts=1))
+    slips = steps_of(smooth, run := run_of(smooth, gait, impacts=1))
     assert sum(holds[0].slip) == 0.0
     assert slips[0].slip[0] > 3e-4
     assert slips[0].friction_used == pytest.approx(0.2, rel=1e-3)
@@ -142,14 +143,15 @@ def test_feet_at_rest_stand_as_deep_as_the_reported_stiffness_says(
     Both feet together carry the weight: soft ground still rocks a little, which loads one of them.
     """
     loop, run = standing(biped, time_constant, impedance)
-    r, plant = readings(loop, run.arcs[-1]), loop.plant
-    load, depth = r.force[-1, :, 1].sum(), -r.place[-1, :, 1]
+    force, place_of, _ = feet_of(with_readings(loop, run).arcs[-1])
+    plant, depth = loop.plant, -place_of[-1, :, 1]
+    load = force[-1, :, 1].sum()
     assert load == pytest.approx(biped.weight, rel=5e-3)
     assert load / depth.sum() == pytest.approx(plant.stiffness[place], rel=5e-3)
     if impedance[0] == impedance[1]:  # r = (1 - d) T^2 F / m
-        expected = 0.1 * time_constant**2 * r.force[-1, :, 1] / plant.foot_mass
+        expected = 0.1 * time_constant**2 * force[-1, :, 1] / plant.foot_mass
         np.testing.assert_allclose(depth, expected, rtol=5e-3)
-    step = soft_steps(loop, run)[-1]
+    step = steps_of(loop, run)[-1]
     assert step.depth >= np.max(depth) * 0.99
     assert step.double_support > 0.9 * step.duration
 
@@ -162,18 +164,4 @@ def test_a_run_carries_its_readings_through_a_file(walk, tmp_path):
         assert {"u", "zeta", "foot_force", "foot_place", "foot_speed"} <= set(other.read)
         for name, rows in arc.read.items():
             np.testing.assert_array_equal(other.read[name], rows)
-    r = readings(loop, run.arcs[1])
-    np.testing.assert_array_equal(told.arcs[1].read["foot_force"].reshape(-1, 2, 2), r.force)
-    np.testing.assert_array_equal(r.t, run.arcs[1].t)
-
-
-def test_readings_of_another_walk_are_refused(walk, biped, gait):
-    loop, run = walk
-    other = replace(loop, plant=MuJoCoPlant(biped, SoftGround(friction=0.3)))
-    for wrong in (
-        lambda: soft_steps(other, run),
-        lambda: readings(loop, run.arcs[1], 0.7 * loop.plant.h),
-        lambda: readings(loop, run.arcs[1], 0.0),
-    ):
-        with pytest.raises(InputError):
-            wrong()
+        assert all(len(rows) == len(arc.t) for rows in arc.read.values())

@@ -148,10 +148,10 @@ def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict
     largest = 0.0
     for row in np.array(walked["springs"]):
         q, v, (foot, anchor, place, force) = row[:n], row[n : 2 * n], row[2 * n :].reshape(4, 2)
-        t = turned(k, q)
+        t = turned(k.A, q)
         p = foot + point(t, k.re, k.im)
         pull = SPRING["stiffness"] * (anchor - p) - SPRING["damping"] * (
-            jacobian(k, t, k.re, k.im) @ v
+            jacobian(k.A, t, k.re, k.im) @ v
         )
         pull *= min(1.0, MOST["force"] / np.linalg.norm(pull))
         assert place == pytest.approx(p, abs=1e-9)
@@ -195,9 +195,9 @@ def test_a_slider_ends_where_its_controller_refuses_more() -> None:
     gain, _ = found["controller.K_p"]
     assert gain.low < gain.value == 5000.0 < gain.high
     for x in (gain.low, gain.high):
-        walk.at(walk.rubbed.replace({"controller.K_p": x}))
+        walk.at({"controller.K_p": x})
     with pytest.raises(InputError, match="the loop of NPID is unstable"):
-        walk.at(walk.rubbed.replace({"controller.K_p": 0.5 * gain.low}))
+        walk.at({"controller.K_p": 0.5 * gain.low})
 
 
 def test_back_up_again_and_the_timeline(browser: Chrome) -> None:

@@ -16,14 +16,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.linalg import eig, expm
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.loops.frozen_gait import TickMatrices
-from biped_adrc.analysis.observer.loop import covariance
+from biped_adrc.analysis.observer.loop import StepMatrices, covariance
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.hardware.motors import whole_and_part
 
@@ -31,23 +31,6 @@ TINY = 1e-12
 """Eigenvalues below this magnitude count as zero: their modes vanish within a period."""
 FREQUENCIES = 100
 """Number of frequencies of the sensitivity, in geometric order, beside those of the loop's modes."""
-
-
-class LoopMatrices(NamedTuple):
-    """X+ = M X + B w over one period, and u = C X + D w.
-
-    w is an error of the sensors in (q, q'), followed by an error of u. s states, p
-    motors; leading axes as the loops.
-    """
-
-    M: Array
-    """(.., s, s)."""
-    B: Array
-    """(.., s, 2 n + p)."""
-    C: Array
-    """(.., p, s)."""
-    D: Array
-    """(.., p, 2 n + p): the last p columns are 1, for the torque behind the error."""
 
 
 def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Array, Array, Array]:
@@ -104,8 +87,11 @@ class WalkerLoops:
         tick = (f(np.broadcast_to(x, (*axes, *x.shape[-2:]))) for x in self.tick)
         return replace(self, tick=TickMatrices(*tick), A=f(self.A), B=f(self.B))
 
-    def matrices(self, unknown: float = 0.0) -> LoopMatrices:
-        """Matrices of one period with an unknown delay [s] in all motors."""
+    def matrices(self, unknown: float = 0.0) -> StepMatrices:
+        """Matrices of one period with an unknown delay [s] in all motors.
+
+        w (2 n + p,) is an error of the sensors in (q, q'), then one of u; C X + D w is u, so D ends with 1.
+        """
         j, f = whole_and_part(self.delay + unknown, self.period)
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         Z, Y, C_z, E = self.tick
@@ -127,7 +113,7 @@ class WalkerLoops:
         if waiting:
             M[..., line : line + p, :], B[..., line : line + p, :] = C, D
             M[..., line + p :, line : size - p] = np.eye(size - p - line)
-        return LoopMatrices(M, B, C, D)
+        return StepMatrices(M, B, C, D)
 
     @cached_property
     def rates(self) -> ComplexArray:

@@ -186,16 +186,16 @@ HIGHEST = 14
 
 
 class StepMatrices(NamedTuple):
-    """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n)."""
+    """Matrices of one period with an input w: M X + B w of the state X, C X + D w of the output."""
 
     M: Array
-    """(s, s)."""
+    """(.., s, s)."""
     B: Array
-    """(s, 2)."""
+    """(.., s, w)."""
     C: Array
-    """(s,)."""
+    """(s,), or (.., p, s)."""
     D: Array
-    """(2,)."""
+    """(w,), or (.., p, w)."""
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,10 @@ class SampledLoop:
 
     @cached_property
     def step(self) -> StepMatrices:
-        """Matrices of one period, formed from rows in (X, T^2 xi, n), composed as the equations read."""
+        """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n).
+
+        Formed from rows in (X, T^2 xi, n), composed as the equations read.
+        """
         k, T, g = self.observer.order, self.period, self.kappa_ratio
         queue, f = whole_and_part(self.delay, T)
         late = int(f > 0.0)

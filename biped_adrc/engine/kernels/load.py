@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Mapping
 from contextlib import suppress
 from ctypes import CFUNCTYPE, c_int64, c_void_p
-from functools import lru_cache
+from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
@@ -48,7 +48,7 @@ def compiled(files: tuple[str, ...], **arguments: int) -> Any:
 
     arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
     """
-    if files not in _PROGRAMS:
+    if files not in _PROGRAMS:  # `functools.cache` would let two threads load at once
         with LOCK:
             _PROGRAMS[files] = _PROGRAMS.get(files) or _loaded(files, arguments)
     return _PROGRAMS[files]
@@ -65,7 +65,7 @@ def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNames
     return SimpleNamespace(**calls)
 
 
-@lru_cache
+@cache
 def loops(files: tuple[str, ...] = FILES) -> str:
     """The text for LLVM of all units, each under its own name: that of the package, or written anew where it
     does not fit the sources. Raises ModelError where numba is needed for that and is not there.

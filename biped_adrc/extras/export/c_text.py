@@ -84,10 +84,10 @@ class Written:
     """Number of these that are in double whatever `real` is."""
 
 
-def used_numbers(functions: Sequence[CFunction]) -> list[int]:
-    """Indices, in increasing order, of the parameters K that any of these functions reads."""
-    lines = (straight_line(each.function) for each in functions)
-    return sorted({x.of[1] for f in lines for x in f if x.code == ca.OP_INPUT and x.of[0] == 0})
+def read_by(function: SymbolicFunction, which: int) -> set[int]:
+    """Indices of the parameters K (which = 0) or of the inputs (1) that a function reads."""
+    line = straight_line(function)
+    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == which}
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:

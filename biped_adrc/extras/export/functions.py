@@ -18,7 +18,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-import casadi as ca
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
@@ -27,10 +26,9 @@ from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
-from biped_adrc.engine.ir import straight_line
 from biped_adrc.engine.symbols import Scalar, Vector, column, wheres
 from biped_adrc.engine.tracer import run
-from biped_adrc.extras.export.c_text import CFunction, Entry
+from biped_adrc.extras.export.c_text import CFunction, Entry, read_by
 from biped_adrc.extras.export.computer import Computer, Noticed
 
 FIRST = {"m->t": True, "x->last": True, "next->step": False, "next->start": True}
@@ -156,7 +154,7 @@ def functions(computer: Computer) -> Functions:
     states = [f"next->{name}" if name in left else "" for field in every for name in field]
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
-    read = _read(functions[1].function) | _read(functions[2].function)
+    read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)
     rates = tuple(i for i in range(n) if HEAD + n + i in read)
     return Functions(tuple(kept), tuple(functions), rates)
 
@@ -195,19 +193,13 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
     live, outputs = set[int](), range(total, step.out.shape[0])
     while True:
         kept = sorted(live)
-        read = _read(step._replace(out=step.out[[*kept, *outputs]]))
+        read = read_by(step._replace(out=step.out[[*kept, *outputs]]), 1)
         if kept:
-            read |= _read(touchdown._replace(out=touchdown.out[kept]))
+            read |= read_by(touchdown._replace(out=touchdown.out[kept]), 1)
         result = {i - HEAD - 2 * n for i in read if i >= HEAD + 2 * n}
         if result <= live:
             return live
         live |= result
-
-
-def _read(function: SymbolicFunction) -> set[int]:
-    """Indices of the inputs that a function reads."""
-    line = straight_line(function)
-    return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == 1}
 
 
 def _named(

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
 from numpy.typing import NDArray
 
 from biped_adrc.control.base import Controller, Measurement
@@ -103,9 +104,6 @@ class Loaded:
 
     source: Source
 
-    def __repr__(self) -> str:
-        return f"Loaded({self.source.prefix})"
-
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
         """NumPy's type of the C struct of a measurement."""
@@ -153,10 +151,6 @@ class Loaded:
         """Call touchdown with state and measurement; returns its flag. x changes in place."""
         flag: int = self.functions["touchdown"](_at(x), _at(m))
         return flag
-
-    def __getstate__(self) -> dict[str, object]:
-        """The fields for pickle, without the loaded library."""
-        return {name: x for name, x in vars(self).items() if name != "functions"}
 
 
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
@@ -206,12 +200,7 @@ class ExportedController(Controller):
 
     def _state(self, s: Array) -> Record:
         """The struct of a state s (size,) of floats."""
-        x, at = np.zeros((), self.loaded.state), 0
-        for name in self.loaded.state.names or ():
-            size = x[name].size
-            x[name] = s[at : at + size].reshape(x[name].shape)
-            at += size
-        return x
+        return np.array(unstructured_to_structured(s[: len(s) - self.source.p], self.loaded.state))
 
     def _kept(self, flag: int, x: Record, u: Array) -> Array:
         """The struct x and the torque u (p,) as one array of floats. Raises the error of
@@ -219,5 +208,4 @@ class ExportedController(Controller):
         """
         if flag != OK:
             raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
-        parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]
-        return np.concatenate((*parts, u)).astype(float)
+        return np.concatenate((structured_to_unstructured(x, float), u))

@@ -19,7 +19,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import c_comment, one_line
 from biped_adrc.core.versions import packages
 from biped_adrc.engine.symbols import NotCompiled, floats, paths
-from biped_adrc.extras.export.c_text import Written, c_text, decimal, used_numbers
+from biped_adrc.extras.export.c_text import Written, c_text, decimal, read_by
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.functions import Field, Functions, functions
 
@@ -86,7 +86,7 @@ def source_of(
         functions_, k = functions(computer), computer.robot
     except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
-    used = used_numbers(functions_.all)
+    used = sorted(set().union(*(read_by(f.function, 0) for f in functions_.all)))
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
     bad = [names[i] for i in used if values[i] != values[i]]
     if bad:

@@ -252,8 +252,7 @@ class Replay(Shown):
                 across = axes.get_xaxis_transform()
                 axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, transform=across, **look)
                 finished(axes, unit)
-            for axes in (beyond, residual):
-                axes.set_xlabel("")
+                axes.label_outer()
             return figure
 
     def to_csv(self, path: Path | str) -> Path:

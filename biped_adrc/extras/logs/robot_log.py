@@ -189,10 +189,6 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
         )
 
 
-LoggedRow = tuple[float, float, Array, Array, Array]
-"""t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s]."""
-
-
 def logged(walk: Walk) -> RobotLog:
     """Make the log of a walk in sampled time: angles and rates as measured by the
     sensors, torques as they acted.
@@ -228,8 +224,11 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
     return list(zip(after.tolist(), before[: len(after)], strict=True))
 
 
-def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
-    """Measurement at node k, in the labels of the controller, and the mean torque until node `end`."""
+def _row(walker: Walker, arc: Arc, k: int, end: int) -> tuple[float, float, Array, Array, Array]:
+    """Measurement at node k, in the labels of the controller, and the mean torque until node `end`.
+
+    As t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s].
+    """
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
     assert held is not None

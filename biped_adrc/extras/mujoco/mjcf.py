@@ -23,6 +23,9 @@ from biped_adrc.extras.mujoco.robot import NO_CONTACT, floating_mjcf, text
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.robots.urdf import Visual
 
+SHARES = {"box": (0.5, 0.5, 0.5), "cylinder": (1.0, 0.5), "sphere": (1.0,)}
+"""Of a shape's sizes, what MuJoCo takes: radii, and half lengths [1]."""
+
 
 def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -> Path:
     """Write a plant as MJCF (.xml); returns the path.
@@ -59,12 +62,8 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
 
 
 def _shape(visual: Visual) -> ET.Element:
-    """A shape of the URDF as MJCF, without mass and contact; MuJoCo takes half lengths."""
-    size = {
-        "box": 0.5 * np.array(visual.size),
-        "cylinder": np.array(visual.size) * [1.0, 0.5][: len(visual.size)],
-        "sphere": np.array(visual.size),
-    }[visual.shape]
+    """A shape of the URDF as MJCF, without mass and contact."""
+    size = np.multiply(visual.size, SHARES[visual.shape])
     place = {"pos": text(visual.origin), "size": text(size), "rgba": text(visual.rgba)}
     alone = {"type": visual.shape, "mass": "0", "group": "1"}
     return ET.Element("geom", alone | place | NO_CONTACT)

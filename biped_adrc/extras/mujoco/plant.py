@@ -42,15 +42,7 @@ from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine
 from biped_adrc.extras.mujoco.robot import PLANES, floating_mjcf, model_of, mujoco
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import (
-    SoftGround,
-    StepDown,
-    StepUp,
-    check_slope,
-    check_steps,
-    drop_of,
-    ground_axes,
-)
+from biped_adrc.model.ground import GroundSteps, Slope, SoftGround, drop_of, ground_axes
 
 TOUCHING = 1e-6
 """Depth of the stance foot in the ground at the start [m]: round-off does not decide whether it touches."""
@@ -76,7 +68,7 @@ class MuJoCoPlant(Checked, Shown):
 
     biped: Biped
     ground: SoftGround = SoftGround()  # noqa: RUF009
-    slope: float = 0.0
+    slope: Slope = 0.0
     h: PositiveFloat = 2e-4
     touchdown_force: PositiveFloat = 50.0
     ahead: PositiveFloat = 0.1
@@ -85,13 +77,11 @@ class MuJoCoPlant(Checked, Shown):
     max_step_time: float = 2.0
     integrator: Annotated[str, one_of(INTEGRATORS)] = "rk4"
     lag: NonNegativeFloat = 0.0
-    ground_steps: tuple[StepDown | StepUp, ...] = ()
+    ground_steps: GroundSteps = ()
     first_step: PositiveInt = 1
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        check_slope(self.slope)
-        check_steps(self.ground_steps)
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
@@ -164,7 +154,7 @@ class MuJoCoPlant(Checked, Shown):
         """The same plant with motors of this lag [s]."""
         return replace(self, lag=lag)
 
-    def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> MuJoCoPlant:
+    def on_steps(self, steps: GroundSteps, first_step: int) -> MuJoCoPlant:
         """The same plant on steps of the ground, from single support `first_step` on."""
         return replace(self, ground_steps=steps, first_step=first_step)
 

@@ -24,6 +24,9 @@ from biped_adrc.scenario.scenario import Scenario
 Form = tuple[float, float, int] | list[float]
 """How a number depends on the value s of a slider: (a, b, k) for a + b s^k, with tan(s) in place of s^k for
 k = 0; or a list of its values at the slider's table."""
+Numbers = Callable[[Mapping[str, object]], Array]
+"""The numbers of a walk with these values of its scenario; raises BipedError where it has none, or another
+structure."""
 ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 """First two digits of the values in tables."""
 CLOSER = 8
@@ -103,17 +106,16 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
 
 
 def sliders(
-    s: Scenario, order: int | None, base: Array, numbers: Callable[[Scenario], Array]
+    s: Scenario, order: int | None, base: Array, numbers: Numbers
 ) -> dict[str, tuple[Slider, dict[int, Form]]]:
     """Find the sliders of a walk: name -> the slider, and the forms of the numbers that it changes, by index.
 
-    order: m of its observer. base: numbers of the walk. numbers(s): those of another scenario, which raises
-    BipedError where it has none, or another structure.
+    order: m of its observer. base: numbers of the walk. numbers: those with other values of its scenario.
     """
     result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
     for one in offered(s, order):
         try:
-            one, forms = with_forms(one, s, base, numbers)
+            one, forms = with_forms(one, base, numbers)
         except BipedError:
             continue
         if forms and moved.isdisjoint(forms):
@@ -122,9 +124,7 @@ def sliders(
     return result
 
 
-def with_forms(
-    one: Slider, s: Scenario, base: Array, numbers: Callable[[Scenario], Array]
-) -> tuple[Slider, dict[int, Form]]:
+def with_forms(one: Slider, base: Array, numbers: Numbers) -> tuple[Slider, dict[int, Form]]:
     """Fit the forms of one slider's numbers, by index; returns the slider, with its
     range or table, and the forms.
 
@@ -132,36 +132,34 @@ def with_forms(
     walk cannot have the slider.
     """
     try:
-        rows = numbers_at(one, s, numbers)
+        rows = numbers_at(one, numbers)
     except BipedError:  # such as gains of an unstable loop
-        one = one._replace(low=end(one, one.low, s, numbers), high=end(one, one.high, s, numbers))
-        rows = numbers_at(one, s, numbers)
+        one = one._replace(low=end(one, one.low, numbers), high=end(one, one.high, numbers))
+        rows = numbers_at(one, numbers)
     if forms := fitted(one, base, rows):
         return one, forms
     one = one.tabulated()
-    rows = numbers_at(one, s, numbers, one.table)
+    rows = numbers_at(one, numbers, one.table)
     return one, {k: rows[:, k].tolist() for k in changing(base, rows)}
 
 
-def end(one: Slider, x: float, s: Scenario, numbers: Callable[[Scenario], Array]) -> float:
+def end(one: Slider, x: float, numbers: Numbers) -> float:
     """The end x of a slider's range, moved towards its present value until the walk accepts it."""
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
-            numbers_at(one, s, numbers, (x := float(f"{y:.2g}"),))
+            numbers_at(one, numbers, (x := float(f"{y:.2g}"),))
             break
         except BipedError:
             continue
     return x
 
 
-def numbers_at(
-    one: Slider, s: Scenario, numbers: Callable[[Scenario], Array], values: Sequence[float] = ()
-) -> Array:
+def numbers_at(one: Slider, numbers: Numbers, values: Sequence[float] = ()) -> Array:
     """Numbers of the walk at values of a slider, a row for each; at those of `tried` if none
     are given. Raises BipedError.
     """
-    return np.array([numbers(s.replace({one.name: x, **one.also})) for x in values or one.tried])
+    return np.array([numbers({one.name: x, **one.also}) for x in values or one.tried])
 
 
 def changing(base: Array, rows: Array) -> list[int]:

@@ -128,11 +128,12 @@ class PageWalk:
         """The scenario with the joint friction of its walker."""
         return self.scenario.replace({FRICTION: self.walker.plant.friction})
 
-    def at(self, s: Scenario) -> Array:
-        """Numbers of this walk's block, as floats, for another scenario of the same structure.
+    def at(self, values: Mapping[str, object]) -> Array:
+        """Numbers of this walk's block, as floats, with other values of its scenario.
 
-        Raises InputError for a scenario with another structure.
+        Raises InputError for values that give another structure.
         """
+        s = self.rubbed.replace(values)
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = walk_code(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
@@ -177,7 +178,7 @@ class PageWalk:
         if low == high:
             return {}
         inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
-        return fitted(inside, self.numbers, numbers_at(inside, self.rubbed, self.at))
+        return fitted(inside, self.numbers, numbers_at(inside, self.at))
 
     @property
     def delays(self) -> tuple[float, float]:
@@ -347,7 +348,7 @@ def trunk_of(plant: Biped) -> str:
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])
-    if np.max(np.abs(point(turned(k, q), k.re, k.im) - base)) > SAME:
+    if np.max(np.abs(point(turned(k.A, q), k.re, k.im) - base)) > SAME:
         raise InputError(
             f"robot '{plant.description.name}' is drawn from a base that is not the origin of its trunk "
             f"'{trunk}'; a page expects that"

@@ -25,7 +25,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import LoadedCode, hash_of, keep, stored
+from biped_adrc.engine.machine import LoadedCode, hash_of, keep, object_code, parsed, stored
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -53,32 +53,27 @@ def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, [*LOOPS])
+    laws = _Laws({}, {name: k for k, name in enumerate(LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
-    code = web_module(laws.texts, laws.functions)
-    return WebWalkers(code, tuple(laws.functions), tuple(modules))
+    code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))
+    return WebWalkers(code, tuple(laws.numbers), tuple(modules))
 
 
 class _Laws(NamedTuple):
     """Functions that walkers share, added by one walker after the other."""
 
-    texts: dict[str, str]
-    """Name -> text of functions of walkers in LLVM's language."""
-    functions: list[str]
-    """Names of the functions that are called by their number."""
+    names: dict[str, str]
+    """Text of functions of walkers in LLVM's language -> its name."""
+    numbers: dict[str, int]
+    """Name of a function that is called by its number -> the number, from 1."""
 
     def of(self, code: LoadedCode) -> str:
         """Name of the text of these functions; a new one at the first call."""
-        names = {text: name for name, text in self.texts.items()}
-        name = names.get(code.text, f"laws{len(names)}")
-        self.texts[name] = code.text
-        return name
+        return self.names.setdefault(code.text, f"laws{len(self.names)}")
 
     def number(self, name: str) -> int:
         """Number of a function, from 1; a new one at the first call."""
-        if name not in self.functions:
-            self.functions.append(name)
-        return 1 + self.functions.index(name)
+        return self.numbers.setdefault(name, 1 + len(self.numbers))
 
 
 def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
@@ -127,9 +122,9 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
-    module = _parsed(loops(), machine)
+    module = parsed(loops(), machine)
     for name, text in laws.items():
-        modules = _parsed(text, machine)
+        modules = parsed(text, machine)
         for function in _defined(modules):
             function.name = f"{name}.{function.name}"
         module.link_in(modules)
@@ -139,19 +134,8 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     names = ", ".join(f'ptr @"{name}"' for name in called)
     table = f"@called = constant [{len(called)} x ptr] [{names}]"
     heads = (f'declare void @"{name}"()' for name in called)
-    module.link_in(_parsed("\n".join((table, *heads)), machine))
-    module.verify()
-    tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    builder = binding.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
-    return machine.emit_object(module)
-
-
-def _parsed(text: str, machine: Any) -> Any:
-    """Parse LLVM's text as a module for this machine."""
-    module = binding.parse_assembly(text)
-    module.triple, module.data_layout = TARGET, str(machine.target_data)
-    return module
+    module.link_in(parsed("\n".join((table, *heads)), machine))
+    return object_code(module, machine)
 
 
 def _defined(module: Any) -> list[Any]:

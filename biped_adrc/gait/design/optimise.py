@@ -105,7 +105,7 @@ def apart(
 
     def miss(q: Array) -> Array:
         """Residuals (n + 3,): foot from its target, hip from half way [m], q from standing [rad], weighted."""
-        t = turned(robot, q)
+        t = turned(robot.A, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(
             (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))

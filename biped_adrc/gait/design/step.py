@@ -22,7 +22,7 @@ import numpy as np
 
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import ControlledCurve
+from biped_adrc.gait.curves import basis_at
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.model.biped import Biped
@@ -105,18 +105,6 @@ class Node(NamedTuple):
     """Configuration (n, K) [rad]."""
 
 
-def basis_functions(
-    kind: type[ControlledCurve], degree: int, s: Array
-) -> tuple[Array, Array, Array]:
-    """The basis of a kind of curve at s (K,) in [0, 1], its first and second derivatives, each (M + 1, K).
-
-    It is the curve whose coefficients are the identity matrix.
-    """
-    basis = kind(np.eye(degree + 1))
-    values, first, second = (np.array(rows).T for rows in zip(*map(basis, s), strict=True))
-    return values, first, second
-
-
 def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: float) -> ca.Function:
     """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
 
@@ -140,7 +128,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
-    t, force = turned(robot, x), robot.ground_reaction(x, v, each(a))
+    t, force = turned(robot.A, x), robot.ground_reaction(x, v, each(a))
     foot, (G, _) = point(t, K.foot_re, K.foot_im), robot.gravity_and_turning(t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
@@ -202,7 +190,7 @@ class SymbolicStep:
         """The model at the normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
-        basis = basis_functions(self.request.kind, self.request.degree, s)
+        basis = [x.T for x in basis_at(self.request.kind, self.request.degree, s)]
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))

@@ -26,7 +26,7 @@ from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
-from biped_adrc.gait.curves import Bezier
+from biped_adrc.gait.curves import Bezier, basis_at
 from biped_adrc.gait.exchange.record import NEAR, foot_down, whole_turns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
@@ -182,7 +182,7 @@ def fit(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
     ends = float(c @ biped.relabel(minus)), float(c @ minus)
     span = ends[1] - ends[0]
     x = (s.q @ c - ends[0]) / span
-    H, dH, _ = (np.array(rows) for rows in zip(*map(Bezier(np.eye(degree + 1)), x), strict=True))
+    H, dH, _ = basis_at(Bezier, degree, x)
     if s.v is None:
         rows, goal = H, s.q
         free = np.linalg.lstsq(rows, goal, rcond=None)[0]

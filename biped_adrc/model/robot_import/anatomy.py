@@ -27,7 +27,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.pinned import reroot
 from biped_adrc.model.robot_import.base import PlanarBase, added
 from biped_adrc.model.robots import urdf
-from biped_adrc.model.robots.urdf import Joint, Note, Tree
+from biped_adrc.model.robots.urdf import Joint, Note, Notes, Tree
 
 FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""
@@ -46,7 +46,7 @@ class Anatomy:
     """Revolute joints without the pitch, in the order q1, q2, ..."""
     phase: tuple[float, ...]
     """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
-    notes: tuple[Note, ...]
+    notes: Notes
     """Sentences on what was guessed."""
 
 
@@ -55,7 +55,7 @@ def anatomy(body: PlanarBase, pair: tuple[str, str], hip: str | None) -> Anatomy
 
     Raises ModelError with the candidates and the option to give when a guess is not certain.
     """
-    notes: tuple[Note, ...] = ()
+    notes: Notes = ()
     if hip is None:
         hip, sentence = _guessed_hip(body.tree, pair)
         notes = (Note("assumed", sentence),)

@@ -21,7 +21,7 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Vector, free_name, text_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Vector, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
 _NAMES = ("base_x", "base_z", "base_pitch")
@@ -40,7 +40,7 @@ class PlanarBase:
     """Name of the revolute joint about y that carries the trunk."""
     trunk: str
     """Link that the base carries."""
-    notes: tuple[Note, ...]
+    notes: Notes
     """Sentences on what was found or added."""
 
     def noting(self, *notes: Note) -> PlanarBase:

@@ -38,7 +38,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -51,10 +51,11 @@ from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
 from biped_adrc.model.robot_import.mjcf import read_mjcf
 from biped_adrc.model.robots import urdf
-from biped_adrc.model.robots.robot_toml import GRAVITY, Rotors, description_of
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Tree, Visual, vector
+from biped_adrc.model.robots.robot_toml import GRAVITY, Names, Rotors, description_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Visual, vector
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
+Joints = tuple[Joint, ...]
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
 _STEEL = 7800.0  # [kg/m^3]
@@ -62,7 +63,7 @@ _RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and 
 _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
 
 
-def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
+def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """The tree itself where a link has a shape, else the tree with balls, and a sentence about it.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
@@ -135,22 +136,14 @@ class Hints:
     (6,), of the stance foot, then of the swing foot."""
 
 
-class Motors(NamedTuple):
-    """The motors of a robot."""
-
-    joints: tuple[str, ...]
-    """Names of the joints q1, ..., qp."""
-    torque: float
-    """Torque limit of every motor [N m]."""
-    armature: Rotors
-    """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
-
-
 def record_of(
-    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, motors: Motors, hints: Hints
+    file: str, contents: Contents, body: PlanarBase, parts: Anatomy, hints: Hints, rotors: Rotors
 ) -> dict[str, Any]:
-    """The tables of the robot.toml that describes this robot, as plain values; file: its name."""
-    moving = [joint.name for joint in parts.moving]
+    """The tables of the robot.toml that describes this robot, as plain values.
+
+    file: name of the URDF. hints: with the motors and their torque limit. rotors: their inertia.
+    """
+    moving, actuated = [joint.name for joint in parts.moving], hints.actuated or ()
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -160,8 +153,8 @@ def record_of(
         "name": contents.tree.name,
         "urdf": file,
         "default_preset": PRESET,
-        "actuated": list(motors.joints),
-        "passive": [name for name in moving if name not in motors.joints],
+        "actuated": list(actuated),
+        "passive": [name for name in moving if name not in actuated],
         "unactuated": body.pitch,
         "base": list(body.base),
         "stance_foot": parts.feet[0],
@@ -169,13 +162,13 @@ def record_of(
         "hip": parts.hip,
         "trunk": body.trunk,
         "phase": list(parts.phase),
-        "peak_torque": motors.torque,
+        "peak_torque": hints.torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
         "ranges": {j.name: list(j.range) for j in parts.moving if math.isfinite(j.range[0])},
         "friction": {"viscous": of_moving(contents.viscous), "static": of_moving(contents.static)},
         "links": _bodies(body.tree, parts.feet),
-        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": motors.armature}},
+        "presets": {PRESET: {"source": f"The masses of {file}.", "armature": rotors}},
     }
 
 
@@ -207,7 +200,7 @@ class Derived:
     """A biped derived from a URDF, with the notes and checks of the derivation."""
 
     biped: Biped
-    notes: tuple[Note, ...]
+    notes: Notes
     """Sentences on what was read, assumed and left out, in this order."""
     checks: tuple[Check, ...]
     """The laws of `model.physical` with their numbers."""
@@ -273,9 +266,9 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     tree, of_shapes = drawable(body.tree, parts.feet)
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
-    armature, of_rotors = _armature(contents, actuated, hints)
-    path, motors = Path(path), Motors(actuated, torque, armature)
-    record = record_of(path.name, contents, body, parts, motors, hints)
+    rotors, of_rotors = _armature(contents, actuated, hints)
+    path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
+    record = record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
@@ -317,9 +310,7 @@ def _contents(path: Path) -> Contents:
 
 
 # -- motors ----------------------------------------------------------------------------------------
-def _motors(
-    contents: Contents, moving: tuple[Joint, ...], hints: Hints
-) -> tuple[tuple[str, ...], tuple[Note, ...]]:
+def _motors(contents: Contents, moving: Joints, hints: Hints) -> tuple[Names, Notes]:
     """Names of the joints with a motor in order, and a sentence where they were guessed.
 
     Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or doubled names.
@@ -339,9 +330,7 @@ def _motors(
     return hints.actuated, ()
 
 
-def _torque(
-    contents: Contents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[float, tuple[Note, ...]]:
+def _torque(contents: Contents, actuated: Names, hints: Hints) -> tuple[float, Notes]:
     """The torque limit of all motors [N m], that of the hints or else the least one in the
     URDF, and a sentence on it.
 
@@ -361,9 +350,7 @@ def _torque(
     return least, (Note("read", f"torque limit: {least:g} N m, of {which}"),)
 
 
-def _armature(
-    contents: Contents, actuated: tuple[str, ...], hints: Hints
-) -> tuple[Rotors, tuple[Note, ...]]:
+def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors, Notes]:
     """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
 
     The rotor of a joint without a motor is left out.
@@ -381,7 +368,7 @@ def _armature(
     return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)
 
 
-def _remarks(contents: Contents, moving: tuple[Joint, ...], hints: Hints) -> tuple[Note, ...]:
+def _remarks(contents: Contents, moving: Joints, hints: Hints) -> Notes:
     """Sentences on friction: of the feet, and of the joints."""
     text = (
         f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"

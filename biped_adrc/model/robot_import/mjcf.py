@@ -25,7 +25,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.robot_import.anatomy import FOOT_NAMES
 from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.robot_toml import GRAVITY
-from biped_adrc.model.robots.urdf import FREELY, Joint, Link, Note, Tree, vector
+from biped_adrc.model.robots.urdf import FREELY, Joint, Link, Note, Notes, Tree, vector
 from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
@@ -153,7 +153,7 @@ def _torque(m: Any, j: int) -> float:
     return min(total, *np.abs(m.jnt_actfrcrange[j])) if m.jnt_actfrclimited[j] else total
 
 
-def _notes(m: Any, hinges: dict[str, int]) -> tuple[Note, ...]:
+def _notes(m: Any, hinges: dict[str, int]) -> Notes:
     """Notes on the parts of a compiled model that the robot leaves out."""
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}

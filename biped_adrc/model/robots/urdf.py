@@ -65,6 +65,9 @@ class Note(NamedTuple):
     text: str
 
 
+Notes = tuple[Note, ...]
+
+
 @dataclass(frozen=True)
 class Inertial:
     """Mass properties of a link, in the axes of its frame."""
@@ -378,7 +381,7 @@ def _in_plane(tree: Tree, link: str) -> Array:
     return np.array([body.mass, body.inertia[3], *body.com[::2], *place])
 
 
-def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
+def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """The tree with the mean of both legs where they differ by at most ALIKE, as exports of CAD do, and a
     sentence on it; otherwise the tree itself.
     """
@@ -400,7 +403,6 @@ def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[Note, ...]]:
     return replace(tree, links=links, joints=tuple(joints.values())), (Note("assumed", text),)
 
 
-def text_of(values: tuple[float, ...]) -> str:
-    """Text of one number, or of several in parentheses, for a message."""
-    text = ", ".join(f"{value:.6g}" for value in values)
-    return text if len(values) == 1 else f"({text})"
+def text_of(values: Vector) -> str:
+    """Text of a vector, for a message."""
+    return f"({', '.join(f'{value:.6g}' for value in values)})"

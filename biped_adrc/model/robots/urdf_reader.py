@@ -13,7 +13,7 @@ Shapes that are meshes or stand oblique after the turn are not kept: the tree ha
 
 Kept beside the tree are <limit effort>, the friction <dynamics damping friction>, and the
 inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, from <transmission>
-(`mechanicalReduction`, 1 if missing, and `motorInertia`). Every ModelError names the file, the element,
+(`mechanicalReduction`, 1 if missing, and `motorInertia`). Every ModelError names file and element,
 what was found and what was expected.
 """
 
@@ -76,56 +76,59 @@ class Contents:
     """What was assumed and left out."""
 
 
-def parse(path: Path | str) -> ET.Element:
+def parse(path: Path) -> ET.Element:
     """The element <robot> of a URDF file. Raises ModelError for another file."""
-    path = Path(path)
-    with reading("URDF", path, ModelError):
-        data = path.read_bytes()
-        if path.suffix == ".xacro" or b"<xacro:" in data:
-            raise ValueError(
-                "it holds xacro macros, expected the URDF they expand to; try "
-                f"'xacro {path.name} > robot.urdf' and give robot.urdf"
-            )
-        root = ET.fromstring(data.lstrip())
-        space = root.tag.rpartition("robot")[0]
-        for element in root.iter():  # a default namespace is the file's, not a part of names
-            element.tag = element.tag.removeprefix(space)
-        count = len(root.findall("link"))
-        if root.tag != "robot" or count > MOST_LINKS:
-            what = _FORMATS.get(root.tag, f"<{root.tag}>")
-            raise ValueError(
-                f"{what} with {count} links, expected a URDF, <robot> with at most {MOST_LINKS} links"
-            )
+    data = path.read_bytes()
+    if path.suffix == ".xacro" or b"<xacro:" in data:
+        raise ModelError(
+            "it holds xacro macros, expected the URDF they expand to; try "
+            f"'xacro {path.name} > robot.urdf' and give robot.urdf"
+        )
+    root = ET.fromstring(data.lstrip())
+    space = root.tag.rpartition("robot")[0]
+    for element in root.iter():  # a default namespace is the file's, not a part of names
+        element.tag = element.tag.removeprefix(space)
+    count = len(root.findall("link"))
+    if root.tag != "robot" or count > MOST_LINKS:
+        what = _FORMATS.get(root.tag, f"<{root.tag}>")
+        raise ModelError(
+            f"{what} with {count} links, expected a URDF, <robot> with at most {MOST_LINKS} links"
+        )
+    root.set("name", root.get("name", path.stem))
     return root
 
 
 def read(path: Path | str) -> Contents:
     """Read and check a URDF. Raises ModelError."""
-    robot, file = parse(path), f"URDF '{path}'"
+    with reading("URDF", path, ModelError):
+        return _contents(parse(Path(path)), str(path))
+
+
+def _contents(robot: ET.Element, source: str) -> Contents:
+    """The robot of an element; source: its file. Raises ModelError with the element, not the file."""
     movers = robot.findall("joint")
-    ends = [_ends(joint, file) for joint in movers]
+    ends = [_ends(joint) for joint in movers]
     names = {link.get("name") for link in robot.findall("link")}
     if "world" not in names and any(parent == "world" for parent, _ in ends):
         ET.SubElement(robot, "link", name="world")
     bodies = robot.findall("link")
-    for (tag, name), count in Counter((e.tag, _name(e, file)) for e in (*bodies, *movers)).items():
+    for (tag, name), count in Counter((e.tag, _name(e)) for e in (*bodies, *movers)).items():
         if count > 1:
-            raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
+            raise ModelError(f"two {tag}s are named '{name}'; names must differ")
     order = [link.get("name", "") for link in bodies]
-    turns = _turns(order, movers, ends, file, np.eye(3))
-    yaw = _yaw(movers, ends, turns, file)
+    turns = _turns(order, movers, ends, np.eye(3))
+    yaw = _yaw(movers, ends, turns)
     if yaw:
-        turns = _turns(order, movers, ends, file, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
+        turns = _turns(order, movers, ends, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
     moved = {child for _, child in ends}
-    links = {link.get("name", ""): _link(link, file, turns, moved) for link in bodies}
-    joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
-    robot.set("name", robot.get("name", Path(path).stem))
+    links = {link.get("name", ""): _link(link, turns, moved) for link in bodies}
+    joints = tuple(_joint(j, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
-    tree = Tree(_name(robot, file), links, joints, str(path))
+    tree = Tree(_name(robot), links, joints, source)
     keys = ("limit", "effort"), ("dynamics", "damping"), ("dynamics", "friction")
-    effort, viscous, static = (_by_joint(turning, *key, file) for key in keys)
+    effort, viscous, static = (_by_joint(turning, *key) for key in keys)
     notes = _notes(robot, links, yaw)
-    return Contents(tree, effort, viscous, static, _rotors(robot, file), turns, notes)
+    return Contents(tree, effort, viscous, static, _rotors(robot), turns, notes)
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
@@ -148,7 +151,7 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     return tuple(Note(kind, text) for kind, found, text in notes if found)
 
 
-def _rotors(robot: ET.Element, file: str) -> dict[str, float]:
+def _rotors(robot: ET.Element) -> dict[str, float]:
     """N^2 J [kg m^2] by joint of each <transmission>, from the texts of its elements."""
     result = {}
     for e in robot.iterfind("transmission[joint]"):
@@ -157,27 +160,25 @@ def _rotors(robot: ET.Element, file: str) -> dict[str, float]:
         }
         if e.find(".//motorInertia") is not None:
             numbers = ET.Element("transmission", texts)
-            N, J = (_numbers(numbers, tag, "", 1, f"{file}, <transmission>")[0] for tag in texts)
-            result[_required(e, "joint", file).get("name", "")] = N * N * J
+            N, J = (_numbers(numbers, tag, "", 1, "<transmission>")[0] for tag in texts)
+            result[_required(e, "joint", "<transmission>").get("name", "")] = N * N * J
     return result
 
 
 # -- attributes ------------------------------------------------------------------------------------
-def _place_of(element: ET.Element, file: str) -> str:
-    """Text for messages that names a link or joint: file, kind of element and name."""
-    return f"{file}, {element.tag} '{element.get('name')}'"
+def _place_of(element: ET.Element) -> str:
+    """Text for messages that names a link or joint: kind of element and name."""
+    return f"{element.tag} '{element.get('name')}'"
 
 
-def _name(element: ET.Element, where: str, key: str = "name") -> str:
+def _name(element: ET.Element, where: str = "", key: str = "name") -> str:
     """The attribute `key` of an element, after a check that it is printable.
 
     Line breaks and tabs would spoil tables and messages. Raises ModelError.
     """
     name = element.get(key, "")
     if not name or not name.isprintable():
-        raise ModelError(
-            f"{where}: <{element.tag}> has {key}={name!r}, expected a name on one line"
-        )
+        raise ModelError(f"{where}<{element.tag}> has {key}={name!r}, expected a name on one line")
     return name
 
 
@@ -212,29 +213,29 @@ def _numbers(
     return values  # type: ignore[return-value]
 
 
-def _by_joint(joints: list[ET.Element], tag: str, key: str, file: str) -> dict[str, float]:
+def _by_joint(joints: list[ET.Element], tag: str, key: str) -> dict[str, float]:
     """The number <tag key>, at least 0, of each joint that has it, by name of the joint."""
     values = {}
     for joint in joints:
         element = joint.find(tag)
         if element is not None and key in element.attrib:
-            where = f"{_place_of(joint, file)} <{tag}>"
+            where = f"{_place_of(joint)} <{tag}>"
             values[joint.get("name", "")] = _numbers(element, key, "", 1, where, 0.0)[0]
     return values
 
 
 # -- frames ----------------------------------------------------------------------------------------
-def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
+def _ends(joint: ET.Element) -> tuple[str, str]:
     """Names of the parent and the child link of a joint."""
-    where = _place_of(joint, file)
+    where = _place_of(joint)
     parent, child = (
-        _name(_required(joint, role, where), where, "link") for role in ("parent", "child")
+        _name(_required(joint, role, where), f"{where}: ", "link") for role in ("parent", "child")
     )
     return parent, child
 
 
 def _turns(
-    links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str, R: Array
+    links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], R: Array
 ) -> dict[str, Array]:
     """Rotation (3, 3) of each link at zero angles, from its axes to those of the world; link -> rotation.
 
@@ -246,13 +247,13 @@ def _turns(
     each = list(zip(joints, ends, strict=True))
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
-            turns[child] = _origin(joint, _place_of(joint, file), turns[parent])[1]
+            turns[child] = _origin(joint, _place_of(joint), turns[parent])[1]
     twice = [link for link, count in parents.items() if count > 1]
     circle = [link for link in links if link not in turns]
     missing = sorted({link for pair in ends for link in pair} - set(links))
     if len(roots) != 1 or twice or circle or missing:
         raise ModelError(
-            f"{file}: links must hang in one tree; found the roots {roots}, links with two parent joints "
+            f"links must hang in one tree; found the roots {roots}, links with two parent joints "
             f"{twice}, links in a circle {circle}, and joints of links {missing} that are not there. Closed "
             "chains are not supported"
         )
@@ -260,7 +261,7 @@ def _turns(
 
 
 def _yaw(
-    joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array], file: str
+    joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array]
 ) -> float:
     """Angle [rad] about z that turns the axis of the first joint to y or -y; 0 where it is not horizontal.
 
@@ -268,7 +269,7 @@ def _yaw(
     """
     for joint, pair in zip(joints, ends, strict=True):
         if joint.get("type") in _CIRCULAR:
-            x, y, z = _joint(joint, file, turns, *pair).axis
+            x, y, z = _joint(joint, turns, *pair).axis
             yaw = (math.atan2(x, y) + 0.5 * math.pi) % math.pi - 0.5 * math.pi
             return yaw if abs(z) < PLANAR and abs(math.sin(yaw)) > PLANAR else 0.0
     return 0.0
@@ -293,12 +294,12 @@ def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
 
 
 # -- links and joints ------------------------------------------------------------------------------
-def _link(element: ET.Element, file: str, turns: Mapping[str, Array], moved: set[str]) -> Link:
+def _link(element: ET.Element, turns: Mapping[str, Array], moved: set[str]) -> Link:
     """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError.
 
     Without mass and moments it is a frame, and so is a root without mass, such as a world.
     """
-    where, R = _place_of(element, file), turns[element.get("name", "")]
+    where, R = _place_of(element), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
     body, inertial = element.find("inertial"), None
     if body is not None:
@@ -345,15 +346,13 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
 
 
-def _joint(
-    element: ET.Element, file: str, turns: Mapping[str, Array], parent: str, child: str
-) -> Joint:
+def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: str) -> Joint:
     """The joint of an element, with its place and axis in the turned axes, its speed limit and its range.
 
     A range of a whole turn or more is none. Raises ModelError for unknown types, mimic joints and axes that are
     not of unit length.
     """
-    where, kind = _place_of(element, file), element.get("type", "")
+    where, kind = _place_of(element), element.get("type", "")
     if kind not in (*urdf.JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
             f"{where}: type '{kind}', expected one of {['continuous', *urdf.JOINT_TYPES]}, without <mimic>; "

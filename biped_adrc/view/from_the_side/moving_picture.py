@@ -18,7 +18,7 @@ import io
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +34,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.placement import Clip, Drawable, Recorded, WalkScene, check_frames, ending
+from biped_adrc.view.placement import Clip, Drawable, WalkScene, check_frames, ending
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, label, literal, new_figure, style, write_figure
 
@@ -56,7 +56,7 @@ MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, *LINES, "black", "white")
 """Colours that have a place in the palette of a GIF, even where few pixels have them."""
 
 
-def write_moving_picture(path: Path, walks: Mapping[str, Recorded], clip: Clip) -> None:
+def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) -> None:
     """Write walks, over one another or side by side, as a GIF that repeats.
 
     walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and the
@@ -76,7 +76,7 @@ def write_moving_picture(path: Path, walks: Mapping[str, Recorded], clip: Clip) 
     write_bytes(path, encoded(images, fps, REST if badly else 0.0))
 
 
-def _times(walks: Mapping[str, Recorded], clip: Clip, rate: float) -> Array:
+def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
     """Times (K,) [s] of the frames, `rate` [1/s] of them per second of the walk.
 
     If a walk ended early, its end is one of them.
@@ -91,7 +91,7 @@ def _times(walks: Mapping[str, Recorded], clip: Clip, rate: float) -> Array:
 
 
 def _over_one_another(
-    walks: Mapping[str, Recorded], times: Array, pace: str
+    walks: Mapping[str, Drawable], times: Array, pace: str
 ) -> tuple[Figure, Callable[[float], None]]:
     """Make the figure of walks laid over one another; also returns the function that moves it to a time t [s].
 
@@ -118,10 +118,10 @@ def _over_one_another(
         draw.follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
         for walk in drawn:
             walk.show(t)
-        ended = {
-            n: ending(v.scene.trajectory) for n, v in views.items() if t >= v.scene.trajectory.t_end
-        }
-        over = [f"{name} {badly}" for name, badly in ended.items() if badly]
+        runs = {name: walk.trajectory for name, walk in walks.items()}
+        over = [
+            f"{name} {ending(run)}" for name, run in runs.items() if ending(run) and t >= run.t_end
+        ]
         clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {last.step(t)}", pace)))
         text.set_text(draw.wrapped("\n".join((caption, clock, *over)), 0.96 * WIDTH))
 
@@ -151,7 +151,7 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
 
 
 def side_by_side(
-    walks: Mapping[str, Recorded], times: Array, pace: str
+    walks: Mapping[str, Drawable], times: Array, pace: str
 ) -> tuple[Figure, Callable[[float], None]]:
     """Make the figure with a panel for each walk and the errors of all below; also returns
     the function that moves it.
@@ -161,7 +161,7 @@ def side_by_side(
     for walks without a reference.
     """
     for walk in walks.values():
-        if not isinstance(walk, Drawable) or walk.walker.plant.p == 0:
+        if walk.walker.plant.p == 0:
             raise InputError(
                 "a walk without motors has no reference to deviate from; leave 'apart' out"
             )
@@ -172,8 +172,8 @@ def side_by_side(
     figure, panels = draw.blank(WIDE, height), []
     for k, (name, walk) in enumerate(walks.items()):
         axes = figure.add_axes((k * share, STRIP / height, share, body / height))
-        colour, signals = LINES[k % len(LINES)], cast(Drawable, walk).signals
-        panels.append(_Panel(axes, views[k], signals, name, colour, float(times[0])))
+        colour = LINES[k % len(LINES)]
+        panels.append(_Panel(axes, views[k], walk.signals, name, colour, float(times[0])))
     strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
     errors = _Errors(strip, panels, times)
     _legend(figure, pace, height)
@@ -279,7 +279,7 @@ MARGIN = 0.6
 """Least ground [m] shown before the first and behind the last foothold."""
 
 
-def strip(axes: Axes, walk: Recorded, clip: Clip) -> Axes:
+def strip(axes: Axes, walk: Drawable, clip: Clip) -> Axes:
     """Draw the robot at POSES times, equally spaced over the part that `clip` shows; returns the axes.
 
     Without times: the last two steps. The first pose is at its start. A pose at an impact shows the end of the
@@ -341,7 +341,7 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
     axes.set_ylim(float(line[:, 1].min()) - 0.08, float(z.max()) + 1.05 * view.height)
 
 
-def write_strip(path: Path, walk: Recorded, clip: Clip) -> None:
+def write_strip(path: Path, walk: Drawable, clip: Clip) -> None:
     """Write a strip of stick figures as .png or .svg; arguments as for `strip`. Raises
     InputError and OutputError.
     """

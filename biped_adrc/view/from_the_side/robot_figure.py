@@ -1,4 +1,4 @@
-"""The paper's figure 1: the robot drawn from its URDF, with q1..q5, Theta, p_2 and p_e.
+"""The paper's figure 1: the lines of the robot from its URDF, with q1..q5, Theta, p_2 and p_e.
 
 A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
 positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
@@ -9,16 +9,18 @@ line from the hip to p_e: the phase of the virtual constraints.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Polygon
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.urdf import Visual
+from biped_adrc.view.from_the_side.moving_parts import COLOURS
+from biped_adrc.view.from_the_side.side_view import bones, placed_lines
 from biped_adrc.view.placement import joint_values, link_placements
 from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
@@ -40,7 +42,6 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
     q = np.array(POSE) if q is None else np.asarray(q, dtype=float)
     with new_figure(6.0, 6.6) as figure:
         axes = figure.subplots()
-        _ground(axes, biped, q)
         _links(axes, biped, q)
         _hip_angles(axes, biped, q)
         _knee_angles(axes, biped, q)
@@ -57,38 +58,14 @@ def direction(a: float) -> Array:
     return np.array([-math.sin(a), math.cos(a)])
 
 
-def _ground(axes: Axes, biped: Biped, q: Array) -> None:
-    """Draw hatched level ground below both feet."""
-    ends = (0.0, float(biped.swing_foot(q)[0]))
-    left, right = min(ends) - 0.35, max(ends) + 0.3
-    axes.plot([left, right], [0.0, 0.0], color="black", lw=1.0, zorder=1)
-    box = [(left, 0.0), (right, 0.0), (right, -0.03), (left, -0.03)]
-    axes.add_patch(Polygon(box, fc="white", ec=GREY, lw=0.0, hatch="////", zorder=0))
-
-
 def _links(axes: Axes, biped: Biped, q: Array) -> None:
-    """Draw the outlines of every link's primitives, seen from the side, in the colours of the URDF."""
-    placements = link_placements(biped.tree, joint_values(biped, q))
-    for name, link in biped.tree.links.items():
-        for visual in link.visuals:
-            outline = _silhouette(visual, placements[name])
-            outline.set(fc=(*visual.rgba[:3], 0.35), ec=visual.rgba[:3], lw=1.0, zorder=3)
-            axes.add_patch(outline)
-
-
-def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
-    """Outline of a primitive in the x-z plane: a circle for a ball, a rectangle for a box or a cylinder.
-
-    placement (4, 4): of its link in the world.
-    """
-    R, p = placement[:3, :3], placement[:3, 3]
-    centre = (R @ np.array(visual.origin) + p)[[0, 2]]
-    if visual.shape == "sphere":
-        return Circle((centre[0], centre[1]), visual.size[0])
-    first, second, *_ = size = visual.size
-    sides = (2.0 * first, second) if visual.shape == "cylinder" else size[::2]
-    corners = 0.5 * np.array(sides) * [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
+    """Draw the ground, and the lines of all links in the colours of their legs."""
+    axes.axhline(0.0, color="black", lw=1.0, zorder=1)
+    lines = bones(biped)
+    ends = placed_lines(lines, link_placements(biped.tree, joint_values(biped, q)))
+    shades = [COLOURS[bone.leg] for bone in lines]
+    look: dict[str, Any] = {"capstyle": "round", "alpha": 0.35, "zorder": 3}
+    axes.add_collection(LineCollection(ends, colors=shades, linewidths=12.0, **look))
 
 
 def _angle(

@@ -182,16 +182,14 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: flo
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
     """Draw light and dark tiles, from two before to three behind the walks, `depth` [m] below their footholds.
 
-    Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
+    Each walk has its own ground, as wide as its lane [m].
     """
     x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
-    lines = {scene.surface.line(low * TILE, high * TILE).tobytes() for scene in scenes}
-    shared, last = len(lines) == 1, len(scenes) - 1
-    names = itertools.count()
-    for k, scene in enumerate(scenes[:1] if shared else scenes):
+    last, names = len(scenes) - 1, itertools.count()
+    for k, scene in enumerate(scenes):
         near = -0.5 if k == 0 else (k - 0.5) * lane
-        far = last * lane + 0.5 if shared or k == last else (k + 0.5) * lane
+        far = last * lane + 0.5 if k == last else (k + 0.5) * lane
         # thick enough to reach the lower ground beside the highest step
         thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
         for ends, light in scene.surface.tiles(low, high):

@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
 from biped_adrc.view.placement import Drawable
 from biped_adrc.view.plots import over_time, stability
 from biped_adrc.view.plots.over_time import Window
@@ -46,7 +45,7 @@ def tracking_figure(
     m], and the tracking error.
 
     signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
-    time around it, shaded, and the milliseconds after either edge, without angles, as these do not move within
+    time around it, shaded, and the milliseconds after either edge, but for angles, as these do not move within
     milliseconds. torque_limit [N m]: drawn as a dotted line.
     """
     p = signals.q_d.shape[1]
@@ -56,13 +55,7 @@ def tracking_figure(
         partial(over_time.torques, s=signals, limit=torque_limit, push=push),
         partial(over_time.tracking_errors, s=signals, push=push),
     ]
-    size = (10.0, 7.2) if push else (7.5, 9.0)
-    with new_figure(*size, _titled(title, signals, push)) as figure:
-        if push is None:
-            spec = figure.add_gridspec(len(halves) + 2, 1)
-            column = _column(figure, [spec[i] for i in range(len(halves) + 2)], [*angles, *below])
-            column[0].set_xlim(signals.t[0], signals.t[-1])
-            return figure
+    with new_figure(10.0, 7.2, _titled(title, signals, push)) as figure:
         spec = figure.add_gridspec(3, 4)
         for place, draw in zip(_halves(spec, 0, len(halves)), angles, strict=True):
             _zoom(_column(figure, [place], [draw]), signals, push)
@@ -116,15 +109,13 @@ def _around_and_edges(
     The edges have their time in [ms] from it; the label of their values is at the left end of the row. Without
     a push there is one column, with the whole walk. rows: of the grid `spec`. Returns the axes by column.
     """
-    if push is None:
-        return [_column(figure, [spec[row, :] for row in rows], draws)]
+    places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
     around, *edges = (
-        _column(figure, [spec[row, place] for row in rows], draws)
-        for place in (slice(0, 2), slice(2, 3), slice(3, 4))
+        _column(figure, [spec[row, place] for row in rows], draws) for place in places
     )
     _zoom(around, s, push)
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
-    for column, edge, name in zip(edges, push, EDGES, strict=True):
+    for column, edge, name in zip(edges, push or (), EDGES, strict=False):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
         for axes in column:
             axes.legend().remove()
@@ -136,11 +127,11 @@ def _around_and_edges(
 
 
 def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
-    """Limit a column to the time around the push, if there is one, and each value axis
-    to the data shown there.
+    """Limit a column to the time around the push, or of the walk without one, and each value axis to the data
+    shown there.
     """
-    if push is not None:
-        _limits(column, max(push[0] - BEFORE, s.t[0]), min(push[1] + AFTER, s.t[-1]))
+    start, stop = push or (s.t[0], s.t[-1])
+    _limits(column, max(start - BEFORE, s.t[0]), min(stop + AFTER, s.t[-1]))
 
 
 def _limits(column: Sequence[Axes], low: float, high: float) -> None:
@@ -249,16 +240,6 @@ def multiplier_figure(
         circle, sizes = figure.subplots(1, 2)
         stability.multipliers(circle, multipliers).set_title("multipliers", loc="left")
         stability.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
-        return figure
-
-
-def return_map_figure(before: Array, after: Array) -> Figure:
-    """Draw the return map of Theta' as a staircase; see `stability.staircase`.
-
-    before, after (k,): Theta' before one impact and before the next [rad/s].
-    """
-    with new_figure(5.2, 4.8) as figure:
-        stability.staircase(figure.subplots(), before, after)
         return figure
 
 

@@ -1,4 +1,4 @@
-"""Floquet multipliers of the return map, and the return map of one coordinate as a staircase.
+"""Floquet multipliers of the return map, and the steps of a return map as stairs.
 
 A periodic walk is stable when all multipliers, the eigenvalues of the derivative of the return map
 at its fixed point, lie inside the unit circle. `analysis.stability` computes them by several
@@ -18,8 +18,6 @@ from biped_adrc.view.style import GREY, PALETTE, label
 
 MARKERS = "ox^s"
 """Marks of the points, one for each method of computing multipliers."""
-STEPS = 12
-"""Steps of the return map that a staircase shows."""
 
 
 def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
@@ -71,27 +69,6 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     """
     marker, colour = MARKERS[i % 4], PALETTE[i]
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
-
-
-def staircase(axes: Axes, before: Array, after: Array) -> Axes:
-    """Draw the return map of one coordinate, the diagonal, and STEPS steps of the map from either end of it.
-
-    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the map is
-    interpolated linearly. The walk settles where the stairs end: at the fixed point. Returns the axes.
-    """
-    order = np.argsort(before)
-    x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
-    axes.plot([x[0], x[-1]], [x[0], x[-1]], color=GREY, ls="--", label="the same speed")
-    axes.plot(x, y, color=PALETTE[0], marker="o", ms=3, label="return map")
-    for k, start in enumerate((x[0], x[-1])):
-        way = [float(start)]
-        for _ in range(STEPS):
-            way.append(float(np.interp(way[-1], x, y)))
-        stairs(axes, way, "step by step" if k == 0 else "_")
-    axes.plot(way[-1], way[-1], "s", color="black", ms=7, mfc="none", label="where it settles")
-    label(axes, r"$\dot\Theta$ before impact $k$ [rad/s]", r"before impact $k+1$ [rad/s]")
-    axes.legend(loc="best", frameon=False)
-    return axes
 
 
 def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:

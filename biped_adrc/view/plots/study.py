@@ -2,9 +2,6 @@
 
 They take plain values and draw any study: rows and columns are names, numbers come with the ends of an
 interval of 95 %, which are NaN where there is none. What is not finite has no mark.
-
-`push_map_figure` draws the map of pushes of the paper's reproduction (`paper.pushes`): how two controllers
-walk on after the same push, over onset, amplitude and joints.
 """
 
 from __future__ import annotations
@@ -17,13 +14,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Polygon
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from biped_adrc.analysis.feasibility import COUNTED
-from biped_adrc.core.types import Array, PlainRecord
-from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure
+from biped_adrc.core.types import Array
+from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 """Marks by series."""
@@ -50,7 +45,9 @@ def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
     with new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows)) as figure:
         axes, grey = figure.subplots(), Normalize(-1.5, 1.0)  # from 0.6 to white
         _cells(axes, values, texts, "gray", grey, "black")
-        named_cells(axes, [literal(x) for x in rows], [literal(x) for x in columns], 20)
+        axes.set_xticks(range(len(columns)), map(literal, columns), rotation=20, ha="right")
+        axes.set_yticks(range(len(rows)), map(literal, rows))
+        axes.invert_yaxis()
         return figure
 
 
@@ -224,68 +221,3 @@ def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
 def _names(found: Mapping[tuple[str, str], Any]) -> tuple[list[str], list[str]]:
     """Names of rows and of columns, each in the order of first appearance, from keys (row, column)."""
     return list(dict.fromkeys(a for a, _ in found)), list(dict.fromkeys(b for _, b in found))
-
-
-FATES: dict[str, tuple[str, str, str]] = {
-    "feasible": ("walks on, feasible", "#FFFFFF", ""),
-    "but_impact": ("walks on, feasible but for the impact", "#E8E8E8", "/"),
-    "infeasible": ("makes all steps, beyond friction or torque", "#F0E442", "///"),
-    "pulled": ("makes all steps, the ground would have had to pull", "#E69F00", "..."),
-    "fell": ("falls", "#555555", "xxx"),
-    "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
-    "marginal": ("the step of the method decides", "#56B4E9", "++"),
-}
-"""Outcome of a walk -> text of the legend, colour, hatch; the hatches tell them apart in a grey print too."""
-
-
-def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
-    """Draw which pushes each controller survives: a panel for each torque limit, a cell for each push.
-
-    Columns are onsets, rows (pattern, amplitude); the upper left half of a cell is NPD, the lower right half
-    ADRC. rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
-    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit, rows of cells
-    are in the order of the data. The title of a panel counts the pushes that are feasible, the impact aside.
-    """
-    limits = sorted({r["torque_limit"] for r in rows}, key=lambda v: (v is not None, v))
-    kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
-    onsets = sorted({r["onset_ms"] for r in rows})
-    height = 2.1 + 0.2 * max(len(kinds), 4)
-    with new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height) as figure:
-        panels = figure.subplots(1, len(limits), squeeze=False, sharey=True)[0]
-        for axes, limit in zip(panels, limits, strict=True):
-            here = [r for r in rows if r["torque_limit"] == limit]
-            _pushes(axes, here, kinds, onsets)
-            name = "unlimited torque" if limit is None else f"torque within {limit:g} N m"
-            label(axes, "onset of the push in the step [ms]", "", f"{name}\n{_counted(here)}")
-        panels[0].set_ylabel("joints and amplitude of the push [N m]")
-        shown = {r[key] for r in rows for key in ("npd_word", "adrc_word")}
-        handles = [
-            Patch(fc=c, ec="black", hatch=h, label=t)
-            for word, (t, c, h) in FATES.items()
-            if word in shown
-        ]
-        columns = 1 if len(limits) < 2 else 2
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns)
-        return figure
-
-
-def _pushes(
-    axes: Axes, rows: Sequence[PlainRecord], kinds: list[tuple[str, float]], onsets: list[float]
-) -> None:
-    """Draw the cells of one panel, columns by onset [ms], rows by (pattern, amplitude [N m])."""
-    for r in rows:
-        x = onsets.index(r["onset_ms"]) - 0.5
-        y = kinds.index((r["pattern"], r["amplitude"])) - 0.5
-        upper = [(x, y), (x + 1, y), (x, y + 1)]  # the axis of y points down
-        lower = [(x + 1, y), (x + 1, y + 1), (x, y + 1)]
-        for key, corners in (("npd_word", upper), ("adrc_word", lower)):
-            _, colour, hatch = FATES[r[key]]
-            axes.add_patch(Polygon(corners, fc=colour, ec="black", lw=0.4, hatch=hatch))
-    names = [f"{pattern}, {size:g}" for pattern, size in kinds]
-    named_cells(axes, names, [f"{onset:g}" for onset in onsets])
-
-
-def _counted(rows: Sequence[PlainRecord]) -> str:
-    """Text that counts, for each controller, the pushes after which the walk is feasible, the impact aside."""
-    npd, adrc = (sum(r[f"{c}_word"] in COUNTED for r in rows) for c in ("npd", "adrc"))
-    return f"feasible, the impact aside: NPD {npd}, ADRC {adrc} of {len(rows)}"
