@@ -24,13 +24,13 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 
 import numpy as np
-from scipy.linalg.lapack import dgtsv
 
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
 from biped_adrc.core.errors import ModelError
+from biped_adrc.core.linear import lapack
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, freeze
@@ -368,7 +368,7 @@ def _under_spline(t: Array, y: Array) -> float:
         d = h[i] + h[j]
         A[1, i], A[row, j] = h[j], d
         b[i] = ((h[i] + 2.0 * d) * h[j] * m[i] + h[i] ** 2 * m[j]) / d
-    s = dgtsv(A[2, :-1], A[1], A[0, 1:], b)[3]
+    s = lapack.dgtsv(A[2, :-1], A[1], A[0, 1:], b)[3]
     return float(np.trapezoid(y, t) + np.sum(h * h * (s[:-1] - s[1:])) / 12.0)
 
 
