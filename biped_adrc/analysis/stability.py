@@ -39,13 +39,13 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.integrators import Adaptive, Stiff
-from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 
@@ -291,7 +291,8 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     method = P.method  # means over 5 ms take the momentum as linear between nodes
     if isinstance(method, Adaptive | Stiff):
         method = replace(method, max_step=APART)
-    run = simulate(walker, *start, method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
+    stop = FOOT_STRIKE, 1
+    run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)

@@ -101,7 +101,9 @@ def beside(file: Path, name: object) -> Path:
     path = file.parent / str(name)
     folders = {file.parent.resolve(), file.resolve().parent}
     if not any(path.resolve().is_relative_to(folder) for folder in folders):
-        raise InputError(f"'{file}' names '{name}', expected one in its own folder; copy it there")
+        raise InputError(
+            f"'{file}' names '{name}', expected one in its own folder or below; copy it there"
+        )
     return path
 
 

@@ -194,7 +194,8 @@ def _terms(
     if not y.size:
         return []
     if y.shape != (len(t), size) or not np.all(np.isfinite([*y.ravel(), *t])):
-        raise InputError(f"{what} of the hand are {y.shape}, expected finite ({len(t)}, {size})")
+        shape = f"{y.shape}, expected finite numbers ({len(t)}, {size})"
+        raise InputError(f"{what} of the hand have the shape {shape}")
     y, windows = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
     for first, last in pairwise([*range(0, len(t), PIECES), len(t)]):
         at, jumps = np.full(PIECES, np.inf), np.zeros((size + moment, PIECES))

@@ -32,9 +32,9 @@ def test_rows_are_held_from_their_times_on_in_one_single_support(biped):
         ({"times": [0.2, 0.1]}, "increase from 0"),
         (
             {"times": [0.1], "torques": [[1.0, 2.0]]},
-            r"shape \(1, 2\), expected finite numbers \(1, 5\)",
+            r"torques of the hand have the shape \(1, 2\), expected finite numbers \(1, 5\)",
         ),
-        ({"times": [0.1], "on": "torso", "forces": [[1.0, np.inf]]}, "finite numbers"),
+        ({"times": [0.1], "on": "torso", "forces": [[1.0, np.inf]]}, "expected finite"),
         ({"times": [0.1], "on": "tail", "forces": [[1.0, 0.0]]}, "tail"),
     ],
 )

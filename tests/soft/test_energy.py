@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.feet import readings
+from biped_adrc.analysis.soft_steps import feet_of
+from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
@@ -20,9 +19,10 @@ STILL = Load(np.zeros(5), np.zeros(2))
 PUSH = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.02, stop=0.06)
 
 
-def energy(plant, r, k):
-    """Kinetic with rotors, and potential [J], by MuJoCo at reading k."""
-    plant.footing(r.row[k], r.u[k], STILL)
+def energy(loop, x):
+    """Kinetic with rotors, and potential [J], by MuJoCo at a state."""
+    plant = loop.plant
+    plant.footing(loop.row(x), x[-plant.p :], STILL)
     mujoco().mj_energyPos(plant.engine.model, plant.engine.data)
     mujoco().mj_energyVel(plant.engine.model, plant.engine.data)
     return plant.engine.data.energy.sum()
@@ -33,24 +33,23 @@ def balance(biped, gait, h):
     there on for 0.1 s; the largest power of the ground [W]; and all the work that was exchanged [J].
     """
     plant = MuJoCoPlant(biped, h=h)
-    loop = loop_on(plant, ba.NPDController(gait.constraint), disturbance=PUSH)
+    law, every = ba.NPDController(gait.constraint), ba.SampledTime(h)  # nodes at each step
+    loop = loop_on(plant, law, disturbance=PUSH, timing=every)
     first = run_of(loop, gait, impacts=1)
     end = first.events()[0]
-    later = loop.run(end.x_plus, RunOptions(end.t + 0.1, end.t), mode=Mode(2, end.t)).arcs[0]
-    arc = first.arcs[0]
-    before = replace(
-        arc, t=arc.t[-20:], x=arc.x[-20:], dx=arc.dx[-20:], read={"u": arc.read["u"][-20:]}
-    )
+    later = loop.run(end.x_plus, RunOptions(end.t + 0.1, end.t), mode=Mode(2, end.t))
     missing, most, done = [], 0.0, 0.0
     viscous, static = (float(biped.friction) * x for x in biped.friction_coefficients)
-    for part in (before, later):
-        r = readings(loop, part, h)
-        v = r.row[:, 5:10]
-        power = np.sum(r.u * v[:, :4], axis=1) + np.sum(r.zeta * v, axis=1)
-        ground = np.sum(r.force * r.speed, axis=(1, 2))
+    for run, last in ((first, 2 * round(0.01 / h)), (later, 0)):
+        arc = with_readings(loop, run).arcs[0]
+        t, x, v = arc.t[-last:], arc.x[-last:], arc.x[-last:, 5:10]
+        u, zeta = arc.read["u"][-last:], arc.read["zeta"][-last:]
+        force, _, speed = (each[-last:] for each in feet_of(arc))
+        power = np.sum(u * v[:, :4], axis=1) + np.sum(zeta * v, axis=1)
+        ground = np.sum(force * speed, axis=(1, 2))
         power += ground - v**2 @ viscous - np.abs(v) @ static
-        level = np.array([energy(plant, r, k) for k in range(len(r.t))])
-        work = 0.5 * np.diff(r.t) * (power[1:] + power[:-1])
+        level = np.array([energy(loop, row) for row in x])
+        work = 0.5 * np.diff(t) * (power[1:] + power[:-1])
         missing.append(np.diff(level) - work)
         most, done = max(most, np.max(np.abs(ground))), done + np.sum(np.abs(work))
     return missing, most, done
