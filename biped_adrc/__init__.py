@@ -4,7 +4,7 @@
 They are listed once, in `__init__.pyi`: a type checker reads that file as it is, and at run time
 this module reads it for the home of each name.
 
-A module is imported when one of its names is first used. Pinocchio, CasADi, numba and matplotlib
+A module is imported when one of its names is first used. Pinocchio, CasADi and matplotlib
 take seconds to load, and most programs need only some of them.
 """
 

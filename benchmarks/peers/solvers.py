@@ -24,7 +24,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, intrinsic
-from biped_adrc.engine.program import Program, numbers_of
+from biped_adrc.engine.numbers import numbers_of
+from biped_adrc.engine.program import Program
 
 RTOL, ATOL, MOST_STEPS = 1e-6, 1e-9, 100_000
 BDF, NORMAL = 2, 1

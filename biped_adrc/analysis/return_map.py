@@ -26,9 +26,9 @@ from biped_adrc.core.errors import InputError, ModelError, SimulationError
 from biped_adrc.core.linear import solve
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import check_engine
-from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status

@@ -196,8 +196,9 @@ def compiled_readings(
     left.
     """
     from biped_adrc.engine.calls import Call, parts_of
-    from biped_adrc.engine.program import COMPILED, Program, numbers_of
-    from biped_adrc.engine.symbols import NotCompiled
+    from biped_adrc.engine.not_compiled import NotCompiled
+    from biped_adrc.engine.numbers import numbers_of
+    from biped_adrc.engine.program import COMPILED, Program
 
     first, point = trajectory.arcs[0], partial(tracked_point, reference)
     try:
@@ -219,7 +220,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
     from biped_adrc.engine.calls import pushes, zeta_rows
     from biped_adrc.engine.kernels.record import OUTSIDE
-    from biped_adrc.engine.symbols import NotCompiled
+    from biped_adrc.engine.not_compiled import NotCompiled
 
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))

@@ -23,7 +23,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import eig
 
 from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.return_map import (
@@ -40,13 +39,13 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.integrators import Adaptive, Stiff
-from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 
@@ -158,6 +157,8 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
+    from scipy.linalg import eig
+
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
@@ -290,7 +291,8 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     method = P.method  # means over 5 ms take the momentum as linear between nodes
     if isinstance(method, Adaptive | Stiff):
         method = replace(method, max_step=APART)
-    run = simulate(walker, *start, method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
+    stop = FOOT_STRIKE, 1
+    run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)

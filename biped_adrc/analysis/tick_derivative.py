@@ -20,8 +20,9 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
-from biped_adrc.engine.program import Program, numbers_of
-from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.numbers import numbers_of
+from biped_adrc.engine.program import Program
 
 DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""
@@ -72,7 +73,7 @@ def _function(program: Program) -> ca.Function:
     """(K, inp) -> (x+, J); the values of the program's numbers do not matter."""
     key, nx = program.key, program.nx
     if key not in _FUNCTIONS:
-        tick = program.tick()
+        tick = program.equations.tick()
         after = ca.densify(tick.out[:nx])
         J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + nx])
         _FUNCTIONS[key] = ca.Function("tick", [tick.K, tick.inp], [after, J], {"cse": True})

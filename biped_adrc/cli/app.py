@@ -1,7 +1,7 @@
 """What the commands share: the typer app, what they print to, the progress bar, and checks of file names.
 
 Names of inputs and outputs are looked at before anything is computed, so that a mistake costs no
-time. Modules of the package that take long to load (Pinocchio, CasADi, numba, matplotlib) are
+time. Modules of the package that take long to load (Pinocchio, CasADi, matplotlib) are
 imported inside the functions that use them, in all of `cli`: `biped-adrc --help` is printed at
 once.
 

@@ -19,7 +19,7 @@ from biped_adrc import __version__
 
 SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
-NUMERICAL = (*SHOWN[:4], "casadi", "numba", "llvmlite", "qpsolvers", "daqp")
+NUMERICAL = (*SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp")
 """Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
@@ -65,8 +65,8 @@ def numerical_versions() -> Mapping[str, str]:
 
 
 def source_hash(root: Path) -> str:
-    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, sorted."""
+    """SHA-256 in hexadecimal digits over names and contents of Python and LLVM files below `root`, sorted."""
     digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
+    for path in sorted((*root.rglob("*.py"), *root.rglob("*.ll"))):
         digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()

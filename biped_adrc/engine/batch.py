@@ -26,9 +26,9 @@ from biped_adrc.core.checks import PositiveInt, check_fields, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
+from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import COMPILED, CompiledWalker
 from biped_adrc.engine.run import STORE, simulate_by, simulate_compiled
-from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator

@@ -17,7 +17,7 @@ from functools import cached_property, lru_cache
 from itertools import accumulate
 from operator import methodcaller
 from types import new_class
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -25,17 +25,19 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.generated import generated
+from biped_adrc.engine.leaves import floats, rebuilt
 from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
-from biped_adrc.engine.tracer import Tracer, located, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
+
+if TYPE_CHECKING:
+    from biped_adrc.engine.equations import SymbolicFunction
 
 Shape = tuple[int, ...]
 """Shape of an array."""
@@ -113,6 +115,10 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
 
     def traced() -> SymbolicFunction:
+        from biped_adrc.engine.equations import SymbolicFunction
+        from biped_adrc.engine.symbols import Vector, column, symbols_of
+        from biped_adrc.engine.tracer import Tracer, run
+
         (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
         symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
         law = methodcaller(method, *(inp.take(*size) for size in sizes))

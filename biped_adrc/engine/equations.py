@@ -36,14 +36,15 @@ from numpy.typing import ArrayLike
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.closed_loop.walker import ErrorForm, remainder
-from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.control.outer_loop import OuterLoop, tracked_point
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.outer_loop import tracked_point
 from biped_adrc.core.tree import Layout, chosen
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.kernels.record import OUTSIDE
+from biped_adrc.engine.not_compiled import Located, NotCompiled
+from biped_adrc.engine.numbers import NONE, Reading, WalkerNumbers
 from biped_adrc.engine.symbols import (
-    NotCompiled,
     Scalar,
     Vector,
     column,
@@ -52,16 +53,11 @@ from biped_adrc.engine.symbols import (
     symbols_of,
     where,
 )
-from biped_adrc.engine.tracer import Located, Tracer, run
-from biped_adrc.gait.reference import Reference
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.model.planar_robot import PlanarRobot
 
 T = TypeVar("T")
-
-
-Reading = Callable[..., tuple[Array, ...]]
-"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
 
 
 class SymbolicLoop(NamedTuple):
@@ -169,40 +165,6 @@ class SymbolicInstant(NamedTuple):
         return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
-NONE = np.zeros(0)
-
-
-class WalkerNumbers(NamedTuple):
-    """All numbers of a walker that are given at run time, in the order of the vector K."""
-
-    plant: PlanarRobot
-    """The robot that moves."""
-    model: PlanarRobot | None
-    """The controller's model, None where it is the plant."""
-    controller: Controller
-    """In the time base of the walker."""
-    torque_limit: float
-    """[N m], infinite without one."""
-    tan_slope: float = 0.0
-    """Tangent of the ground's slope [1], positive downhill."""
-    lowest_hip: float = 0.0
-    """Height of the hip below which the robot has fallen [m]."""
-    longest: float = math.inf
-    """Longest single support [s]."""
-    strongest: float = math.inf
-    """Torque beyond which the run ends [N m], infinite without such a bound."""
-    held: HeldParts | tuple[()] = ()
-    """Parameters of what is held between sample instants, empty in continuous time."""
-    impact_gain: Array = NONE
-    """Relative errors of v+ (n,) [1], empty without."""
-    split: ErrorForm | None = None
-    """Coordinates of the exponential method."""
-    curve: Reference | OuterLoop | None = None
-    """What readings refer to; no other function has it."""
-    moves: bool = False
-    """Whether the plant moves by itself, and has sample instants alone."""
-
-
 class SymbolicFunction(NamedTuple):
     """`void f(double* K, double* inp, double* out)` as CasADi's columns: out as an expression of K and inp."""
 
@@ -234,14 +196,6 @@ class Equations:
     def nx(self) -> int:
         """Numbers in a state."""
         return self.layout.size
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the functions that this walker has; each is a method of this class."""
-        if self.numbers.moves:
-            return ["tick"]
-        split = [] if self.numbers.split is None else ["to", "back", "remainder"]
-        return ["flow", "impact", "events", *(["tick"] if self.numbers.held else []), *split]
 
     def loop(self, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""

@@ -16,15 +16,13 @@ the same whatever function is compiled beside.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.machine import LoadedCode, keep, load_or_compile, stored
-from biped_adrc.engine.structure import lasting
-from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.not_compiled import NotCompiled
 
 CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
@@ -128,46 +126,6 @@ DECLARATIONS = "\n".join(
     for name, code in {name: code for code, name in CALLED.items()}.items()
 )
 """Head of every module."""
-
-
-Functions = Mapping[str, Callable[[], SymbolicFunction]]
-"""By name, each to be called for its expression."""
-_IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
-"""Code by structure, or why there is none; a function is a value, so this is no state."""
-
-
-def generated(key: Hashable, functions: Functions, vectors: bool = False) -> LoadedCode:
-    """These functions in memory, by name; traced once per structure.
-
-    - key: the structure of what they are made from (`engine.structure`).
-    - vectors: as of `machine.object_code`.
-
-    Raises NotCompiled, each time without tracing anew.
-    """
-    names = list(functions)
-    key = key, *names
-    code = _IN_MEMORY.get(key)
-    if code is None:
-        try:
-            code = load_or_compile(_text(key, functions), names, vectors)
-        except NotCompiled as error:
-            code = str(error)
-        _IN_MEMORY[key] = code
-    if isinstance(code, str):
-        raise NotCompiled(code)
-    return code
-
-
-def _text(key: Hashable, functions: Functions) -> str:
-    """The text of these functions; from the disk where another process has made it for the same structure."""
-    link = lasting(key)
-    there = stored(link) if link else None
-    if there is not None:
-        return there.decode()
-    result = module_text({name: f() for name, f in functions.items()})
-    if link:
-        keep(link, result.encode())
-    return result
 
 
 def module_text(functions: dict[str, SymbolicFunction]) -> str:

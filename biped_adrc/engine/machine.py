@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import platform
 import threading
 from collections.abc import Sequence
 from contextlib import suppress
@@ -21,7 +20,6 @@ from platformdirs import user_cache_path
 
 from biped_adrc.core.errors import OutputError
 from biped_adrc.core.files import write_bytes
-from biped_adrc.core.versions import packages
 
 CHECK = 32
 """Bytes of the checksum before the object code."""
@@ -146,12 +144,3 @@ def keep(key: str, code: bytes) -> None:
 
 VARIABLE = "BIPED_ADRC_CACHE"
 """Environment variable: the folder of generated code, by default biped_adrc in the user's cache."""
-
-
-def key_of(source: str) -> str:
-    """Hash of the source, of numba, llvmlite, NumPy and Python, and of the processor.
-
-    What is compiled for one processor may use instructions that another has not.
-    """
-    made_by = packages(("numba", "llvmlite", "numpy")).values()
-    return hash_of(source, *made_by, platform.python_version())

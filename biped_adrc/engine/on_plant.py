@@ -35,8 +35,9 @@ from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.calls import Call, compiled_biped, compiled_references, pushes, zeta_rows
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.program import COMPILED, Program, controller_numbers
-from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.numbers import controller_numbers
+from biped_adrc.engine.program import COMPILED, Program
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import robot_of
 

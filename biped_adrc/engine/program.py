@@ -13,46 +13,70 @@ moves in machine code between them.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
-from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum
-from biped_adrc.engine import equations
-from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.generated import generated
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
+from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.not_compiled import NotCompiled, located
+from biped_adrc.engine.numbers import Reading, WalkerNumbers, numbers_of
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, floats
-from biped_adrc.engine.tracer import located
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
-from biped_adrc.model.planar_robot import PlanarRobot, robot_of
+
+if TYPE_CHECKING:
+    from biped_adrc.engine.equations import Equations, SymbolicFunction
 
 COMPILED = "compiled"
 """Name of the engine in settings and records."""
 
 
 @dataclass(frozen=True)
-class Program(Equations):
+class Program:
     """Functions by name, compiled, and the numbers they are called with.
 
     Raises NotCompiled for a part whose content cannot be compared, when it is asked for.
     """
+
+    layout: Layout
+    """Of a state x."""
+    numbers: WalkerNumbers
+    """The numbers by name."""
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The functions on symbols; CasADi is imported here, where something is traced."""
+        from biped_adrc.engine.equations import Equations
+
+        return Equations(self.layout, self.numbers)
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return self.layout.size
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the functions that this walker has; each is a method of `Equations`."""
+        if self.numbers.moves:
+            return ["tick"]
+        split = [] if self.numbers.split is None else ["to", "back", "remainder"]
+        return ["flow", "impact", "events", *(["tick"] if self.numbers.held else []), *split]
 
     @cached_property
     def K(self) -> Array:
@@ -79,45 +103,19 @@ class Program(Equations):
     def reading(self, read: Reading) -> LoadedCode:
         """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
         key = read, self.key, structure(self.numbers.curve)
-        return generated(key, {"reading": partial(self.view, read)})
+        return generated(key, {"reading": lambda: self.equations.view(read)})
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
-            return getattr(self, name)()
+            return getattr(self.equations, name)()
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            code = generated(sizes, {name: partial(equations.matvec, *sizes)}, vectors=True)
+            code = generated(sizes, {name: partial(_matvec, *sizes)}, vectors=True)
         return code.addresses.get(name, 0)
-
-
-def numbers_of(
-    walker: Walker, split: ErrorForm | None = None, curve: Reference | OuterLoop | None = None
-) -> WalkerNumbers:
-    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
-
-    split: coordinates of the exponential method. curve: what readings refer to. Raises ModelError for a robot
-    that is no planar tree.
-    """
-    return controller_numbers(robot_of(walker.plant), walker)._replace(
-        model=None if walker.model is None else robot_of(walker.model),
-        tan_slope=math.tan(walker.ground_slope),
-        lowest_hip=float(walker.lowest_hip),
-        longest=float(walker.max_step_time),
-        impact_gain=walker.gain,
-        split=split,
-        curve=None if curve is None else tracked_by(walker.law, curve),
-    )
-
-
-def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
-    """The numbers of a controller in sampled time and of its model, without plant and ground."""
-    limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
-    strongest, held = float(loop.bounds.strongest), loop.held or ()
-    return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)
 
 
 def push_code(term: Disturbance, n: int) -> LoadedCode:
@@ -128,7 +126,19 @@ def push_code(term: Disturbance, n: int) -> LoadedCode:
     """
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
-    return generated(("push", n, structure(term)), {"push": partial(equations.push, term, n)})
+    return generated(("push", n, structure(term)), {"push": partial(_push, term, n)})
+
+
+def _push(term: Disturbance, n: int) -> SymbolicFunction:
+    from biped_adrc.engine.equations import push
+
+    return push(term, n)
+
+
+def _matvec(k: int, p: int) -> SymbolicFunction:
+    from biped_adrc.engine.equations import matvec
+
+    return matvec(k, p)
 
 
 def at_rest(layout: Layout) -> Layout:

@@ -25,8 +25,8 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.calls import CompiledReference, compiled_biped, compiled_references
+from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import COMPILED, CompiledWalker
-from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.engine.ticks import PythonTicks
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.exponential import Exponential

@@ -28,12 +28,12 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
+from biped_adrc.engine.leaves import floats
+from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.program import CompiledWalker, Program
 from biped_adrc.engine.run import compiled_plant
-from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod

@@ -21,8 +21,9 @@ import numpy as np
 from biped_adrc.core.checks import LIBRARIES, PACKAGE, is_users
 from biped_adrc.core.part import content, is_part
 from biped_adrc.core.versions import numerical_versions
+from biped_adrc.engine.leaves import HIDDEN, LISTS, REALS
 from biped_adrc.engine.machine import hash_of
-from biped_adrc.engine.symbols import HIDDEN, LISTS, REALS, NotCompiled
+from biped_adrc.engine.not_compiled import NotCompiled
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:

@@ -18,29 +18,21 @@ from __future__ import annotations
 
 import functools
 import math
-import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from typing import Any, TypeVar, Union
 
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.core.errors import InputError
-from biped_adrc.core.part import Setup, content, is_part, with_content
+from biped_adrc.core.part import content, is_part, with_content
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.model.biped import Biped
+from biped_adrc.engine.leaves import HIDDEN, LISTS, REALS, floats, rebuilt
+from biped_adrc.engine.not_compiled import NotCompiled
 
 T = TypeVar("T")
 
 
-class NotCompiled(InputError):
-    """A method or part that cannot be compiled, such as one that branches on the value of a number; the text
-    names it.
-    """
-
-
-REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
 Number = Union["Scalar", float]
 """A symbol, or a number that the structure fixes."""
 
@@ -255,11 +247,6 @@ wheres: Callable[..., Any] = elementwise(where)
 """`where`, entry by entry."""
 
 
-def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
-    """A tuple, NamedTuple or list of the same class with other parts."""
-    return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
-
-
 class Hidden:
     """A stand-in for an object that has no symbols: a robot, complex or random numbers. Raises NotCompiled
     when used.
@@ -274,11 +261,6 @@ class Hidden:
     __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = __call__ = (
         lambda self, *_: self.__getattr__("")
     )
-
-
-RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
-HIDDEN = (Biped, complex, np.complexfloating, Setup, *RANDOM)
-"""What is neither number nor structure in a part; machine code must not depend on it."""
 
 
 class Vector:
@@ -322,38 +304,6 @@ def symbols_of(example: T) -> tuple[ca.SX, T]:
     """
     K = Vector("K", 1 + len(floats(example)))
     return K.symbol, K.like(example)
-
-
-def floats(tree: object) -> list[float]:
-    """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, REALS):
-        return [float(tree)]
-    if isinstance(tree, np.ndarray):
-        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    return [number for _, x in inside(tree) for number in floats(x)]
-
-
-def paths(tree: object) -> list[str]:
-    """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
-    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
-    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
-
-
-def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Numbers and arrays of numbers in a tree, each with its name."""
-    if isinstance(tree, REALS) or (isinstance(tree, np.ndarray) and tree.dtype.kind == "f"):
-        yield name, tree
-    for part, x in inside(tree):
-        place = f"[{part}]" if isinstance(part, int) else f".{part}" if name else part
-        yield from leaves(x, name + place)
-
-
-def inside(tree: object) -> Iterator[tuple[str | int, object]]:
-    """The parts of a tuple, list or part, each with its name or place."""
-    if is_part(tree) and not isinstance(tree, HIDDEN):
-        yield from content(tree).items()
-    elif isinstance(tree, LISTS):
-        yield from zip(getattr(tree, "_fields", range(len(tree))), tree, strict=True)
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:

@@ -15,10 +15,8 @@ import inspect
 import math
 import random as stdlib_random
 import sys
-import traceback
 import types
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import is_dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -30,12 +28,12 @@ from numpy.typing import NDArray
 from biped_adrc.core import checks, linear
 from biped_adrc.core.part import Part, content, derived, is_part, with_content
 from biped_adrc.core.types import frozen
+from biped_adrc.engine.leaves import HIDDEN, rebuilt
+from biped_adrc.engine.not_compiled import Located, NotCompiled, located
 from biped_adrc.engine.structure import is_library
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
-    HIDDEN,
     Hidden,
-    NotCompiled,
     Scalar,
     Solver,
     T,
@@ -43,7 +41,6 @@ from biped_adrc.engine.symbols import (
     function_of,
     maximum,
     minimum,
-    rebuilt,
     solve_positive,
     where,
 )
@@ -252,41 +249,6 @@ def run(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
     """
     with located(f):
         return trace(f)(*map(trace.on_symbols, arguments))
-
-
-class Located(NotCompiled):
-    """One whose text says where."""
-
-
-@contextmanager
-def located(f: object) -> Iterator[None]:
-    """Context that turns each error, such as NumPy's about objects that are no floats, into a Located with its
-    place.
-    """
-    try:
-        yield
-    except Located:
-        raise
-    except Exception as error:
-        raise Located(f"{_place(error, f)} cannot be compiled: {error}") from error
-
-
-def _place(error: Exception, f: Any) -> str:
-    """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
-    frames = traceback.extract_tb(error.__traceback__)
-    codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
-    pairs = list(zip(codes, frames, strict=True))
-    package = [x for x in pairs if x[1].filename.startswith(checks.PACKAGE)]
-    methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
-    own = [x for x in pairs if checks.is_users(x[1].filename)] or methods or package
-    if not own:
-        return str(getattr(f, "__qualname__", f))
-    code, frame = own[-1]
-    name = code.co_qualname.replace(".<locals>", "")
-    return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
-
-
-HERE = str(Path(__file__).parent)
 
 
 def catches(code: types.CodeType) -> bool:

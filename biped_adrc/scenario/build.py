@@ -18,7 +18,6 @@ from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.analysis.stability import cycle_start
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
@@ -104,6 +103,8 @@ class RobotAndGait:
         coordinates. Raises InputError for a coordinate that the robot does not have.
         """
         if self.cycle is not None:
+            from biped_adrc.analysis.stability import cycle_start
+
             return cycle_start(self.biped, self.slope(s))
         q, v = self.on_orbit
         x, random = s.start, np.random.default_rng(drawn(s, "start"))

@@ -34,13 +34,13 @@ from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.shown import one_line, short
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
+from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
-from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory

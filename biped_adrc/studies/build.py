@@ -27,9 +27,10 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.registry import find, is_own
 from biped_adrc.disturbances.base import Disturbance, Windowed, summands
 from biped_adrc.engine.batch import Case
-from biped_adrc.engine.program import COMPILED, numbers_of
+from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.numbers import numbers_of
+from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.dotted import nested

@@ -24,9 +24,12 @@ from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.machine import load_or_compile
-from biped_adrc.engine.program import Program, numbers_of, push_code
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.not_compiled import NotCompiled
+from biped_adrc.engine.numbers import numbers_of
+from biped_adrc.engine.program import Program, push_code
+from biped_adrc.engine.symbols import Vector, column
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve

@@ -12,7 +12,8 @@ from biped_adrc.control.base import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.calls import compiled_biped
-from biped_adrc.engine.program import Program, numbers_of
+from biped_adrc.engine.numbers import numbers_of
+from biped_adrc.engine.program import Program
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles

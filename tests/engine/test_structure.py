@@ -13,10 +13,10 @@ import biped_adrc as ba
 from biped_adrc.core.checks import LIBRARIES
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.generated import generated
+from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import lasting, structure
-from biped_adrc.engine.symbols import floats
 from tests.control.conforms import call
 
 HEAD = """

@@ -1,9 +1,10 @@
 """Several threads that ask for the loops at once, in a process where nothing is loaded yet."""
 
+import os
 import subprocess
 import sys
 
-from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.machine import VARIABLE
 
 LINES = """
 import sys
@@ -16,9 +17,13 @@ print(len(set(map(id, found))), "numba" in sys.modules)
 """
 
 
-def test_the_loops_are_loaded_once_and_without_numba_where_they_are_on_disk():
-    kernels()
+def test_the_loops_are_loaded_once_and_without_numba_in_an_empty_cache(tmp_path):
     run = subprocess.run(
-        [sys.executable, "-c", LINES], capture_output=True, text=True, check=True, timeout=300
+        [sys.executable, "-c", LINES],
+        env=os.environ | {VARIABLE: str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
     )
     assert run.stdout.split() == ["1", "False"]

@@ -22,8 +22,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout, chosen
 from biped_adrc.core.types import Array, Indices
-from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.program import controller_numbers
+from biped_adrc.engine.numbers import WalkerNumbers, controller_numbers
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor

@@ -1,6 +1,6 @@
 """The compiled loops and functions of walkers as one WebAssembly module, for a page that needs no server.
 
-It is made from the same text as the machine code: the loops of `engine.kernels` as numba gives them to LLVM,
+It is made from the same text as the machine code: the loops of `engine.kernels` in LLVM's language,
 and the functions as `engine.ir` writes them. LLVM makes an object file, in which functions call each other by
 number, and which a browser starts as it is. Functions called from outside stand in its table of functions, in
 the order of the constant `called`, from 1 on.
@@ -25,7 +25,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import LoadedCode, keep, key_of, object_code, parsed, stored
+from biped_adrc.engine.machine import LoadedCode, hash_of, keep, object_code, parsed, stored
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -109,7 +109,7 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
     of the text `name` is `name.f`.
     """
     own = Path(__file__).read_text(encoding="utf-8")
-    key = key_of("\0".join((TARGET, loops(), own, *called, *chain(*laws.items()))))
+    key = hash_of(TARGET, loops(), own, *called, *chain(*laws.items()))
     code = stored(key)
     if code is None:
         code = _linked(laws, called)

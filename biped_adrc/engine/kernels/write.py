@@ -1,0 +1,87 @@
+"""The text for LLVM of the march's loops, as numba writes it.
+
+The sources are joined into one text of Python, without their imports of each other. The reason is
+`hybrid.march`: it calls operations such as `flow` and `add` by name. In Python they are those of
+`hybrid.on_arrays`, which it imports; in the joined text the same names are those of `kernels.operations`, which
+`load.FILES` has in place of it. In the editor and for type checks the files are ordinary modules.
+
+Whoever changes one of these files runs `python -m validation.texts`; a test compares.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from llvmlite import binding
+
+from biped_adrc.core.errors import ModelError
+
+ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
+"""What numba calls where Python would raise an error, which the loops never do."""
+
+HINTS = re.compile(r" ?\bcaptures\(none\)| ?\bnoundef\b| ?\brange\([^)]*\)")
+"""Attributes that LLVM finds again, and whose words change from version to version: a text without them is read
+by each LLVM from 20 to 22."""
+
+
+def sources(files: tuple[str, ...]) -> str:
+    """The texts of modules, one after the other."""
+    root = Path(__file__).parents[3]
+    paths = [root / f"{name.replace('.', '/')}.py" for name in files]
+    return "\n".join(path.read_text(encoding="utf-8") for path in paths)
+
+
+def joined(files: tuple[str, ...]) -> str:
+    """The text of files, one after the other, without their imports of each other and of the march's operations
+    of Python.
+    """
+    # `from hybrid.on_arrays import *`, if it stayed, would put Python's operations in place of the compiled
+    # ones of the same names. `__future__` has to stand first, where it is put back.
+    left_out = ("__future__", *files, "biped_adrc.hybrid.on_arrays")
+    statements = [
+        statement
+        for statement in ast.parse(sources(files)).body
+        if not (isinstance(statement, ast.ImportFrom) and statement.module in left_out)
+    ]
+    return "from __future__ import annotations\n" + ast.unparse(ast.Module(statements, []))
+
+
+def written(files: tuple[str, ...]) -> str:
+    """LLVM's text of all units of these modules; errors of Python end the process."""
+    from numba import cfunc, config
+
+    if getattr(config, "DISABLE_JIT", 0):
+        raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
+    module = ModuleType("biped_adrc_kernels")
+    sys.modules[module.__name__] = module  # where numba looks for what a unit names
+    # executed and not imported: the joined text is no file, and its imports of each other are gone
+    exec(compile(joined(files), module.__name__, "exec"), vars(module))
+    names, linked = dict[str, str](), None
+    for name, (symbol, signature, function) in module.UNITS.items():
+        callback: Any = cfunc(signature, error_model="numpy")(function)
+        # while it compiles a unit that calls this one, numba links it, by this name
+        binding.add_symbol(symbol, callback.address)
+        names |= {symbol: name, callback.native_name: name}
+        # without numba's target the text serves any processor and WebAssembly alike
+        part = re.sub(r"^target .*$", "", callback.inspect_llvm(), flags=re.MULTILINE)
+        # numba's names count the functions of a process; another process finds a unit by its own name
+        for theirs, ours in names.items():
+            part = re.sub(rf'@"?{re.escape(theirs)}"?\(', f"@{ours}(", part)
+        # numba's variables are `common`, a kind that LLVM has not for WebAssembly; `weak` ones may be linked
+        # too
+        one = binding.parse_assembly(part.replace(" = common ", " = weak "))
+        if linked is None:
+            linked = one
+        else:
+            linked.link_in(one)
+    # numba_nextafter is in numba's library, which no user has; C's gives the same
+    llvm = re.sub("numba_nextafter", "nextafter", str(linked))
+    # what would raise an error in Python is never called, but would be missing where the text is linked
+    llvm = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
+    llvm = re.sub(r"^(attributes #\d+ = ).*$", r"\1{ nounwind }", llvm, flags=re.MULTILINE)
+    return f"{HINTS.sub('', llvm)}\ndeclare void @llvm.trap()\n"

@@ -1,0 +1,54 @@
+"""The numbers of a tree of parts, tuples and arrays, in the order in which machine code reads them."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.core.part import Setup, content, is_part
+from biped_adrc.model.biped import Biped
+
+REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
+RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
+HIDDEN = (Biped, complex, np.complexfloating, Setup, *RANDOM)
+"""What is neither number nor structure in a part; machine code must not depend on it."""
+
+
+def floats(tree: object) -> list[float]:
+    """The numbers that `Vector.like` takes symbols for, in its order."""
+    if isinstance(tree, REALS):
+        return [float(tree)]
+    if isinstance(tree, np.ndarray):
+        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    return [number for _, x in inside(tree) for number in floats(x)]
+
+
+def paths(tree: object) -> list[str]:
+    """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
+    places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
+    return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
+
+
+def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Numbers and arrays of numbers in a tree, each with its name."""
+    if isinstance(tree, REALS) or (isinstance(tree, np.ndarray) and tree.dtype.kind == "f"):
+        yield name, tree
+    for part, x in inside(tree):
+        place = f"[{part}]" if isinstance(part, int) else f".{part}" if name else part
+        yield from leaves(x, name + place)
+
+
+def inside(tree: object) -> Iterator[tuple[str | int, object]]:
+    """The parts of a tuple, list or part, each with its name or place."""
+    if is_part(tree) and not isinstance(tree, HIDDEN):
+        yield from content(tree).items()
+    elif isinstance(tree, LISTS):
+        yield from zip(getattr(tree, "_fields", range(len(tree))), tree, strict=True)
+
+
+def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
+    """A tuple, NamedTuple or list of the same class with other parts."""
+    return like._make(parts) if hasattr(like, "_make") else type(like)(parts)

@@ -1,0 +1,53 @@
+"""What cannot be compiled, and where: errors of laws on symbols, with the user's class, file and line."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.core import checks
+from biped_adrc.core.errors import InputError
+
+
+class NotCompiled(InputError):
+    """A method or part that cannot be compiled, such as one that branches on the value of a number; the text
+    names it.
+    """
+
+
+class Located(NotCompiled):
+    """One whose text says where."""
+
+
+@contextmanager
+def located(f: object) -> Iterator[None]:
+    """Context that turns each error, such as NumPy's about objects that are no floats, into a Located with its
+    place.
+    """
+    try:
+        yield
+    except Located:
+        raise
+    except Exception as error:
+        raise Located(f"{_place(error, f)} cannot be compiled: {error}") from error
+
+
+def _place(error: Exception, f: Any) -> str:
+    """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
+    frames = traceback.extract_tb(error.__traceback__)
+    codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
+    pairs = list(zip(codes, frames, strict=True))
+    package = [x for x in pairs if x[1].filename.startswith(checks.PACKAGE)]
+    methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
+    own = [x for x in pairs if checks.is_users(x[1].filename)] or methods or package
+    if not own:
+        return str(getattr(f, "__qualname__", f))
+    code, frame = own[-1]
+    name = code.co_qualname.replace(".<locals>", "")
+    return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
+
+
+HERE = str(Path(__file__).parent)

@@ -1,0 +1,81 @@
+"""All numbers of a walker by name, as machine code reads them from the vector K (`engine.leaves.floats`)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.walker import ErrorForm, Walker
+from biped_adrc.control.base import Controller
+from biped_adrc.control.outer_loop import OuterLoop, tracked_by
+from biped_adrc.core.types import Array
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
+
+Reading = Callable[..., tuple[Array, ...]]
+"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
+
+
+NONE = np.zeros(0)
+
+
+class WalkerNumbers(NamedTuple):
+    """All numbers of a walker that are given at run time, in the order of the vector K."""
+
+    plant: PlanarRobot
+    """The robot that moves."""
+    model: PlanarRobot | None
+    """The controller's model, None where it is the plant."""
+    controller: Controller
+    """In the time base of the walker."""
+    torque_limit: float
+    """[N m], infinite without one."""
+    tan_slope: float = 0.0
+    """Tangent of the ground's slope [1], positive downhill."""
+    lowest_hip: float = 0.0
+    """Height of the hip below which the robot has fallen [m]."""
+    longest: float = math.inf
+    """Longest single support [s]."""
+    strongest: float = math.inf
+    """Torque beyond which the run ends [N m], infinite without such a bound."""
+    held: HeldParts | tuple[()] = ()
+    """Parameters of what is held between sample instants, empty in continuous time."""
+    impact_gain: Array = NONE
+    """Relative errors of v+ (n,) [1], empty without."""
+    split: ErrorForm | None = None
+    """Coordinates of the exponential method."""
+    curve: Reference | OuterLoop | None = None
+    """What readings refer to; no other function has it."""
+    moves: bool = False
+    """Whether the plant moves by itself, and has sample instants alone."""
+
+
+def numbers_of(
+    walker: Walker, split: ErrorForm | None = None, curve: Reference | OuterLoop | None = None
+) -> WalkerNumbers:
+    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
+
+    split: coordinates of the exponential method. curve: what readings refer to. Raises ModelError for a robot
+    that is no planar tree.
+    """
+    return controller_numbers(robot_of(walker.plant), walker)._replace(
+        model=None if walker.model is None else robot_of(walker.model),
+        tan_slope=math.tan(walker.ground_slope),
+        lowest_hip=float(walker.lowest_hip),
+        longest=float(walker.max_step_time),
+        impact_gain=walker.gain,
+        split=split,
+        curve=None if curve is None else tracked_by(walker.law, curve),
+    )
+
+
+def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
+    """The numbers of a controller in sampled time and of its model, without plant and ground."""
+    limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
+    strongest, held = float(loop.bounds.strongest), loop.held or ()
+    return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)

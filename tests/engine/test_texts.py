@@ -1,0 +1,49 @@
+"""Texts for LLVM that come with the package fit the sources; a damaged one is written anew or refused."""
+
+from ctypes import CFUNCTYPE, c_int64, c_void_p
+
+import numpy as np
+import pytest
+
+from biped_adrc.analysis.ground_force import LOOPS
+from biped_adrc.core.errors import ModelError
+from biped_adrc.engine.kernels import load
+from biped_adrc.engine.machine import load_or_compile
+
+
+@pytest.mark.parametrize("files", [load.FILES, LOOPS], ids=["march", "nodes"])
+def test_a_text_fits_the_sources(files):
+    first, _, text = load.text_file(files).read_text(encoding="utf-8").partition("\n")
+    message = "run python -m validation.texts"
+    assert first == load.head(files, text), message
+
+
+@pytest.fixture
+def damaged(tmp_path, monkeypatch):
+    """A text in which a constant of a shipped one is another."""
+    data = load.text_file(LOOPS).read_text(encoding="utf-8")
+    path = tmp_path / "demands.ll"
+    path.write_text(data.replace("fcmp", "fadd", 1), encoding="utf-8")
+    monkeypatch.setattr(load, "text_file", lambda files: path)
+    return path
+
+
+def totals_by(text):
+    """Results of `totals` on two nodes of one joint, by the code of a text."""
+    at = load_or_compile(text, ["totals"]).addresses["totals"]
+    rows, out = np.arange(24.0).reshape(2, 12), np.zeros(6)
+    starts = np.array([0, 1, 2, 4, 5, 6, 7, 8, 10])
+    call = CFUNCTYPE(c_int64, c_void_p, c_int64, c_void_p, c_int64, c_int64, c_void_p)(at)
+    call(rows.ctypes.data, 12, starts.ctypes.data, 1, 2, out.ctypes.data)
+    return out
+
+
+def test_a_damaged_text_is_written_anew(damaged):
+    # e = 4, then 16; u = 5; q from 6 to 18: the sums are over the first node
+    assert totals_by(load.loops.__wrapped__(LOOPS)).tolist() == [16.0, 1.0, 16.0, 25.0, 60.0, 60.0]
+
+
+def test_without_numba_a_damaged_text_is_refused(damaged, monkeypatch):
+    monkeypatch.setattr(load, "find_spec", lambda name: None)
+    with pytest.raises(ModelError, match=r"demands.ll is damaged .* reinstall biped-adrc"):
+        load.loops.__wrapped__(LOOPS)
