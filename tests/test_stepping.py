@@ -11,6 +11,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.protocols import Contact, Moved
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError, RaisedError
@@ -169,6 +170,13 @@ def test_what_acted_is_recorded_and_stored(tmp_path):
         name: rows.shape for name, rows in arc.read.items()
     }
     assert np.array_equal(again.read["zeta"], arc.read["zeta"])
+
+
+def test_a_plant_without_feet_has_no_readings_of_them():
+    with pytest.raises(
+        InputError, match=r"Ball does not say what its feet do, .* footing\(row, u, load\)"
+    ):
+        with_readings(loop(), run(loop()))
 
 
 def test_sensors_and_motors_lie_in_between():

@@ -16,6 +16,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Load, OnFeet
 from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
@@ -25,11 +26,16 @@ heights of the ground (K, 2)."""
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """A copy of a run of this loop, whose plant has feet, with the signals `NAMES` at its nodes, torques u
-    [N m] and zeta [N m] besides.
+    """A copy of a run of this loop with the signals `NAMES` at its nodes, torques u [N m] and zeta [N m] besides.
+
+    Raises InputError for a plant without feet.
     """
     plant, arcs = loop.plant, []
-    assert isinstance(plant, OnFeet)
+    if not isinstance(plant, OnFeet):
+        raise InputError(
+            f"{type(plant).__name__} does not say what its feet do, expected a plant with footing(row, u, "
+            "load), such as MuJoCoPlant"
+        )
     for arc in run.arcs:
         rows = []
         for x, load in _passed(loop, arc):
