@@ -26,7 +26,7 @@ heights of the ground (K, 2)."""
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """A copy of a run of this loop with the signals `NAMES` at its nodes, torques u [N m] and zeta [N m] besides.
+    """A copy of a run of this loop with the signals `NAMES` at its nodes, torques u and zeta [N m] besides.
 
     Raises InputError for a plant without feet.
     """
