@@ -17,7 +17,7 @@ from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, Singu
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.engine import program
+from biped_adrc.engine import numbers
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
@@ -285,7 +285,7 @@ def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(biped, gait,
     def refuse(biped):
         raise ModelError("no planar tree")
 
-    monkeypatch.setattr(program, "robot_of", refuse)
+    monkeypatch.setattr(numbers, "robot_of", refuse)
     walker = ba.Walker(biped, npd(gait))
     x0 = walker.initial_state(*gait.start(biped))
     run = simulate_by("compiled", walker, x0, Mode(), ba.RK4(2e-3), t_end=0.05)
