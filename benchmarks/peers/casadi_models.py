@@ -17,7 +17,7 @@ from biped_adrc.control.adrc import ADRCController
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.derivatives import each, together
+from biped_adrc.model.derivatives import entries, together
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 from biped_adrc.observers.gpi import GPIObserver
 
@@ -31,7 +31,7 @@ def solve_symmetric(D: Any, right: Any) -> Any:
 
 def terms(robot: PlanarRobot, q: Any, v: Any) -> tuple[Any, Any]:
     """D (n, n) and Omega (n,) as CasADi's matrices."""
-    D, Omega = robot.inertia_and_bias(each(q), each(v))
+    D, Omega = robot.inertia_and_bias(entries(q), entries(v))
     return together(D), together(Omega)
 
 

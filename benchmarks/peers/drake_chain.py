@@ -17,7 +17,7 @@ from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Tree, Vector, to_xml
+from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Tree, Triple, to_xml
 
 LONGEST = 0.1  # [s], of steps under error control
 
@@ -126,9 +126,9 @@ def _without(tree: Tree, weld: Joint) -> Tree:
     return replace(tree, links=links, joints=tuple(joints))
 
 
-def _moved(body: Inertial | None, by: Vector) -> Inertial | None:
+def _moved(body: Inertial | None, by: Triple) -> Inertial | None:
     return None if body is None else replace(body, com=_sum(body.com, by))
 
 
-def _sum(a: Vector, b: Vector) -> Vector:
+def _sum(a: Triple, b: Triple) -> Triple:
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])

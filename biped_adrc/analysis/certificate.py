@@ -48,7 +48,7 @@ REASONS = {
 """Reason why a single support is not feasible, a key of `Support.infeasible` -> its field of `Support`."""
 AT_NODES = ("normal_force", "friction", "scuffing", "torque", "rate", "range")
 """Reasons whose numbers are those of `ground_force.demands`."""
-OF_JOINTS = ("torque", "rate", "range")
+_OF_JOINTS = ("torque", "rate", "range")
 """Reasons that are a joint's."""
 
 
@@ -167,7 +167,7 @@ def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
     }[name]
 
 
-def series(
+def judged(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> tuple[dict[str, Array], Callable[[str, int], Joint | None]]:
     """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
@@ -181,7 +181,7 @@ def series(
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
     needed = demands(walker, n, k.window, impacts)
-    which = dict(zip(OF_JOINTS, needed[len(AT_NODES) :], strict=True))
+    which = dict(zip(_OF_JOINTS, needed[len(AT_NODES) :], strict=True))
     own = walker.plant.motor_joints[1]
 
     def joint(name: str, i: int) -> Joint | None:
@@ -208,9 +208,9 @@ def supports(
     """
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
-    worst, joint = series(walker, n, k, impacts, after)
+    worst, joint = judged(walker, n, k, impacts, after)
     joints = [
-        {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in OF_JOINTS}
+        {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in _OF_JOINTS}
         for a, b in pairwise(n.edges)
     ]
     for name in AT_NODES:

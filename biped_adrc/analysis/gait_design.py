@@ -47,7 +47,7 @@ from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
-STEPS = 2
+_STEPS = 2
 """Steps of the walk that proves a gait."""
 
 
@@ -92,7 +92,7 @@ class DesignedGait(Shown):
             ("least F_N", f"{c.least_normal_force:.1f} N"),
             ("foot clearance", f"{1e3 * c.clearance:.1f} mm, {within}"),
             ("cost of transport", f"{c.cost_of_transport:.4f}"),
-            (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
+            (f"walked {_STEPS} steps under NPD, back within {self.gap:.1e}",),
             (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
         ]
         return "\n".join(columns(rows, 19))
@@ -148,8 +148,8 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     gait, limits = optimum.gait, request.limits.of(biped)
     longest = max(Walker.max_step_time, 2.0 * gait.period)
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
-    x, end = walker.initial_state(*gait.start(biped)), STEPS * longest
-    run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=STEPS, t_end=end)
+    x, end = walker.initial_state(*gait.start(biped)), _STEPS * longest
+    run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=_STEPS, t_end=end)
     if not run.status.ok:
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
     allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
@@ -163,7 +163,7 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     gap = float(np.max(np.abs(before - np.concatenate((gait.q_minus, gait.v_minus)))))
     if not gap <= RETURNS:
         raise GaitError(
-            f"the designed gait is left by {gap:.1e} rad or rad/s after {STEPS} steps, expected {RETURNS:g}: "
+            f"the designed gait is left by {gap:.1e} rad or rad/s after {_STEPS} steps, expected {RETURNS:g}: "
             "is its step cut short by the foot touching early?"
         )
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
@@ -180,9 +180,9 @@ CURVE_DEGREE, STEP_DEGREE = 4, 3
 """Degrees of the polynomials."""
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
 """What the provenance of a gait says of all gaits of the library."""
-SAMPLES = 1200
+_SAMPLES = 1200
 """Random steps to which `StepMap` is fitted."""
-NODES = 16
+_NODES = 16
 """Gauss nodes of each part of a step."""
 
 
@@ -249,7 +249,7 @@ def design_family(
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (SAMPLES, 5))
+    ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
@@ -288,7 +288,7 @@ def _integrals(
     biped: Biped, c: Array, curve: JointCurve, start: float, end: float
 ) -> tuple[float, float]:
     """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2] from start to end [rad]."""
-    s, weights, _ = gauss_nodes(NODES)
+    s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
         q, dq, _ = configuration(c, curve, float(theta))

@@ -105,7 +105,7 @@ LOOPS = (
 )
 
 
-def loops() -> Any:
+def _loops() -> Any:
     """The functions `demands` and `totals` of `analysis.demands`, compiled, to be called with addresses."""
     return compiled(LOOPS, demands=9, totals=6)
 
@@ -133,7 +133,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it returns
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
-    loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
+    _loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
     return result[:9]
 
 
@@ -144,7 +144,7 @@ def totals(n: Nodes) -> list[float]:
     Of the two nodes at a jump only the second counts in means and integrals.
     """
     out = np.zeros(6)
-    loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
+    _loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
     out[2:4] = np.sqrt(out[2:4] / max(out[1] * n.p, 1.0))
     return [out[0], *out[2:]]
 

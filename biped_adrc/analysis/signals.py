@@ -25,7 +25,7 @@ from functools import partial
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import NAMES
+from biped_adrc.closed_loop.feet import FEET
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
@@ -40,7 +40,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
 
-FORCE, PLACE, SPEED, _ = NAMES
+FORCE, PLACE, SPEED, _ = FEET
 """Names of the feet's readings in an arc's `read`, (K, 4) each: forces [N], places [m], velocities [m/s]."""
 LONG = 2000
 """Number of nodes from which on compiling the signals is faster than NumPy."""

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.feet import NAMES
+from biped_adrc.closed_loop.feet import FEET
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
@@ -94,21 +94,21 @@ def _slip_time(arc: Arc, friction: float, axes: tuple[Array, Array]) -> float:
     """Time [s] at which a foot has slipped by more than SLIP in one single support; or infinite."""
     force, _, speed = feet_of(arc)
     slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
-    slipped = np.cumsum(weights(arc.t)[:, np.newaxis] * slips, axis=0)
+    slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
     beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
     return float(arc.t[beyond[0]]) if len(beyond) else math.inf
 
 
 def feet_of(arc: Arc) -> list[Array]:
     """Forces [N], places [m] and speeds [m/s] of the feet at the K nodes of an arc, each (K, 2, 2)."""
-    return [arc.read[name].reshape(-1, 2, 2) for name in NAMES[:3]]
+    return [arc.read[name].reshape(-1, 2, 2) for name in FEET[:3]]
 
 
 def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     """Measure one single support; arguments as for `recorded_steps`."""
     along, out = axes
     force, place, velocity = feet_of(arc)
-    w, normal, tangential = weights(arc.t), force @ out, np.abs(force @ along)
+    w, normal, tangential = spans(arc.t), force @ out, np.abs(force @ along)
     speed, carries = np.abs(velocity @ along), normal > CARRYING
     slips = slipping(force, velocity, friction, axes)
     pressed = normal > PRESSED
@@ -119,7 +119,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
         double_support=float(w @ (feet == 2)),
         flight=float(w @ (feet == 0)),
         slip=(stance, other),
-        depth=float(max(0.0, np.max(arc.read[NAMES[3]] * out[1] - place @ out))),
+        depth=float(max(0.0, np.max(arc.read[FEET[3]] * out[1] - place @ out))),
         friction_used=float(np.max(used)),
     )
 
@@ -138,7 +138,7 @@ def slipping(
     return np.asarray(slips, dtype=np.bool_)
 
 
-def weights(t: Array) -> Array:
+def spans(t: Array) -> Array:
     """Weights (K,) [s] of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
     ways = np.diff(t)
     return 0.5 * (np.append(ways, 0.0) + np.append(0.0, ways))
@@ -164,7 +164,7 @@ def contact_errors(x: Signals) -> ContactErrors:
     """Tracking errors of a walk at its nodes, separated into those of touchdowns, of
     pushes, and all settled ones.
     """
-    since = x.t - starts(x)
+    since = x.t - _starts(x)
     settling = since <= SETTLING + SAME_INSTANT
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
     pushed = x.t - acted <= AFTER + SAME_INSTANT
@@ -178,7 +178,7 @@ def contact_errors(x: Signals) -> ContactErrors:
     )
 
 
-def starts(x: Signals) -> Array:
+def _starts(x: Signals) -> Array:
     """Time [s] at which the single support of each node began (K,)."""
     _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
     return x.t[first][places]

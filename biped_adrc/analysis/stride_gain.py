@@ -40,7 +40,7 @@ from biped_adrc.model.biped import Biped
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
 """Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends."""
-DIFFERENCE = 1e-3
+_DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
 
 
@@ -127,7 +127,7 @@ def stride_response(
     >>> print(f"{response.static_gain:.2f} (m/s)/rad")
     -0.70 (m/s)/rad
     """
-    h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
+    h, shift = gait.constraint, _DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:
         raise InputError(f"the direction is {direction}, expected {biped.p} numbers, one per motor")
     L = gait.step_length(biped)
@@ -139,10 +139,10 @@ def stride_response(
 
     if not delta**2 < 1.0:
         raise GaitError(f"delta^2 is {delta**2:.4g}: the walk does not settle, expected below 1")
-    w = 2.0 * DIFFERENCE
+    w = 2.0 * _DIFFERENCE
     return StrideResponse(
         a=delta**2,
         b=2.0 * (more.work - less.work) / w,
-        c=(speed(zero, 1.0 + DIFFERENCE) - speed(zero, 1.0 - DIFFERENCE)) / (w * sigma**2),
+        c=(speed(zero, 1.0 + _DIFFERENCE) - speed(zero, 1.0 - _DIFFERENCE)) / (w * sigma**2),
         d=(speed(more) - speed(less)) / w,
     )

@@ -24,7 +24,7 @@ from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program
 
-DIFFERENCE = 1e-6
+_DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""
 
 
@@ -82,7 +82,7 @@ def _function(program: Program) -> ca.Function:
 
 def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
     """The tick in Python, with its derivative by central differences."""
-    d = DIFFERENCE
+    d = _DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)
         for e in np.eye(len(x))

@@ -38,7 +38,7 @@ class TouchdownRates(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Noticed(Shown):
+class Detections(Shown):
     """The N touchdowns of a walk and their detections."""
 
     t: Array
@@ -69,7 +69,7 @@ class Noticed(Shown):
         return TouchdownRates(mean, most, early, missed, len(self.false))
 
 
-def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
+def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Detections:
     """Match the touchdowns of a run of this loop with the detections of its controller.
 
     loop: a `Walker` or `SteppingLoop` with a touchdown part; raises InputError without.
@@ -77,7 +77,7 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
     return matched(np.array([event.t for event in run.events(FOOT_STRIKE)]), notices(loop, run))
 
 
-def matched(impacts: Array, found: Array) -> Noticed:
+def matched(impacts: Array, found: Array) -> Detections:
     """Match touchdowns at `impacts` (N,) [s] with detections at `found` [s], both
     increasing, in their order in time.
 
@@ -94,7 +94,7 @@ def matched(impacts: Array, found: Array) -> Noticed:
             false += [t, then]
     alone = events[-1][:2] if len(events) % 2 else (0.0, "")
     false += [alone[0]] if alone[1] == "notice" else []
-    return Noticed(impacts, late, np.array(false), alone[1] == "touchdown")
+    return Detections(impacts, late, np.array(false), alone[1] == "touchdown")
 
 
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:

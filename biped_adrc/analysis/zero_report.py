@@ -29,7 +29,7 @@ CLOSENESS = 1e-3
 """Distance from zeta*, relative to it, within which a walk counts as settled."""
 UNIT = "kg^2 m^4/s^2"
 """Unit of zeta and V_zero."""
-Rows = Iterator[tuple[str, ...]]
+_Rows = Iterator[tuple[str, ...]]
 """Rows of the report, as texts in columns."""
 
 
@@ -78,7 +78,7 @@ class ZeroDynamicsReport(Shown):
         robot = f"robot {b.description.name}, parameters {b.preset}; slope {slope:g} rad"
         return "\n".join(columns([(robot,), *self._numbers(), *self._range(), *self._doubts()]))
 
-    def _numbers(self) -> Rows:
+    def _numbers(self) -> _Rows:
         """Rows about the periodic orbit."""
         o, z, c = self.orbits, self.zeta_star, self.orbits.zero.constraint
         inertia = o.inertia(grid(o.zero))
@@ -93,7 +93,7 @@ class ZeroDynamicsReport(Shown):
         yield "", f"{o.kinetic_energy(z):.3f} J before impact, step {o.step_length:.4f} m"
         yield "impact", f"asks for |F_T| / F_N = {self.impulse_ratio:.3f}, at any speed"
 
-    def _range(self) -> Rows:
+    def _range(self) -> _Rows:
         """Rows about the domain: its ends and their reasons, speeds, energies, number of steps
         until the walk has settled.
         """
@@ -114,7 +114,7 @@ class ZeroDynamicsReport(Shown):
             steps = f"{first} steps from the lower end, {last} from the upper"
             yield "settled", f"to {CLOSENESS:.1%} of zeta* after {steps}"
 
-    def _doubts(self) -> Rows:
+    def _doubts(self) -> _Rows:
         """Rows with the reasons why these numbers may not hold for the closed loop."""
         if not self.walkable:
             text = f"the periodic orbit does not keep {_show(self.limits)}"

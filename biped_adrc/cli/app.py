@@ -32,7 +32,7 @@ from biped_adrc.core.files import keep_inputs, one_line, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 """Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
-P = TypeVar("P", Path, Path | None)
+_P = TypeVar("_P", Path, Path | None)
 
 app = typer.Typer(
     add_completion=False,
@@ -145,7 +145,7 @@ console, errors = Terminal(), Terminal(stderr=True)
 """Where all commands print, and complain; rich fits tables to the terminal."""
 
 
-def command() -> str:
+def typed_line() -> str:
     """The command line as a shell takes it, for reports and provenance: the reader can repeat it."""
     return shlex.join(["biped-adrc", *sys.argv[1:]])
 
@@ -165,7 +165,7 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     return (*files, load_description(robot).urdf)
 
 
-def target(out: P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> P:
+def target(out: _P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> _P:
     """The path of an output, checked before anything is computed; None for none.
 
     A name without a kind has the first of the suffixes put behind it. Raises InputError for a name of another

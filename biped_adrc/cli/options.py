@@ -29,7 +29,7 @@ TEXTS = packaged("biped_adrc.cli", "options.toml")
 WALKS = ("controller", "gait", "preset", "robot")
 """Options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
@@ -95,7 +95,7 @@ def scenario_from(
     for a text or a file that cannot be read, and for a value that is given twice.
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
-    for name, x in pairs(sets, taken=values).items():
+    for name, x in named(sets, taken=values).items():
         values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
@@ -115,7 +115,7 @@ def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     return {"controller.name": usual if motors else "passive"}
 
 
-def pairs(
+def named(
     sets: list[str] | None,
     option: str = "--set",
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
@@ -145,8 +145,8 @@ def _own(text: str) -> object:
 
 
 def with_sets(
-    make: type[T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
-) -> T:
+    make: type[_T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
+) -> _T:
     """A dataclass of these values, and of what --set NAME=VALUE says of its other fields, read by their types.
 
     usual: values where --set has none; fixed: values that it may not have. Raises InputError for a name that
@@ -154,7 +154,7 @@ def with_sets(
     """
     hints, values = get_type_hints(make), dict(usual or {})
     known = [name for name in signature(make).parameters if name not in fixed]
-    for name, text in pairs(sets).items():
+    for name, text in named(sets).items():
         if name not in known:
             raise InputError(f"--set {name}: {unknown(name, known)}")
         x = text.split(",") if "tuple" in str(hints[name]) else None if text == "none" else text

@@ -16,7 +16,7 @@ from typing import Any
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, command, console, target
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, console, target, typed_line
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
 
@@ -43,7 +43,7 @@ def study(
             console.say(result.walked_once(undrawn))
         return
     from biped_adrc.studies.build import NO_WALK
-    from biped_adrc.studies.page import chosen, headings, texts, write_page
+    from biped_adrc.studies.page import choices, headings, texts, write_page
     from biped_adrc.studies.runner import StudyProgress
 
     try:
@@ -64,7 +64,7 @@ def study(
     console.table(headings(done), (texts(line, short=True) for line in done.table()))
     for note in done.notes:
         console.say(note)
-    for name, words in chosen(done).items():
+    for name, words in choices(done).items():
         console.say(f"{name}: {words}")
     statuses = done.statuses()
     for status, (count, detail) in statuses.items():
@@ -104,7 +104,7 @@ def reproduce(
         description.joint_index(joint)
     plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
     with console.bar("starting") as progress:
-        summary = run(plan, out, command(), workers, progress)
+        summary = run(plan, out, typed_line(), workers, progress)
     console.say("\n".join(lines(summary, out)))
     if not summary["holds"]:
         raise typer.Exit(EXIT_CHECK_FAILED)

@@ -20,13 +20,13 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
-NAMES = ("foot_force", "foot_place", "foot_speed", "foot_level")
+FEET = ("foot_force", "foot_place", "foot_speed", "foot_level")
 """What `with_readings` records: `Feet`, (K, 4) each, x and z of the stance foot before those of the other, and
 heights of the ground (K, 2)."""
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """A copy of a run of this loop with the signals `NAMES` at its nodes, torques u and zeta [N m] besides.
+    """A copy of a run of this loop with `FEET` at its nodes, torques u and zeta [N m] besides.
 
     Raises InputError for a plant without feet.
     """
@@ -42,7 +42,7 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
             feet = plant.footing(loop.row(x), x[-plant.p :], load)
             rows.append((loop.motor_torque(x), load.zeta, *map(np.ravel, feet)))
         columns = map(np.array, zip(*rows, strict=True))
-        read = dict(zip(("u", "zeta", *NAMES), columns, strict=True))
+        read = dict(zip(("u", "zeta", *FEET), columns, strict=True))
         arcs.append(replace(arc, read=read | arc.read))  # an arc that failed at once has no u, zeta
     return replace(run, arcs=tuple(arcs))
 

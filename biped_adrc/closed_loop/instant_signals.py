@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
-from biped_adrc.closed_loop.semantics import estimated, instant, parts, unknown
+from biped_adrc.closed_loop.semantics import estimated, instant, parts, xi_unknown
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
@@ -72,7 +72,7 @@ def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
     r, result = reference(i.s, m), estimated(loop, i.s, parts(loop, x).tail, m, mode)
     xi_estimate = np.full(p, np.nan) if result is None else result
-    matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
+    matched, unmatched = disturbance_parts(terms, xi_unknown(loop, terms, i.a, i.u, i.zeta))
     return InstantSignals(
         a=i.a,
         q_d=r.q_d,

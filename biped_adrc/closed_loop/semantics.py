@@ -224,7 +224,7 @@ def release(loop: Loop, x: Array) -> Array:
     return flatten(state._replace(tail=state.tail._replace(line=line._replace(u=line.waiting))))
 
 
-def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
+def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
     """xi~ of (11) (n,) [N m], the generalised force that the nominal model does not know.
 
     It is zeta where the model is the plant; otherwise D a + Omega - B_s u with the model's terms
@@ -306,7 +306,7 @@ def noticed(
     assert k.touchdown is not None
     assert tail.belief is not None
     old, force = tail.belief, 0.0
-    q_b, v_b = turned(loop, old.other, q, v)
+    q_b, v_b = in_other_names(loop, old.other, q, v)
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
     w = k.sense(tail.sensors, q_b, v_b)
@@ -318,14 +318,14 @@ def noticed(
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires
     start = chosen(fires, t, old.start)
-    q_b, v_b = turned(loop, other, q, v)
+    q_b, v_b = in_other_names(loop, other, q, v)
     if k.sensors is not None:
         w = chosen(fires, k.sensors.impact(w, q_b, v_b, loop.nominal.R @ v_seen), w)
     m = loop.measure(t, *k.reading(w, q_b, v_b), mode._replace(step=step, start=start))
     return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
 
-def turned(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
+def in_other_names(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array, Array]:
     """q (n,) [rad] and v (n,) [rad/s] with the legs exchanged where `other` is 1, else unchanged."""
     model = loop.nominal
     return chosen(other, model.relabel(q), q), chosen(other, model.R @ v, v)
@@ -350,7 +350,7 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
     b = tail.belief if tail else None
     if b is not None:
         believed = mode._replace(step=b.step, start=b.start)
-        m = loop.measure(m.t, *turned(loop, b.other, m.q, m.v), believed)
+        m = loop.measure(m.t, *in_other_names(loop, b.other, m.q, m.v), believed)
     estimate = loop.calls.estimate(s, m)
     if estimate is None:
         return None

@@ -36,9 +36,9 @@ from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
-from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Event, Recorder, Trajectory
 
-ROUND_OFF = 1e-9
+_ROUND_OFF = 1e-9
 """Largest difference [s] between a plant's own clock and the time that it was to reach."""
 
 
@@ -213,7 +213,7 @@ class SteppingLoop(ClosedLoop[Any]):
         A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
         it that is not finite.
         """
-        name, impulse, ends = together(contacts)
+        name, impulse, ends = _together(contacts)
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
@@ -270,7 +270,7 @@ def advanced(
             f"{type(plant).__name__}.advance gives {moved!r:.60}, expected a Moved(t, row, contacts, after)"
         )
     end, found, contacts, after = moved
-    if not (at_end := abs(end - until) <= ROUND_OFF) and not (contacts and t < end < until):
+    if not (at_end := abs(end - until) <= _ROUND_OFF) and not (contacts and t < end < until):
         here = f"a contact at {end} s, expected after {t} s, not after {until} s"
         here = here if contacts else f"{end} s without a contact, expected {until} s"
         raise InputError(f"{type(plant).__name__}.advance came to {here}")
@@ -279,7 +279,7 @@ def advanced(
     return until if at_end else end, found, contacts, after
 
 
-def together(contacts: tuple[Contact, ...]) -> Contact:
+def _together(contacts: tuple[Contact, ...]) -> Contact:
     """Contacts of one moment as one: names joined by +, impulses added; if some end the run, those alone."""
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
@@ -287,7 +287,7 @@ def together(contacts: tuple[Contact, ...]) -> Contact:
 
 
 @dataclass
-class Stretches(Record):
+class Stretches(Recorder):
     """The record of one arc, stretch after stretch: from a sample instant or an edge of a disturbance to the
     next.
 

@@ -46,7 +46,7 @@ RUNAWAY_RATE = 50.0
 """Rate of a joint or of the pitch of which runaway_speed is a multiple [rad/s]."""
 
 
-class Bounds(NamedTuple):
+class _Bounds(NamedTuple):
     """The largest angles, rates and torques that a run may have."""
 
     farthest: float
@@ -68,13 +68,13 @@ class Bounds(NamedTuple):
         )
 
 
-P = TypeVar("P", bound=Plant)
+_P = TypeVar("_P", bound=Plant)
 MADE_AGAIN = ("held", "calls", "layout")
 """What a loop keeps besides its fields, and makes again where it is needed."""
 
 
 @dataclass(frozen=True)
-class ClosedLoop(HybridSystem, Generic[P]):
+class ClosedLoop(HybridSystem, Generic[_P]):
     """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
 
     - plant: what moves. model: what the controller knows of it, the plant itself when None.
@@ -92,11 +92,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
     Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
 
-    plant: P
+    plant: _P
     controller: Controller
     disturbance: Disturbance | None = None
     timing: ContinuousTime | SampledTime = ContinuousTime()  # noqa: RUF009
-    model: P | None = None
+    model: _P | None = None
     torque_limit: PositiveFloat | None = None
     sensors: Sensor | None = None
     motors: Motors | None = None
@@ -123,7 +123,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     # -- parts -------------------------------------------------------------------------------------
     @cached_property
-    def nominal(self) -> P:
+    def nominal(self) -> _P:
         """The model the controller knows; the plant itself when none was given."""
         return self.plant if self.model is None else self.model
 
@@ -189,16 +189,16 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return 0
 
     @cached_property
-    def bounds(self) -> Bounds:
+    def bounds(self) -> _Bounds:
         """Angles, rates and torque beyond which the run ends as run away; none without a Biped, and none for
         the torque without motors.
         """
         robot: Any = self.plant if isinstance(self.plant, Biped) else self.nominal
         if not isinstance(robot, Biped):
-            return Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
+            return _Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
         fastest = read_only(np.full(robot.n, self.runaway_speed * RUNAWAY_RATE))
         peak = robot.description.peak_torque if robot.p else math.inf
-        return Bounds(TURN, fastest, self.runaway_torque * peak)
+        return _Bounds(TURN, fastest, self.runaway_torque * peak)
 
     @property
     def gain(self) -> Array:

@@ -28,7 +28,7 @@ import numpy as np
 from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
@@ -76,7 +76,7 @@ class Measurement(NamedTuple):
         return self.v[: len(self.terms.kappa)]
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 def measured(m: Measurement) -> Estimate:
@@ -87,7 +87,7 @@ def measured(m: Measurement) -> Estimate:
     return Estimate(m.q_b, m.v_b, m.terms.xi)
 
 
-OTHERS = "expected one such as NPDController or ADRCController"
+_OTHERS = "expected one such as NPDController or ADRCController"
 """What to do about a controller that lacks something, where nothing else helps."""
 
 
@@ -191,7 +191,7 @@ class Controller(Part):
         how = "give timing=SampledTime(period), or hardware.period of a scenario"
         self._has_no("form but one in sampled time only", how)
 
-    def _has_no(self, what: str, how: str = OTHERS) -> NoReturn:
+    def _has_no(self, what: str, how: str = _OTHERS) -> NoReturn:
         """Raise InputError: this controller lacks `what`; how: what to do."""
         raise InputError(f"{type(self).__name__} has no {what}; {how}")
 

@@ -68,7 +68,7 @@ class Affine(NamedTuple):
     """(2,)."""
 
 
-class Rows(NamedTuple):
+class _Rows(NamedTuple):
     """Constraints G z <= h of the program, for z = (mu, sqrt p delta) (p + 1,); the
     rows of the ground come last.
 
@@ -148,7 +148,7 @@ class CLFQPController(Controller):
         # each motor by itself: the last resort, after which V may grow
         return np.clip(u, -limit, limit)
 
-    def program(self, d: Decrease, to: Affine) -> Rows:
+    def program(self, d: Decrease, to: Affine) -> _Rows:
         """Rows of the program from the decrease of V and the limits, for (mu, sqrt p delta).
 
         Those of the ground come last, so that they can be dropped where nothing fulfils all.
@@ -172,9 +172,9 @@ class CLFQPController(Controller):
         rows = np.zeros((sum(map(len, G)), p + 1))
         np.concatenate(G, out=rows[:, :p])
         rows[0, p] = -1.0 / math.sqrt(self.relaxation)
-        return Rows(rows, np.concatenate(h), ground)
+        return _Rows(rows, np.concatenate(h), ground)
 
-    def _solved(self, program: Rows) -> Array | None:
+    def _solved(self, program: _Rows) -> Array | None:
         """Solve the program for mu (p,), with the limits of the ground or else without; None
         when the solver fails at both.
         """

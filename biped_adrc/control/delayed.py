@@ -153,7 +153,7 @@ def pade(k: int) -> tuple[Array, Array]:
     return np.array(N), np.array(D)
 
 
-def weights(d: float, period: float) -> tuple[Array, Array]:
+def _weights(d: float, period: float) -> tuple[Array, Array]:
     """Weights (N,) of the torques on their way in the means u_v and u_q, the oldest first; empty for d = 0.
 
     d [s]: the delay. period [s]: of the ticks.
@@ -187,8 +187,8 @@ class Predicted(Around):
 
     @derived
     def weights(self) -> tuple[Array, Array]:
-        """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `weights`."""
-        return weights(self.prediction, self.period or self.prediction)
+        """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `_weights`."""
+        return _weights(self.prediction, self.period or self.prediction)
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
         """The measurement d later, predicted by the nominal model under the torques U (N, p) [N m].

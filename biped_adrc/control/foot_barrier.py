@@ -49,7 +49,7 @@ from biped_adrc.model.planar import LinkPoint, Turned, jacobian, point, turned
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.observers.base import Estimate
 
-ROUND_OFF = 1e-6
+_ROUND_OFF = 1e-6
 """A bound on e'' that is exceeded by less than this [m/s^2] counts as kept."""
 
 
@@ -173,7 +173,7 @@ class FootBarrier(Around):
         return s._replace(inner=self.inner.correct(s.inner, m))
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
-        infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > ROUND_OFF, 1.0, 0.0)
+        infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > _ROUND_OFF, 1.0, 0.0)
         return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:

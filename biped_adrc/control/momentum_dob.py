@@ -40,7 +40,7 @@ from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.momentum import MomentumObserver
 
 
-def pushed(terms: Reduction, r: Array) -> Reduction:
+def _pushed(terms: Reduction, r: Array) -> Reduction:
     """The reduction of D q'' + Omega = B u + r: xi and a_N of `terms` with the force r (n,) [N m] added."""
     p = terms.kappa.shape[0]
     xi = terms.xi + terms.kappa @ (r[:p] + terms.A_N.T @ r[p:])
@@ -78,7 +78,7 @@ class MomentumDOBController(ObservingController):
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
         """u (p,) [N m] for an estimated force (n,). Raises SingularError as `tracking_torque`."""
-        terms = pushed(m.terms, x.disturbance)
+        terms = _pushed(m.terms, x.disturbance)
         joints = measured(m)._replace(disturbance=terms.xi)
         return tracking_torque(self.gains, r, joints, m._replace(terms=terms), self.solve_theta)
 
@@ -86,7 +86,7 @@ class MomentumDOBController(ObservingController):
         """The measured joints, and the total disturbance (14) of the model with the
         estimated force (n,) [N m].
         """
-        return measured(m)._replace(disturbance=pushed(m.terms, x.disturbance).xi)
+        return measured(m)._replace(disturbance=_pushed(m.terms, x.disturbance).xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
         """Change D a (n, 2) of the momentum when the rates change by a (n, 2)."""

@@ -41,7 +41,7 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 
-HIGHEST = 1e15
+_HIGHEST = 1e15
 """Largest gain [1/s^2], [1/s]; above it products of gains and poles overflow."""
 
 
@@ -64,9 +64,9 @@ class Gains(Shown):
     def __post_init__(self) -> None:
         for name in ("K_p", "K_d"):
             value = numbers(getattr(self, name), f"gain {name}")
-            if value.ndim > 1 or not np.all((value > 0.0) & (value <= HIGHEST)):
+            if value.ndim > 1 or not np.all((value > 0.0) & (value <= _HIGHEST)):
                 raise InputError(
-                    f"gain {name} is {value}, expected positive numbers, one per joint, at most {HIGHEST:g}"
+                    f"gain {name} is {value}, expected positive numbers, one per joint, at most {_HIGHEST:g}"
                 )
             object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 

@@ -97,7 +97,7 @@ SUCH_AS = {
 """Name of a class -> an example of it, for the sentence."""
 
 
-NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number", str: "a text"}
+_NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number", str: "a text"}
 """A type of numbers, or of text -> its name in a sentence."""
 
 
@@ -106,7 +106,7 @@ def check_part(value: object, what: str, *kinds: type) -> None:
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
-    words = " or ".join(NUMBERS.get(kind) or _a(kind) for kind in named)
+    words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
     examples = [SUCH_AS[kind.__name__] for kind in named if kind.__name__ in SUCH_AS]
     such_as = f", such as {examples[0]}" if examples else ""
     raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
@@ -350,7 +350,7 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 def _looked_at(kind: Any) -> bool:
     """Whether a type is checked: a class of this package that is no protocol, a number, text or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*NUMBERS, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
 
 
 def _is_number(value: object) -> bool:

@@ -40,7 +40,7 @@ _KIND = re.compile(r"\.[A-Za-z]\w*")
 """Suffix of a name that states the kind of a file; '.1' of 'push_0.1' is none."""
 CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 """Characters that no name of an output file contains, such as a line break."""
-LONGEST = 240
+_LONGEST = 240
 """Longest part of a path [bytes]; file systems take 255, and the temporary file beside needs some."""
 
 
@@ -114,8 +114,8 @@ def _named(path: object) -> Path:
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
         raise InputError(f"cannot write {path!r}, expected a file name without control characters")
     for part in Path(path).parts:
-        if (size := len(os.fsencode(part))) > LONGEST:
-            raise OutputError(f"'{path}' has a name too long, {size} bytes of at most {LONGEST}")
+        if (size := len(os.fsencode(part))) > _LONGEST:
+            raise OutputError(f"'{path}' has a name too long, {size} bytes of at most {_LONGEST}")
     if Path(path).parts[:1] == ("~",):
         raise InputError(f"cannot write '{path}' with its '~'; take Path('{path}').expanduser()")
     return Path(path)

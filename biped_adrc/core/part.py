@@ -23,10 +23,10 @@ from biped_adrc.core.checks import Checked, hints_of
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import frozen
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
-class derived(cached_property[T]):
+class derived(cached_property[_T]):
     """A method whose value is computed once for each object, from its fields, and is read-only.
 
     func: the method, of `self` alone. For numbers that machine code takes as they are: a pole placement is
@@ -109,14 +109,14 @@ def _as_floats(x: Any) -> Any:
     return float(x) if type(x) is int else x
 
 
-def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
+def with_content(part: _T, values: Mapping[str, Any], cls: type | None = None) -> _T:
     """Make an object of the class of a part, or of `cls`, with these values by name, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
     vars(new).update(values)
     return new
 
 
-def with_fields(part: T, **values: Any) -> T:
+def with_fields(part: _T, **values: Any) -> _T:
     """A copy of a part with other fields, without any check; derived numbers stay.
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.

@@ -20,7 +20,7 @@ from typing import Generic, NamedTuple, TypeVar
 
 from biped_adrc.core.errors import InputError
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 """Type of a task's result."""
 T_co = TypeVar("T_co", covariant=True)
 
@@ -45,10 +45,10 @@ class Task(Generic[T_co]):
     arguments: tuple[object, ...] = ()
 
 
-class Timed(NamedTuple, Generic[T]):
+class Timed(NamedTuple, Generic[_T]):
     """A result and the wall time it took [s]."""
 
-    value: T
+    value: _T
     seconds: float
 
 
@@ -87,11 +87,11 @@ def end_all(executor: Executor) -> None:
 
 
 def run_tasks(
-    tasks: Sequence[Task[T]],
+    tasks: Sequence[Task[_T]],
     workers: int | None,
     preload: Sequence[str],
     progress: TaskProgress | None = None,
-) -> list[Timed[T]]:
+) -> list[Timed[_T]]:
     """Run tasks in worker processes; returns their results in order, each with its wall time [s].
 
     workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger.
@@ -116,7 +116,7 @@ def run_tasks(
         end_all(executor)
 
 
-def _timed(task: Task[T]) -> Timed[T]:
+def _timed(task: Task[_T]) -> Timed[_T]:
     """Run a task in the worker, and measure its time there: waiting for a core does not count."""
     begin = time.perf_counter()
     value = task.function(*task.arguments)

@@ -47,7 +47,7 @@ _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 @dataclass(frozen=True)
-class Entry:
+class _Entry:
     """One thing of the registry."""
 
     home: str
@@ -68,8 +68,8 @@ class Entry:
         return _imported(self.home) if self.given is None else self.given
 
 
-REGISTRY: dict[str, dict[str, Entry]] = {
-    kind: {name: Entry(**values) for name, values in entries.items()}
+REGISTRY: dict[str, dict[str, _Entry]] = {
+    kind: {name: _Entry(**values) for name, values in entries.items()}
     for kind, entries in packaged("biped_adrc.core", "registry.toml").items()
 } | {"robot": {}, "gait": {}}
 """By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
@@ -110,7 +110,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     if _plain(name) in map(_plain, names(kind)) or is_own(name) or not name.strip():
         raise InputError(f"{kind} '{name}' is taken or reads as module:Class; choose another name")
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"
-    REGISTRY[kind][name] = Entry(home, words, given=thing)
+    REGISTRY[kind][name] = _Entry(home, words, given=thing)
 
 
 def portable(kind: str, name: str) -> str:
@@ -134,9 +134,9 @@ def is_own(name: str) -> bool:
     return _OWN.fullmatch(name) is not None
 
 
-def find(kind: str, name: str) -> Entry:
+def find(kind: str, name: str) -> _Entry:
     """The entry of a name. Raises InputError with the names there are, the nearest first."""
-    return REGISTRY[kind].get(known_name(kind, name)) or Entry(name)
+    return REGISTRY[kind].get(known_name(kind, name)) or _Entry(name)
 
 
 def known_name(kind: str, name: str) -> str:

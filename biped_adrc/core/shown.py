@@ -25,15 +25,15 @@ SHORT = 48
 
 
 class Shown(ByValue):
-    """Base of dataclasses whose repr is `one_line`; a class that writes a `__repr__` keeps it."""
+    """Base of dataclasses whose repr is `as_line`; a class that writes a `__repr__` keeps it."""
 
     KEPT = ByValue.KEPT | {"__repr__"}
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
-def one_line(thing: Any) -> str:
+def as_line(thing: Any) -> str:
     """Text Name(field=value, ...) of an object in at most `LONGEST` characters.
 
     Fields at their defaults, and empty mappings, are left out.

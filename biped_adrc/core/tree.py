@@ -18,7 +18,7 @@ from biped_adrc.core.checks import line_of, returned, spoken
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 def flatten(tree: Any) -> Array:

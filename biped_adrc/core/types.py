@@ -8,7 +8,7 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
@@ -35,7 +35,7 @@ def read_only(values: ArrayLike) -> Array:
     return array
 
 
-def frozen(value: T) -> T:
+def frozen(value: _T) -> _T:
     """A read-only view of an array, or a tuple with its arrays so; other values are returned as they are.
 
     For arrays handed to a user's code, or stored: the array itself stays writable for its owner.

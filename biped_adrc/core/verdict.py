@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-KINDS = ("law", "consistency", "reproduced")
+_KINDS = ("law", "consistency", "reproduced")
 """The kinds of a check, in the order of the list above."""
 
 
@@ -24,7 +24,7 @@ KINDS = ("law", "consistency", "reproduced")
 class Check:
     """One check that was carried out.
 
-    name: what was computed, with its unit. kind: one of `KINDS`. value: the number found. limit:
+    name: what was computed, with its unit. kind: one of `_KINDS`. value: the number found. limit:
     its bound as text, such as "<= 0.01". holds: whether the value keeps it.
     """
 

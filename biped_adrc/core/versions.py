@@ -17,9 +17,9 @@ from pathlib import Path
 
 from biped_adrc import __version__
 
-SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
+_SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
-NUMERICAL = (*SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp")
+NUMERICAL = (*_SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp")
 """Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
@@ -47,9 +47,9 @@ def differences(found: Mapping[str, object], expected: Mapping[str, object]) -> 
 
 
 def versions() -> dict[str, str]:
-    """Versions for the reader of a report: Python, platform, and the packages `SHOWN`."""
+    """Versions for the reader of a report: Python, platform, and the packages `_SHOWN`."""
     result = {"python": platform.python_version(), "platform": platform.platform()}
-    return result | packages(SHOWN)
+    return result | packages(_SHOWN)
 
 
 @lru_cache(maxsize=1)

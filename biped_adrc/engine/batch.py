@@ -37,9 +37,9 @@ from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 
-AHEAD = 4
+_AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""
-AT_ONCE = 25
+_AT_ONCE = 25
 """Impacts for whose nodes there is room at the same time."""
 
 
@@ -157,7 +157,7 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
         try:
             for case in cases:
                 waiting.append(pool.submit(run_case(case)))
-                while waiting and (len(waiting) >= AHEAD * threads or waiting[0].done()):
+                while waiting and (len(waiting) >= _AHEAD * threads or waiting[0].done()):
                     yield waiting.popleft().result()
             while waiting:
                 yield waiting.popleft().result()
@@ -219,10 +219,10 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
-        run.keep(compiled.walker.max_step_time, min(impacts, AT_ONCE), read)
+        run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
     status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
     while left > 0 and status is Status.COMPLETED:
-        status, part = run.stride(min(left, AT_ONCE) if read else left)
+        status, part = run.stride(min(left, _AT_ONCE) if read else left)
         parts, rows, left = [*parts, part], [*rows, run.rows().copy()], left - len(part)
     strikes = np.vstack(parts)
     times, before, after = strikes[:, 0].copy(), strikes[:, 1 : 1 + nx].copy(), run.x.copy()

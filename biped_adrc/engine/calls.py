@@ -117,12 +117,12 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     def traced() -> SymbolicFunction:
         from biped_adrc.engine.equations import SymbolicFunction
         from biped_adrc.engine.symbols import Vector, column, symbols_of
-        from biped_adrc.engine.tracer import Tracer, run
+        from biped_adrc.engine.tracer import Tracer, apply
 
         (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
         symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
         law = methodcaller(method, *(inp.take(*size) for size in sizes))
-        out = run(Tracer(), law, symbols)
+        out = apply(Tracer(), law, symbols)
         return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
 
     code = generated((method, sizes, structure(part)), {"method": traced})

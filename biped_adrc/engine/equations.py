@@ -53,11 +53,11 @@ from biped_adrc.engine.symbols import (
     symbols_of,
     where,
 )
-from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
 from biped_adrc.model.planar_robot import PlanarRobot
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 class SymbolicLoop(NamedTuple):
@@ -158,7 +158,7 @@ class SymbolicInstant(NamedTuple):
     mode: Mode
     """Single support and its start, symbols too."""
 
-    def does(self, function: Callable[..., T], *more: object) -> T:
+    def does(self, function: Callable[..., _T], *more: object) -> _T:
         """Call a function of `semantics`, or one with the same first arguments, on the symbols of this
         instant.
         """
@@ -202,7 +202,7 @@ class Equations:
         (_, K), trace = self.symbols, Tracer()
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
-        calls = ControlLaw(*(partial(run, trace, getattr(law, x)) for x in ControlLaw._fields))
+        calls = ControlLaw(*(partial(apply, trace, getattr(law, x)) for x in ControlLaw._fields))
         return SymbolicLoop(plant, model, K, trace, calls, held, self.layout, [], zeta, force)
 
     def at(self) -> SymbolicInstant:
@@ -236,7 +236,7 @@ class Equations:
     def view(self, read: Reading) -> SymbolicFunction:
         """The function whose result is all that `read` returns, its arrays joined into one column."""
         at, curve = self.at(), self.symbols[1].curve
-        tracked = None if curve is None else partial(run, at.loop.trace, tracked_point, curve)
+        tracked = None if curve is None else partial(apply, at.loop.trace, tracked_point, curve)
         return self.function(at.inp, *at.does(read, tracked))
 
     def impact(self) -> SymbolicFunction:
@@ -294,13 +294,13 @@ class Equations:
         return self.function(at.inp, *N, at.loop.lost)
 
 
-def matvec(k: int, p: int) -> SymbolicFunction:
+def matvec_function(k: int, p: int) -> SymbolicFunction:
     """M E for E (k, p) and a matrix M (k, k) of the exponential method, which stands in the place of K."""
     M, E = Vector("M", k * k), Vector("E", k * p)
     return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
 
-def push(term: Disturbance, n: int) -> SymbolicFunction:
+def push_function(term: Disturbance, n: int) -> SymbolicFunction:
     """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
 
     Not computed where the term does not act, since most pushes act for a small part of a walk. Raises
@@ -308,11 +308,11 @@ def push(term: Disturbance, n: int) -> SymbolicFunction:
     """
     (K, symbols), inp, trace = symbols_of(term), Vector("inp", 3 + 2 * n), Tracer()
     when, state = (inp.take(), inp.take(), inp.take()), (inp.take(n), inp.take(n))
-    zeta = run(trace, methodcaller("torque", *when, *state), symbols)
-    force = run(trace, methodcaller("resultant", *when), symbols)
+    zeta = apply(trace, methodcaller("torque", *when, *state), symbols)
+    force = apply(trace, methodcaller("resultant", *when), symbols)
     if (np.shape(zeta), np.shape(force)) != ((n,), (2,)):
         raise NotCompiled(f"{type(term).__name__} gives no ({n},) torque or no (2,) resultant")
     acts = None
     if type(term).acts is not Disturbance.acts:
-        acts = column(run(trace, methodcaller("acts", *when), symbols))
+        acts = column(apply(trace, methodcaller("acts", *when), symbols))
     return SymbolicFunction(K, inp.symbol, column(zeta, force), acts)

@@ -28,7 +28,7 @@ CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
 Patterns = Mapping[int, str]
 """Lines by operation."""
-FUNCTIONS: dict[int, str] = {
+OF_C: dict[int, str] = {
     getattr(ca, f"OP_{name.upper()}"): name
     for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
 } | {ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow"}
@@ -62,7 +62,7 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
             work[o[0]] = of[0]
         elif code == ca.OP_OUTPUT:
             result.append(Operation(code, (of[0], o[1])))
-        elif code in PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
+        elif code in _PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
             number = f.instruction_constant(i) if code == ca.OP_CONST else 0.0
             one = _choice(result, of) if code == ca.OP_ADD else Operation(code, of, number)
             work[o[0]] = places.setdefault(one, len(result))
@@ -91,11 +91,11 @@ def _choice(line: list[Operation], of: tuple[int, ...]) -> Operation:
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
 """Comparisons by LLVM's conditions; a result is 0.0 or 1.0."""
 CALLED = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR: "llvm.floor.f64"}
-CALLED |= {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64", **FUNCTIONS}
+CALLED |= {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64", **OF_C}
 """LLVM's intrinsics and the C library's functions; minimum and maximum pass NaN on."""
-OF_TWO = (ca.OP_FMIN, ca.OP_FMAX, ca.OP_POW, ca.OP_CONSTPOW)
+_OF_TWO = (ca.OP_FMIN, ca.OP_FMAX, ca.OP_POW, ca.OP_CONSTPOW)
 """Those of two numbers."""
-PATTERNS: Patterns = {
+_PATTERNS: Patterns = {
     ca.OP_ADD: "fadd double {a}, {b}",
     ca.OP_SUB: "fsub double {a}, {b}",
     ca.OP_MUL: "fmul double {a}, {b}",
@@ -116,13 +116,13 @@ PATTERNS: Patterns = {
         for code, sign in COMPARISONS.items()
     },
     **{
-        code: f"call double @{name}(double {{a}}{', double {b}' if code in OF_TWO else ''})"
+        code: f"call double @{name}(double {{a}}{', double {b}' if code in _OF_TWO else ''})"
         for code, name in CALLED.items()
     },
 }
 """Lines of LLVM by operation."""
 DECLARATIONS = "\n".join(
-    f"declare double @{name}(double{', double' if code in OF_TWO else ''}) nounwind readnone willreturn"
+    f"declare double @{name}(double{', double' if code in _OF_TWO else ''}) nounwind readnone willreturn"
     for name, code in {name: code for code, name in CALLED.items()}.items()
 )
 """Head of every module."""
@@ -178,7 +178,7 @@ def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
             stores.append(f"store double {names[of[0]]}, ptr {at}")
         else:
             operands, values = dict(zip("abc", (names[k] for k in of), strict=False)), list[str]()
-            for text in PATTERNS[code].splitlines():
+            for text in _PATTERNS[code].splitlines():
                 values.append(new(text.format(*values, **operands)))
             name = values[-1]
         names.append(name)

@@ -12,8 +12,8 @@ from biped_adrc.core.part import Setup, content, is_part
 from biped_adrc.model.biped import Biped
 
 REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
-RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
-HIDDEN = (Biped, complex, np.complexfloating, Setup, *RANDOM)
+_RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
+HIDDEN = (Biped, complex, np.complexfloating, Setup, *_RANDOM)
 """What is neither number nor structure in a part; machine code must not depend on it."""
 
 
@@ -23,7 +23,7 @@ def floats(tree: object) -> list[float]:
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    return [number for _, x in inside(tree) for number in floats(x)]
+    return [number for _, x in _inside(tree) for number in floats(x)]
 
 
 def paths(tree: object) -> list[str]:
@@ -36,12 +36,12 @@ def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
     """Numbers and arrays of numbers in a tree, each with its name."""
     if isinstance(tree, REALS) or (isinstance(tree, np.ndarray) and tree.dtype.kind == "f"):
         yield name, tree
-    for part, x in inside(tree):
+    for part, x in _inside(tree):
         place = f"[{part}]" if isinstance(part, int) else f".{part}" if name else part
         yield from leaves(x, name + place)
 
 
-def inside(tree: object) -> Iterator[tuple[str | int, object]]:
+def _inside(tree: object) -> Iterator[tuple[str | int, object]]:
     """The parts of a tuple, list or part, each with its name or place."""
     if is_part(tree) and not isinstance(tree, HIDDEN):
         yield from content(tree).items()

@@ -46,11 +46,11 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
     """
     key = hash_of(text, str(vectors))
     with LOCK:
-        code = stored(key)
+        code = fetch(key)
         if code is None:
-            host = target()
+            host = _target()
             code = object_code(parsed(text, host), host, vectors)
-            keep(key, code)
+            store(key, code)
         return loaded(text, code, names)
 
 
@@ -61,7 +61,7 @@ def hash_of(*made_from: str) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
-def target() -> binding.TargetMachine:
+def _target() -> binding.TargetMachine:
     """LLVM's target machine for this processor, a new one each time: MCJIT owns the one that it is given."""
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
@@ -102,7 +102,7 @@ _ENGINES: list[object] = []
 
 def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     """Object code of a text in memory, with the addresses of these functions."""
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     _ENGINES.append(engine)
@@ -123,7 +123,7 @@ def _path(key: str) -> Path:
     return folder / "code" / f"{key}.bin"
 
 
-def stored(key: str) -> bytes | None:
+def fetch(key: str) -> bytes | None:
     """Object code from the disk; None when it is not there or its checksum is wrong.
 
     The checksum covers the key too, so a file under a wrong name is noticed.
@@ -136,7 +136,7 @@ def stored(key: str) -> bytes | None:
     return code if hashlib.sha256(key.encode() + code).digest() == check else None
 
 
-def keep(key: str, code: bytes) -> None:
+def store(key: str, code: bytes) -> None:
     """Write object code with its checksum, where that is possible."""
     with suppress(OSError, OutputError):
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)

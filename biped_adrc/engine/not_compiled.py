@@ -41,7 +41,9 @@ def _place(error: Exception, f: Any) -> str:
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
     package = [x for x in pairs if x[1].filename.startswith(checks.PACKAGE)]
-    methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
+    methods = [
+        x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(_HERE)
+    ]
     own = [x for x in pairs if checks.is_users(x[1].filename)] or methods or package
     if not own:
         return str(getattr(f, "__qualname__", f))
@@ -50,4 +52,4 @@ def _place(error: Exception, f: Any) -> str:
     return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
 
 
-HERE = str(Path(__file__).parent)
+_HERE = str(Path(__file__).parent)

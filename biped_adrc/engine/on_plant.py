@@ -42,7 +42,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import robot_of
 
 
-def stepping_loop(
+def fastest_loop(
     walker: Walker, plant: SteppingPlant, engine: str = COMPILED, first_step: int = 1
 ) -> SteppingLoop:
     """Make the loop of `other_plant.stepping_loop`, with compiled sample instants where its parts have machine

@@ -130,15 +130,15 @@ def push_code(term: Disturbance, n: int) -> LoadedCode:
 
 
 def _push(term: Disturbance, n: int) -> SymbolicFunction:
-    from biped_adrc.engine.equations import push
+    from biped_adrc.engine.equations import push_function
 
-    return push(term, n)
+    return push_function(term, n)
 
 
 def _matvec(k: int, p: int) -> SymbolicFunction:
-    from biped_adrc.engine.equations import matvec
+    from biped_adrc.engine.equations import matvec_function
 
-    return matvec(k, p)
+    return matvec_function(k, p)
 
 
 def at_rest(layout: Layout) -> Layout:

@@ -37,7 +37,7 @@ from biped_adrc.engine.run import compiled_plant
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
+from biped_adrc.hybrid.simulator import RunOptions, flow_arc, usable
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event
 from biped_adrc.model.planar import link_point
@@ -176,12 +176,12 @@ class PythonWalk:
             until = next_tick(walk.t, start, timing.period)
             at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-                flown = finite(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
+                flown = usable(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
                 raise RaisedError(flown.detail)
             event, arcs = flown.arc.event, (*walk.arcs, flown.arc)
             if event is not None or flown.status is not Status.COMPLETED:
-                over.append(joined(arcs))
+                over.append(_joined(arcs))
                 arcs = ()
             if flown.outcome is None or event is None:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
@@ -192,7 +192,7 @@ class PythonWalk:
                 return walk, flown.status, over
 
 
-def joined(arcs: Sequence[Arc]) -> Arc:
+def _joined(arcs: Sequence[Arc]) -> Arc:
     """One arc of arcs of the same single support that follow one another."""
     kept = [arc for arc in arcs if arc.read] or arcs  # one that failed at once has read nothing
     t, x, dx = (np.concatenate([getattr(arc, name) for arc in kept]) for name in ("t", "x", "dx"))
@@ -200,7 +200,7 @@ def joined(arcs: Sequence[Arc]) -> Arc:
     return Arc(arcs[0].mode, t, x, dx, arcs[-1].event, read)
 
 
-def reading(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
+def evaluated(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
     """Evaluate view(loop, t, x, mode, reference) at a walk's present state in Python, as one row."""
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])

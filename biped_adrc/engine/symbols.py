@@ -33,11 +33,11 @@ from biped_adrc.engine.not_compiled import NotCompiled
 T = TypeVar("T")
 
 
-Number = Union["Scalar", float]
+_Number = Union["Scalar", float]
 """A symbol, or a number that the structure fixes."""
 
 
-def expression(x: Number) -> ca.SX | float:
+def expression(x: _Number) -> ca.SX | float:
     """The CasADi expression behind a Scalar, or the number itself as a float. Raises NotCompiled for others."""
     if isinstance(x, Scalar):
         return x.e
@@ -47,14 +47,14 @@ def expression(x: Number) -> ca.SX | float:
         raise NotCompiled(f"a law gives {x!r}, expected a real number") from error
 
 
-def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Scalar]:
+def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, _Number], Scalar]:
     """A method of `Scalar` for CasADi's operation `code`; reflected: operands exchanged, as for 2.0 * x.
 
     Beside an array it returns NotImplemented, and NumPy then applies the operator entry by entry. CasADi's own
     operators take eight times as long, as they look for other types first.
     """
 
-    def apply(self: Scalar, other: Number) -> Scalar:
+    def apply(self: Scalar, other: _Number) -> Scalar:
         if isinstance(other, np.ndarray):
             return NotImplemented
         one, two = self.e, expression(other)
@@ -63,7 +63,7 @@ def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Sc
     return apply
 
 
-def function_of(name: str) -> Callable[[Number], Scalar]:
+def function_of(name: str) -> Callable[[_Number], Scalar]:
     """CasADi's function of that name for one Scalar."""
     code = getattr(ca, f"OP_{name.upper()}")
     return lambda x: Scalar(ca.SX.unary(code, expression(x)))
@@ -87,7 +87,7 @@ class Scalar:
     def __float__(self) -> float:
         raise NotCompiled("the law turns a number into a float of Python's or of an array's")
 
-    def __pow__(self, other: Number) -> Scalar:
+    def __pow__(self, other: _Number) -> Scalar:
         """A whole exponent stays an int, which CasADi turns into products; any other is a power."""
         if isinstance(other, np.ndarray):
             return NotImplemented
@@ -122,7 +122,7 @@ def _compare(name: str) -> Callable[..., Any]:
     return lambda self, other: compare(self, other, dtype=object)
 
 
-class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
+class _Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """An object array of Scalars; comparisons give Scalars too, for `np.where`.
 
     Typed as the array of float64 that it stands for, so that methods take it.
@@ -136,7 +136,7 @@ class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         """The result of an operation: an array of symbols, or the symbol itself where it is one, as NumPy
         does.
         """
-        return array.item() if array.ndim == 0 else array.view(Symbols)
+        return array.item() if array.ndim == 0 else array.view(_Symbols)
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -145,7 +145,7 @@ def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *arguments: vectorised(*arguments)
 
 
-FUNCTIONS = {
+TWINS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
     "fabs": "fabs",
@@ -153,21 +153,21 @@ FUNCTIONS = {
     "sign": "sign",
 }
 """Functions of one number that can be traced: NumPy's names and CasADi's."""
-for _name, _theirs in FUNCTIONS.items():  # which NumPy asks each entry of an object array for
+for _name, _theirs in TWINS.items():  # which NumPy asks each entry of an object array for
     setattr(Scalar, _name, function_of(_theirs))
 
 
-def minimum(a: Number, b: Number) -> Scalar:
+def minimum(a: _Number, b: _Number) -> Scalar:
     """The smaller of two numbers."""
     return Scalar(ca.SX.binary(ca.OP_FMIN, expression(a), expression(b)))
 
 
-def maximum(a: Number, b: Number) -> Scalar:
+def maximum(a: _Number, b: _Number) -> Scalar:
     """The larger of two numbers."""
     return Scalar(ca.SX.binary(ca.OP_FMAX, expression(a), expression(b)))
 
 
-def where(condition: Number, a: Number, b: Number) -> Scalar:
+def where(condition: _Number, a: _Number, b: _Number) -> Scalar:
     """a where the condition is not 0, else b; both are evaluated."""
     return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
 
@@ -183,8 +183,8 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     n = len(A)
     columns: Any = B.reshape(n, -1).astype(object)
     L = np.full((n, n), 0.0, dtype=object)
-    d: list[Number] = []
-    inverse: list[Number] = []
+    d: list[_Number] = []
+    inverse: list[_Number] = []
     for j in range(n):
         d.append(A[j, j] - sum(L[j, k] * L[j, k] * d[k] for k in range(j)))
         inverse.append(1.0 / d[j])
@@ -201,7 +201,7 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     return columns.reshape(B.shape)
 
 
-class Solver:
+class SymbolicSolver:
     """`linear.solve` on symbols: elimination with the largest pivot of each column.
 
     Which row has the largest pivot is not known while tracing, so rows are exchanged by choices in
@@ -221,7 +221,7 @@ class Solver:
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
         rows: Any = np.hstack((A, B.reshape(n, -1))).astype(object)
-        inverse: list[Number] = []
+        inverse: list[_Number] = []
         for j in range(n):
             for i in range(j + 1, n):
                 one, other = rows[j, j:].copy(), rows[i, j:].copy()
@@ -279,7 +279,7 @@ class Vector:
         if not shape:
             self._taken += 1
             return Scalar(self.symbol[self._taken - 1])
-        out = np.empty(shape, dtype=object).view(Symbols)
+        out = np.empty(shape, dtype=object).view(_Symbols)
         for index in np.ndindex(*shape):
             out[index] = self.take()
         return frozen(out)

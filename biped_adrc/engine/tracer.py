@@ -2,8 +2,8 @@
 
 A law is written for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the
 copies the names of NumPy's, math's and `linear`'s functions lead to twins that take symbols. Of a controller or
-another part (a dataclass of `core.part`) it makes a twin, whose methods are such copies. `run` calls a copy and
-says in which function an error arose. The symbols themselves are in `engine.symbols`.
+another part (a dataclass of `core.part`) it makes a twin, whose methods are such copies. `apply` calls a
+copy and says in which function an error arose. The symbols themselves are in `engine.symbols`.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from biped_adrc.engine.leaves import HIDDEN, rebuilt
 from biped_adrc.engine.not_compiled import Located, NotCompiled, located
 from biped_adrc.engine.structure import is_library
 from biped_adrc.engine.symbols import (
-    FUNCTIONS,
+    TWINS,
     Hidden,
     Scalar,
-    Solver,
+    SymbolicSolver,
     T,
     elementwise,
     function_of,
@@ -95,8 +95,8 @@ class Tracer:
 
     def __init__(self) -> None:
         """Make the table of replacements for functions of NumPy, math and `linear`."""
-        self.solver, random = Solver(), Hidden("random numbers")
-        scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
+        self.solver, random = SymbolicSolver(), Hidden("random numbers")
+        scalars = {name: function_of(theirs) for name, theirs in TWINS.items()}
         numpy = {
             **{name: elementwise(function) for name, function in scalars.items()},
             "zeros": _filled(0.0),
@@ -241,7 +241,7 @@ class _Named:
         return self._trace.on_symbols(getattr(self._module, name))
 
 
-def run(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
+def apply(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
     """The result of a function or method on symbols, at these arguments.
 
     Raises Located that names the last function of the user's or this package's in which the error

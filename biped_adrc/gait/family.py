@@ -31,7 +31,7 @@ from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
 from biped_adrc.model.biped import Biped
 
-FORMAT = "biped_adrc family 1"
+_FORMAT = "biped_adrc family 1"
 """First entry of a family's file."""
 DECISION = 0.35
 """Share of a step, in Theta, at which the controller decides on the member that ends it."""
@@ -165,7 +165,7 @@ class GaitFamily(Part):
 
     def save(self, path: Path | str) -> None:
         """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
-        write_json({"format": FORMAT, **plain(self)}, output_path(path, (".json",)))
+        write_json({"format": _FORMAT, **plain(self)}, output_path(path, (".json",)))
 
 
 def load_family(family: str | Path, biped: Biped) -> GaitFamily:
@@ -196,8 +196,8 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
 
 def _from_record(record: dict[str, Any]) -> GaitFamily:
     """The family in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
-    if record.pop("format") != FORMAT:
-        raise GaitError(f"it is no family, whose format is '{FORMAT}'")
+    if record.pop("format") != _FORMAT:
+        raise GaitError(f"it is no family, whose format is '{_FORMAT}'")
 
     def polynomial(x: Mapping[str, Any]) -> PolynomialMap:
         arrays = (np.array(x[name], dtype=float) for name in ("coefficients", "centre", "scale"))

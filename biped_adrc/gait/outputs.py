@@ -28,7 +28,7 @@ import numpy as np
 
 from biped_adrc.core.checks import called_checked, returned
 from biped_adrc.core.errors import GaitError
-from biped_adrc.core.shown import Shown, one_line
+from biped_adrc.core.shown import Shown, as_line
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Curve
@@ -56,7 +56,7 @@ class OutputPoint(NamedTuple):
     """Part of y'' that does not depend on q'' (p,), unit of y per s^2: y'' = J q'' + drift."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 class Outputs(Shown, ABC):

@@ -21,7 +21,7 @@ import numpy as np
 
 from biped_adrc.core.checks import called_checked, point_returned
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array
 
 
@@ -43,7 +43,7 @@ class ReferencePoint(NamedTuple):
     """Matrix (p, n) of q_d'' = drift + H q'', dimensionless."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 class Reference(Part):

@@ -36,7 +36,7 @@ from biped_adrc.model.biped import Biped
 
 JointCurve = Callable[[float], tuple[Array, Array, Array]]
 """A function of Theta [rad] that returns h [rad], dh/dTheta, d2h/dTheta2, each (p,)."""
-NODES = 40
+_NODES = 40
 """Gauss nodes over a step, enough for curves of degree 6 to be integrated to round-off."""
 
 
@@ -108,7 +108,7 @@ class ZeroDynamics(Shown):
     """G_N (K,) [N m]."""
 
     @classmethod
-    def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
+    def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = _NODES) -> ZeroDynamics:
         """Evaluate the model along the constraint at `nodes` Gauss nodes. Raises
         InputError for other arguments.
         """

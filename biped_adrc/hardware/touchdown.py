@@ -123,7 +123,7 @@ class Due(NamedTuple):
     """State of the random numbers (6,), or (0,)."""
 
 
-class Load(NamedTuple):
+class _Load(NamedTuple):
     """State of a `ByForce`."""
 
     free: float
@@ -280,10 +280,10 @@ class ByForce(Gated):
 
     needs_force = True
 
-    def start(self) -> Load:
-        return Load(0.0, 0.0, 0.0, 0.0, 0.0)
+    def start(self) -> _Load:
+        return _Load(0.0, 0.0, 0.0, 0.0, 0.0)
 
-    def notice(self, d: Load, look: Look) -> tuple[Load, float]:
+    def notice(self, d: _Load, look: Look) -> tuple[_Load, float]:
         """Fire when a free foot has been loaded for long enough, after the delay."""
         t = look.t
         free = np.maximum(d.free, 1.0 * (look.force < self.off))
@@ -295,4 +295,4 @@ class ByForce(Gated):
         waits = np.maximum(d.waits, sure)
         fires = waits * (t >= due - SAME_INSTANT)
         left = 1.0 - fires
-        return Load(free * left, loaded * left, since, waits * left, due), fires
+        return _Load(free * left, loaded * left, since, waits * left, due), fires

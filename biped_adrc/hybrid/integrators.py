@@ -23,7 +23,7 @@ from biped_adrc.core.types import Array
 Flow = Callable[[float, Array], Array]
 """f(t, x) -> x'."""
 
-LOST = (NotFiniteError, RanAwayError, SingularError)
+_LOST = (NotFiniteError, RanAwayError, SingularError)
 """What a flow may raise at a state that means nothing."""
 
 
@@ -118,7 +118,7 @@ class _SciPy(Checked, Solver):
                 dx, last = f(t, x), None
                 if not np.all(np.isfinite(dx)):
                     lost = NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
-            except LOST as error:  # a step too long, which is rejected
+            except _LOST as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
                 lost = error
             return dx

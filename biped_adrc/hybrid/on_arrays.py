@@ -21,8 +21,8 @@ from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
 from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
-from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode
-from biped_adrc.hybrid.trajectory import Event, Record
+from biped_adrc.hybrid.system import AnyMode, Clock, FoundEvent, HybridSystem
+from biped_adrc.hybrid.trajectory import Event, Recorder
 
 _Function = TypeVar("_Function", bound=Callable[..., object])
 
@@ -44,7 +44,7 @@ class Calendar:
     """When something happens beside the events: the clocks and switching times of a system over one arc."""
 
     system: HybridSystem
-    mode: Mode
+    mode: AnyMode
     t_arc: float
     """Start of the arc [s]."""
     t_first: float
@@ -93,7 +93,7 @@ class Run:
         self,
         calendar: Calendar,
         method: OneStepMethod,
-        record: Record,
+        record: Recorder,
         t: float,
         x: Array,
         fired: Event | None,

@@ -30,7 +30,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import HybridSystem, Mode, Outcome
+from biped_adrc.hybrid.system import After, AnyMode, HybridSystem
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 Progress = Callable[[float, int], None]
@@ -88,12 +88,12 @@ class FlownArc(NamedTuple):
     """COMPLETED also where the run goes on."""
     detail: str = ""
     """The error's own text, where one ended it."""
-    outcome: Outcome = None
+    outcome: After = None
     """None where the run ends with this arc."""
 
 
 def simulate(
-    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod, **options: Any
+    system: HybridSystem, x0: Array, mode: AnyMode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
     """Run a hybrid system from (t0, x0, mode).
 
@@ -111,7 +111,11 @@ def simulate(
 
 
 def run(
-    system: HybridSystem, x0: Array, mode: Mode, method: OneStepMethod | None, options: RunOptions
+    system: HybridSystem,
+    x0: Array,
+    mode: AnyMode,
+    method: OneStepMethod | None,
+    options: RunOptions,
 ) -> Trajectory:
     """Simulate a system from x0 (nx,) with options as a record; a system with a mover of its own needs no
     method.
@@ -121,9 +125,9 @@ def run(
 
 
 def run_arcs(
-    fly: Callable[[float, Array, Mode, Event | None], FlownArc],
+    fly: Callable[[float, Array, AnyMode, Event | None], FlownArc],
     x0: Array,
-    mode: Mode,
+    mode: AnyMode,
     label: str,
     options: RunOptions,
 ) -> Trajectory:
@@ -140,7 +144,7 @@ def run_arcs(
     while True:
         # what overflows ends as the status NOT_FINITE
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            flown = finite(fly(t, x, mode, event))
+            flown = usable(fly(t, x, mode, event))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
@@ -158,7 +162,7 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-def finite(flown: FlownArc) -> FlownArc:
+def usable(flown: FlownArc) -> FlownArc:
     """The arc up to its last node that is finite, and without an event whose states are not."""
     arc, event = flown.arc, flown.arc.event
     rows = (arc.t[:, np.newaxis], arc.x, arc.dx)
@@ -204,7 +208,7 @@ def flow_arc(
     options: RunOptions,
     t: float,
     x: Array,
-    mode: Mode,
+    mode: AnyMode,
     fired: Event | None,
     began: float | None = None,
 ) -> FlownArc:

@@ -28,7 +28,7 @@ from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 Stored = NDArray[Any]
 """An array of a file, of numbers or text."""
 
-FORMAT = "biped_adrc run 2"
+_FORMAT = "biped_adrc run 2"
 """Version of the layout; a file of another one is refused."""
 BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
@@ -53,7 +53,7 @@ def save(
     path = output_path(path, (".npz",), default=True)
     events = [arc.event for arc in trajectory.arcs]
     meta = {
-        "format": FORMAT,
+        "format": _FORMAT,
         "status": trajectory.status.name,
         "detail": trajectory.detail,
         "settings": {**trajectory.settings, **(settings or {})},
@@ -93,8 +93,8 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
             raise InputError("it is no run, expected a .npz file that 'simulate -o' has written")
         with np.load(io.BytesIO(content), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
-            if meta["format"] != FORMAT:
-                raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
+            if meta["format"] != _FORMAT:
+                raise InputError(f"it has format '{meta['format']}', expected '{_FORMAT}'")
             arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
             _check(arcs)
             if not arcs or f"t{len(arcs)}" in data:

@@ -20,11 +20,11 @@ from typing import Any, NamedTuple
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Event, Record
+from biped_adrc.hybrid.trajectory import Event, Recorder
 
-Mode = Any
+AnyMode = Any
 """The discrete state, a value of the system's own; Any, since only the system itself looks inside."""
-Outcome = tuple[Array, Mode] | None
+After = tuple[Array, AnyMode] | None
 """(x+, mode+) after an event; None where the run ends with it."""
 
 
@@ -33,17 +33,17 @@ class FoundEvent(NamedTuple):
 
     event: Event
     """Guard, time and states."""
-    outcome: Outcome = None
+    outcome: After = None
     """(x+, mode+), None where the run ends here."""
     status: Status = Status.COMPLETED
     """How the run ends, for an event that ends it."""
 
 
-Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, FoundEvent | None]]
+Mover = Callable[[float, Array, AnyMode, float, Any], tuple[float, Array, FoundEvent | None]]
 """move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
 
 Moves a system from t to `until` [s] or to its next event in whatever way it likes. Nodes go into
-`record`, a `trajectory.Record`, as they are made, so that they are kept where it raises.
+`record`, a `trajectory.Recorder`, as they are made, so that they are kept where it raises.
 """
 
 
@@ -66,7 +66,7 @@ class Guard(Shown):
 
     name: str
     witness: Callable[[float, Array], float]
-    reset: Callable[[float, Array], tuple[Array, Mode] | None] | None = None
+    reset: Callable[[float, Array], tuple[Array, AnyMode] | None] | None = None
     terminal: Status | None = None
 
 
@@ -80,7 +80,7 @@ class Clock(Shown):
 
     name: str
     period: float
-    update: Callable[[float, Array, Mode], Array]
+    update: Callable[[float, Array, AnyMode], Array]
     restart: bool = True
     offset: float = 0.0
 
@@ -117,7 +117,7 @@ class Relaxing(NamedTuple):
 class HybridSystem(Shown):
     """A hybrid system; see the module for the equations. Override what the system has."""
 
-    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+    def flow(self, t: float, x: Array, mode: AnyMode) -> Array:
         """x' at (t, x) in `mode`, of the shape of x (nx,), t in [s]."""
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
 
@@ -132,11 +132,11 @@ class HybridSystem(Shown):
         """
         return None
 
-    def record(self, every: int) -> Record:
+    def record(self, every: int) -> Recorder:
         """Room for the nodes of one arc, of which each `every`-th is kept."""
-        return Record(every)
+        return Recorder(every)
 
-    def guards(self, mode: Mode) -> tuple[Guard, ...]:
+    def guards(self, mode: AnyMode) -> tuple[Guard, ...]:
         """The event functions that are watched in `mode`."""
         return ()
 
@@ -144,11 +144,11 @@ class HybridSystem(Shown):
         """The clocks, in the order in which they tick at equal times."""
         return ()
 
-    def switching_times(self, mode: Mode) -> tuple[float, ...]:
+    def switching_times(self, mode: AnyMode) -> tuple[float, ...]:
         """Times [s] in `mode` at which the flow is not smooth; no step goes across one of them."""
         return ()
 
-    def split(self, mode: Mode) -> Split | None:
+    def split(self, mode: AnyMode) -> Split | None:
         """Coordinates for the exponential method; None when the system has none."""
         return None
 

@@ -87,11 +87,11 @@ class Arc(Shown):
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
         i = min(max(i, 0), len(self.t) - 2)
         at, x, dx = self.t, self.x, self.dx
-        return hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
+        return _hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
 
 
 @dataclass
-class Record:
+class Recorder:
     """Nodes of the arc being built: one by one, or many in rows.
 
     The lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by name grow with every call.
@@ -118,7 +118,7 @@ class Record:
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
 
 
-def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
+def _hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
     """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1, each (nx,), at t [s]; x1 when t1 = t0."""
     h = t1 - t0
     if h == 0.0:

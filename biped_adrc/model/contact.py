@@ -29,9 +29,9 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.core.errors import SingularError
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array
-from biped_adrc.model.pinned import WORLD_AXES, XZ, build, frame_index, velocity_index
+from biped_adrc.model.pinned import WORLD_AXES, XZ, frame_index, pinned_model, velocity_index
 from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
 from biped_adrc.model.robots.urdf import Tree
 
@@ -59,7 +59,7 @@ class Impact(NamedTuple):
         return float(abs(self.impulse[0]) / self.impulse[1])
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 class FloatingDynamics:
@@ -71,7 +71,7 @@ class FloatingDynamics:
 
     def __init__(self, tree: Tree, d: RobotDescription, armature: Rotors):
         """Build the model of a tree with the armature [kg m^2] at every motor of the record `d`."""
-        self.model = build(tree, d, armature)
+        self.model = pinned_model(tree, d, armature)
         self.data = self.model.createData()
         self.n = len(d.joints)
         self.angles = np.array([velocity_index(self.model, name) for name in d.joints])

@@ -29,7 +29,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import jacobian, point, turned
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
-Symbols = NDArray[np.object_]
+_Symbols = NDArray[np.object_]
 """A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
 
 
@@ -78,7 +78,7 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
 
 
 # -- the planar model as CasADi expressions --------------------------------------------------------
-def each(x: ca.SX) -> Symbols:
+def entries(x: ca.SX) -> _Symbols:
     """Convert a CasADi column of m symbols to a NumPy array (m,) of CasADi scalars; the inverse of
     `together`.
     """
@@ -88,7 +88,7 @@ def each(x: ca.SX) -> Symbols:
     return out
 
 
-def together(values: Symbols) -> ca.SX:
+def together(values: _Symbols) -> ca.SX:
     """Convert a NumPy array (m,) or (m, k) of CasADi scalars to one CasADi column or matrix."""
     rows = np.reshape(values, (len(values), -1))
     return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
@@ -103,8 +103,8 @@ def pose_function(robot: PlanarRobot) -> ca.Function:
     """
     n, K = robot.n, robot.K
     q = ca.SX.sym("q", n)
-    x = each(q)
-    rest: Symbols = np.zeros(n, dtype=object)
+    x = entries(q)
+    rest: _Symbols = np.zeros(n, dtype=object)
     t, A = turned(robot.A, x), robot.A
     D, _ = robot.inertia_and_bias(x, rest)
     J_m, J_2 = jacobian(A, t, K.w_re, K.w_im), jacobian(A, t, K.foot_re, K.foot_im)

@@ -152,8 +152,8 @@ def _are_steps(steps: object) -> bool:
     return isinstance(steps, tuple) and all(isinstance(x, StepDown | StepUp) for x in steps)
 
 
-STEPS = Range("a tuple of steps, such as (StepDown(3, 0.02),), or ()", _are_steps)
-GroundSteps = Annotated[tuple[StepDown | StepUp, ...], STEPS]
+_STEPS = Range("a tuple of steps, such as (StepDown(3, 0.02),), or ()", _are_steps)
+GroundSteps = Annotated[tuple[StepDown | StepUp, ...], _STEPS]
 
 
 Steps = tuple[StepDown | StepUp, ...]

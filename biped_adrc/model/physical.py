@@ -41,7 +41,7 @@ LIMIT = 1e-9
 """Largest relative gap of a law; double precision leaves about 1e-12."""
 
 
-def checks(biped: Biped) -> tuple[Check, ...]:
+def physical_checks(biped: Biped) -> tuple[Check, ...]:
     """Check the laws at 20 random states, one `Check` per law. A NaN counts as violated."""
     laws = largest_gaps(biped, 20, 0)
     return tuple(at_most(law, "law", gap, LIMIT) for law, gap in laws.items())

@@ -24,7 +24,7 @@ import pinocchio as pin
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.types import Array
 from biped_adrc.model.robots.robot_toml import RobotDescription, Rotors
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Triple, to_xml
 
 XZ = [0, 2]
 """The plane of motion among Pinocchio's axes x, y, z."""
@@ -32,7 +32,7 @@ WORLD_AXES = pin.LOCAL_WORLD_ALIGNED
 """Velocities of the origin of a frame along the axes of the world."""
 
 
-def build(tree: Tree, d: RobotDescription, armature: Rotors) -> pin.Model:
+def pinned_model(tree: Tree, d: RobotDescription, armature: Rotors) -> pin.Model:
     """Make the Pinocchio model of `tree`, with rotor inertia `armature` [kg m^2] at
     every motor, or one number for each, and its gravity.
     """
@@ -88,7 +88,7 @@ class PinnedDynamics:
 
         Raises ModelError when the tree and the record have different numbers of coordinates.
         """
-        self.model, joints = build(tree, d, armature), d.joints
+        self.model, joints = pinned_model(tree, d, armature), d.joints
         self.data = self.model.createData()
         n = len(joints)
         if self.model.nv != n:
@@ -160,15 +160,15 @@ class PinnedDynamics:
 
 PIN_JOINT = "stance_pin"
 """Name of the joint between the ground and the stance foot in the pinned tree."""
-ZERO: Vector = (0.0, 0.0, 0.0)
+ZERO: Triple = (0.0, 0.0, 0.0)
 
 
-def _minus(a: Vector, b: Vector) -> Vector:
+def _minus(a: Triple, b: Triple) -> Triple:
     """a - b as a vector [m]; adding 0.0 turns -0.0 into 0.0, which would be written as "-0"."""
     return (a[0] - b[0] + 0.0, a[1] - b[1] + 0.0, a[2] - b[2] + 0.0)
 
 
-def _moved(link: Link, origin: Vector) -> Link:
+def _moved(link: Link, origin: Triple) -> Link:
     """The link in a frame whose origin lies at `origin` [m] of the old one."""
     body = link.inertial and replace(link.inertial, com=_minus(link.inertial.com, origin))
     visuals = tuple(replace(v, origin=_minus(v.origin, origin)) for v in link.visuals)

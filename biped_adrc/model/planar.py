@@ -33,7 +33,7 @@ Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
 """Arrays of numbers, or of symbols; a function that is given one kind returns the same kind."""
 
 
-def parts(z: ComplexArray) -> tuple[Array, Array]:
+def per_link(z: ComplexArray) -> tuple[Array, Array]:
     """Real and imaginary part of z, contiguous as compiled code expects them."""
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
@@ -138,4 +138,4 @@ def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkP
     """Fit a `LinkPoint` to its place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
     (d,) = fitted(A, place, POINT_EXACT)
-    return LinkPoint(np.ascontiguousarray(A), *parts(d), turn)
+    return LinkPoint(np.ascontiguousarray(A), *per_link(d), turn)

@@ -47,10 +47,10 @@ from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.contact import Impact
-from biped_adrc.model.planar import Numbers, Turned, fitted, jacobian, parts, point, turned
+from biped_adrc.model.planar import Numbers, Turned, fitted, jacobian, per_link, point, turned
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 
-EXACT = 1e-11
+_EXACT = 1e-11
 """Largest difference to Pinocchio's D_s, Omega and swing foot, relative to their largest entry."""
 
 
@@ -113,14 +113,14 @@ class PlanarRobot:
         Raises ModelError when it is no planar tree of rigid links.
         """
         n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
-        d = fitted(A, biped.pinned.points, EXACT)
+        d = fitted(A, biped.pinned.points, _EXACT)
         com, rotor = d[:n], np.zeros(n)
         rotor[: biped.p] = biped.armature
         W = com.conj().T @ (mass[:, np.newaxis] * com)
-        w, foot, hip = (parts(z) for z in (mass @ com, d[n], d[n + 1]))
+        w, foot, hip = (per_link(z) for z in (mass @ com, d[n], d[n + 1]))
         total, gravity = float(np.sum(mass)), biped.description.gravity
         inertia = np.diag(W.real) + inertia
-        K = PlantArrays(*parts(W), inertia, rotor, *w, *foot, *hip, total, gravity)
+        K = PlantArrays(*per_link(W), inertia, rotor, *w, *foot, *hip, total, gravity)
         legs = biped.R.astype(int), biped.relabel(np.zeros(n)), biped.swap
         friction = biped.friction_coefficients if biped.friction else ()
         return cls(A.astype(int), K, biped.p, *legs, friction).check(biped)
@@ -138,10 +138,10 @@ class PlanarRobot:
             theirs = (biped.inertia(q), biped.bias(q, v), biped.swing_foot(q))
             for name, one, other in zip(names, ours, theirs, strict=True):
                 gap = np.max(np.abs(one - other)) / max(1e-3, float(np.max(np.abs(other))))
-                if not gap <= EXACT:
+                if not gap <= _EXACT:
                     raise ModelError(
                         f"robot '{biped.description.name}' is no planar tree of rigid links: {name} in "
-                        f"absolute angles differs from Pinocchio's by {gap:.1e} relative, expected {EXACT:g}; "
+                        f"absolute angles differs from Pinocchio's by {gap:.1e} relative, expected {_EXACT:g}; "
                         "look for an axis that is not y"
                     )
         return self
@@ -281,19 +281,19 @@ def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
     return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 REMEMBERED = 64
 """Number of robots whose formulas are kept in memory."""
 
 
-def once_each(make: Callable[[Biped], T]) -> Callable[[Biped], T]:
+def once_each(make: Callable[[Biped], _T]) -> Callable[[Biped], _T]:
     """`make`, with what it made of the last REMEMBERED robots; a robot is known by its identity.
 
     By identity, since comparing two robots would cost more than reading one.
     """
-    memory: dict[int, tuple[Biped, T]] = {}
+    memory: dict[int, tuple[Biped, _T]] = {}
 
-    def found(biped: Biped) -> T:
+    def found(biped: Biped) -> _T:
         if id(biped) not in memory or memory[id(biped)][0] is not biped:
             while len(memory) >= REMEMBERED:
                 memory.pop(next(iter(memory)))

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.core.linear import solve_positive
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array
 
 
@@ -45,7 +45,7 @@ class Reduction(NamedTuple):
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 class BodyTerms(NamedTuple):
@@ -69,7 +69,7 @@ class BodyTerms(NamedTuple):
     """Mass of the whole robot [kg]."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 @lru_cache(maxsize=16)

@@ -35,7 +35,7 @@ import numpy as np
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive
 from biped_adrc.core.part import Part
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array, Indices, relabelled
 
 
@@ -50,7 +50,7 @@ class Estimate(NamedTuple):
     """xi^ = x3^ [rad/s^2]."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 class ResetPolicy(Enum):

@@ -75,7 +75,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     for preset in r.plan.presets if r.plan.full else ():
         rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
         inputs[f"push_map_{preset}"] = (push_map_figure, rows)
-    return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
+    return {name: Task(name, _rendered, arguments) for name, arguments in inputs.items()}
 
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
@@ -97,7 +97,7 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     return map_figure(numbers, names, "1 feasible, 0.5 makes all steps, 0 does not", log=False)
 
 
-def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
+def _rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
     """A figure as PNG and as SVG, laid out by the first so that both are alike."""
     figure = draw(*arguments)
     png = render(figure, "png")

@@ -22,7 +22,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.pushes import LOST, MemberOutcome, PushCell
 from biped_adrc.paper.runs import Runs, Start
-from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
+from biped_adrc.paper.scenarios import CONTROLLERS, HEAVIER, declared
 from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
@@ -56,7 +56,7 @@ def error(pair: Pair) -> AtTwoSteps:
     return at_two(ratio, *pair)
 
 
-def largest(name: str, o: Outcome) -> float:
+def _largest(name: str, o: Outcome) -> float:
     """The largest value of all steps; without a step it keeps no limit."""
     return float(np.max([getattr(s, name) for s in o.certificates] or [math.inf]))
 
@@ -194,7 +194,7 @@ def theta_of(o: MemberOutcome) -> str:
 
 
 # -- scenarios -------------------------------------------------------------------------------------
-def headline(r: Runs) -> dict[str, Outcome]:
+def _headline(r: Runs) -> dict[str, Outcome]:
     """The pushed walks, by controller."""
     return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
@@ -240,7 +240,7 @@ def pushed(kind: str, r: Runs) -> dict[str, MemberOutcome]:
 def heavier(r: Runs) -> dict[str, Pair]:
     """A plant heavier than the model, in all presets."""
     result = {}
-    for preset, kind in itertools.product(r.plan.presets, KINDS):
+    for preset, kind in itertools.product(r.plan.presets, HEAVIER):
         name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
         result[f"{preset}, heavier {kind}"] = r.pair(name)
     return result

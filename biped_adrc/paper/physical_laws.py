@@ -31,7 +31,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.hybrid.system import HybridSystem, Mode
+from biped_adrc.hybrid.system import AnyMode, HybridSystem
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.physical import largest_gaps
 from biped_adrc.model.reduction import reduce
@@ -89,7 +89,7 @@ class HeldJoint(HybridSystem):
     J: float = 1.3
     """Inertia [kg m^2]."""
 
-    def flow(self, t: float, x: Array, mode: Mode) -> Array:
+    def flow(self, t: float, x: Array, mode: AnyMode) -> Array:
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
         D = np.array([[self.J]])

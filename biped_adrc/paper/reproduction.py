@@ -30,7 +30,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all
 from biped_adrc.paper.poincare import regression_of
-from biped_adrc.paper.pushes import WORDS, PushCell, word_of
+from biped_adrc.paper.pushes import ENDS, PushCell, word_of
 from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
@@ -41,7 +41,7 @@ from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.pages import report_html
 from biped_adrc.view.plots.figures import push_window
 
-WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
+_WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 """Kinds of the files that a reproduction writes."""
 
 
@@ -118,7 +118,7 @@ def probe(out: Path) -> None:
     write_text(marker, "")
     marker.unlink()
     for path in out.iterdir():
-        if path.suffix in WRITTEN:
+        if path.suffix in _WRITTEN:
             check_place(path)
 
 
@@ -141,21 +141,21 @@ def tables(r: Runs) -> dict[str, Table]:
     poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
     constants = ("K_p [1/s^2]", 5000, TABLE_II.K_p), ("K_d [1/s]", 50, TABLE_II.K_d)
     return {
-        "Table I: observer eigenvalues [rad/s]": table(
+        "Table I: observer eigenvalues [rad/s]": _table(
             {"paper, rounded": a, "here, 180 x 1.8^k": b} for a, b in poles
         ),
-        "Table II: controller constants": table(
+        "Table II: controller constants": _table(
             {"constant": name, "paper": a, "here": b} for name, a, b in constants
         ),
-        "Runs": table(_run(name, o) for name, o in r.run_twice.items()),
+        "Runs": _table(_run(name, o) for name, o in r.run_twice.items()),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(r),
-        "Numerics": table({"figure": k, "value": v} for k, v in r.figures.items()),
+        "Numerics": _table({"figure": k, "value": v} for k, v in r.figures.items()),
         "Map of pushes": _map(r.cells),
     }
 
 
-def table(rows: Iterable[dict[str, object]]) -> Table:
+def _table(rows: Iterable[dict[str, object]]) -> Table:
     """A table of rows that are given by column name, at least one, all with the same columns."""
     rows = list(rows)
     return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
@@ -207,7 +207,7 @@ def _multipliers(r: Runs) -> Table:
         name, remark = f"regression (27) on the pushed walk, {c}", test.warning or NO_MULTIPLIERS
         result[name] = test.magnitudes.tolist(), remark
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
-    return table(
+    return _table(
         {"method": method, "magnitudes": z, "remark": remark}
         for method, (z, remark) in result.items()
     )
@@ -225,7 +225,7 @@ def _recipe(r: Runs) -> Table:
         row["rate jump at impact [rad/s]"] = r.jumps[name.split(", ")[1]]["recipe"]
         row["x- minus x*"] = result and (result.x_minus[: len(X_STAR)] - X_STAR).tolist()
         rows.append(row | {"remark": x if isinstance(x, str) else ""})
-    return table(rows)
+    return _table(rows)
 
 
 COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step"}
@@ -238,8 +238,8 @@ def _map(cells: list[PushCell]) -> Table:
         (x.setting, c, word_of(w)) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)
     ]
     count = Counter(fates)
-    return table(
+    return _table(
         {"preset, torque limit": name, "controller": c}
-        | {COLUMN.get(word, word): count[name, c, word] for word in WORDS}
+        | {COLUMN.get(word, word): count[name, c, word] for word in ENDS}
         for name, c in dict.fromkeys(fate[:2] for fate in fates)
     )

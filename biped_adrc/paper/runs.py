@@ -34,7 +34,7 @@ from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
-BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.KINDS), "torso")
+BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
 """Walks that are held against one another under both controllers: pushed, sampled, heavier than the model."""
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""
@@ -75,7 +75,7 @@ class Headline:
     """What `physical_laws.walk_laws` found."""
 
 
-def headline(run: Scenario) -> Headline:
+def _headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk = sparse(walk_scenario(run))
     half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
@@ -224,7 +224,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     for preset in plan.presets:
         add("members", preset, member_outcomes, scenarios.members(preset))
     for c in reversed(CONTROLLERS):
-        add("headline", c, headline, scenarios.pushed_run(plan, c))
+        add("headline", c, _headline, scenarios.pushed_run(plan, c))
         add("engines", c, engines, *scenarios.engine_runs(plan, c))
     add("numerics", plan.preset, numerics_laws, plan.preset)
     for name, run in scenarios.base_runs(plan).items():

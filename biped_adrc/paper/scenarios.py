@@ -40,9 +40,9 @@ def declared() -> dict[str, Any]:
 
 PAPER_PUSH, SINE = (Push(**declared()["pushes"][name]) for name in ("paper", "sine"))
 """The push of figures 4 to 6, and a sine."""
-KINDS: dict[str, dict[str, Any]] = declared()["heavier"]
+HEAVIER: dict[str, dict[str, Any]] = declared()["heavier"]
 """What is heavier in the plant: errors of a scenario by name."""
-STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
+_STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
 """Steps of RK4 [s]: of the whole walk, and of the single supports where a push switches and the one after."""
 LOOSE = 2e-4
 """Step of the exponential method [s] under ADRC, where its error is no spike of less than 1e-5 rad."""
@@ -99,7 +99,7 @@ def pushed_steps(run: Scenario) -> set[int]:
 
 def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the step of its controller."""
-    h = STEPS[controller][0]
+    h = _STEPS[controller][0]
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
@@ -112,7 +112,7 @@ def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scen
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: the paper's gait under the plan's pushes."""
-    fine = STEPS[controller][1]
+    fine = _STEPS[controller][1]
     return by_rk4(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
 
@@ -135,7 +135,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
     first = min(push.step for push in plan.pushes)
     for c in CONTROLLERS:
-        p, fine = plan.preset, STEPS[c][1]
+        p, fine = plan.preset, _STEPS[c][1]
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = by_rk4(c, preset)
             runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", run=EIGHT)
@@ -146,7 +146,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
         sampled: dict[str, Any] = {"hardware.period": 1e-3, "run.h": 1e-3}
         runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, **sampled)
-        for kind, factors in KINDS.items():
+        for kind, factors in HEAVIER.items():
             runs[f"heavier, {kind} {c}"] = loose(c, p, run=EIGHT, errors=factors)
         if not plan.quick:
             runs[f"as printed {c}"] = loose(c, p, run=EIGHT, **{SOLVED: False})
@@ -175,7 +175,7 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
             late = {"first_step": step, "impacts": 4}
             run = loose(c, preset, pushes=(on_torso(torque),), run=late).replace({"run.h": COARSE})
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
-        for kind, factors in KINDS.items() if preset != plan.preset else ():
+        for kind, factors in HEAVIER.items() if preset != plan.preset else ():
             runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, run=EIGHT, errors=factors)
     return runs
 

@@ -43,9 +43,9 @@ ROOMS = (metrics, values, two_steps, physical_laws)
 """Modules of functions that claims.toml and checks.toml name."""
 CLAIM = "claim"
 """Kind of a statement of the paper, which is judged over all its cases."""
-SHOWN = 8
+_SHOWN = 8
 """Variants on which a claim may depend that are named."""
-Bound = Callable[[str, str, float], Check]
+_Bound = Callable[[str, str, float], Check]
 """Makes the check of (name, kind, value), such as partial(at_most, limit=0.01)."""
 
 
@@ -65,7 +65,7 @@ class Probe(NamedTuple):
 
     @classmethod
     def of(
-        cls, name: str, figure: AtTwoSteps, limit: Bound, round_off: float, variant: str | None
+        cls, name: str, figure: AtTwoSteps, limit: _Bound, round_off: float, variant: str | None
     ) -> Probe:
         """A scenario with its metric, held against a limit at both steps.
 
@@ -125,13 +125,13 @@ def share_text(cases: Sequence[Probe], apart: bool) -> str:
     every = Counter(case.variant for case in cases)
     held = Counter(case.variant for case in cases if case.kept)
     text = f"{held.total()} of {len(cases)}"
-    if apart and len(every) <= SHOWN:
+    if apart and len(every) <= _SHOWN:
         text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
     marginal = [case.name for case in cases if case.marginal]
     return f"{text}; marginal: {', '.join(marginal)}" if marginal else text
 
 
-def limit(text: str) -> Bound:
+def limit(text: str) -> _Bound:
     """The limit "<= 0.01", "in 0.9 1.1", or "<= ratio" by its name in admissible.toml."""
     sign, *words = text.split()
     bounds = [_number(word) for word in words]

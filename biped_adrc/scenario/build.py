@@ -28,7 +28,7 @@ from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.force import OnLink
-from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.published import PassiveCycle, passive_cycle
@@ -168,10 +168,10 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=scene.slope(s),
-        ground_steps=ground(s),
+        ground_steps=_ground(s),
         sensors=sensors(s),
         motors=Motors(hardware.rate_limit, hardware.lag) if moved else None,
-        touchdown=touchdown(s, gait),
+        touchdown=_touchdown(s, gait),
         impact_gain=tuple(gain.tolist()),
         stones=course,
         runaway_speed=s.run.runaway_speed,
@@ -229,7 +229,7 @@ def sensors(s: Scenario) -> Sensor | None:
     return sensor if encoders is None else encoders + sensor
 
 
-def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
+def _touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
     """How the controller of a scenario notices touchdowns; None for at once.
 
     The slope that it takes is the gait's: that of the ground it does not know.
@@ -266,10 +266,10 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     options = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})
-    return stepping_loop(walker, plant, s.run.engine, s.run.first_step)
+    return fastest_loop(walker, plant, s.run.engine, s.run.first_step)
 
 
-def ground(s: Scenario) -> Steps:
+def _ground(s: Scenario) -> Steps:
     """Changes of the ground's height: uneven ground, and a step down (or up) at `drop_step`; () if level.
 
     `rms`: random heights [m], drawn for all steps of the walk. `step_height`: largest of the random steps [m].
@@ -323,7 +323,7 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
         **window(s, i, period),
         "rise": push.rise,
         "force": tuple(along[:2].tolist()),
-        "amplitude": torques(s, i, biped) if push.link is None else along,
+        "amplitude": _torques(s, i, biped) if push.link is None else along,
         "biped": plant,
     }
     place, fields = f"pushes.{i}", Push.model_fields
@@ -358,7 +358,7 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
     }
 
 
-def torques(s: Scenario, i: int, biped: Biped) -> Array:
+def _torques(s: Scenario, i: int, biped: Biped) -> Array:
     """Torques (n,) [N m] of push i on the coordinates.
 
     Raises InputError for a joint that there is not.

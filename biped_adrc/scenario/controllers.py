@@ -34,7 +34,7 @@ from biped_adrc.scenario.records import Misfit, named_part
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
 Arguments = dict[str, Any]
-AROUND = ("contact", "prediction", "feedforward", "inner", "name")
+_AROUND = ("contact", "prediction", "feedforward", "inner", "name")
 """Values of a controller's record that its constructor does not take."""
 CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
 """Arguments of constructors that come from elsewhere in a scenario."""
@@ -82,7 +82,7 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
         values, used = _values(what, make, c, entry.defaults)
     law = construct(what, make, {**known, **values}, Controller, place)
     for at in c.dotted():
-        if at.partition(".")[0] not in AROUND and at not in used:
+        if at.partition(".")[0] not in _AROUND and at not in used:
             others = [*accepted, *(GAINS if "gains" in accepted else ())]
             text = unknown(at, [x for x in others if x not in CONTEXT])
             text = text.replace("unknown name", f"'{c.name}' does not take it")

@@ -27,7 +27,7 @@ from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
-DIFFERENCE = 1e-4
+_DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
 
 
@@ -76,7 +76,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     if cycle.P.walker.split(Mode()) is not None:
         return cycle
     method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
-    return replace(cycle, P=replace(cycle.P, method=method, difference=DIFFERENCE))
+    return replace(cycle, P=replace(cycle.P, method=method, difference=_DIFFERENCE))
 
 
 def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:

@@ -9,12 +9,12 @@ NAME = ""
 """Key of a record's obvious name in plain values."""
 
 
-def nested(values: Mapping[str, Any]) -> dict[str, Any]:
+def tables(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values by dotted name as nested ones: {"run.seed": 1} becomes {"run": {"seed": 1}}."""
     made: dict[str, Any] = {}
     for name, x in values.items():
         head, dot, rest = str(name).partition(".")
-        inner = nested({rest: x}) if dot else nested(x) if isinstance(x, Mapping) else x
+        inner = tables({rest: x}) if dot else tables(x) if isinstance(x, Mapping) else x
         made[head] = merged(made.get(head), inner)
     return made
 
@@ -37,7 +37,7 @@ def merged(before: Any, more: Any) -> Any:
 def flat(
     values: Mapping[str, Any], before: str = "", whole: Collection[str] = ()
 ) -> dict[str, Any]:
-    """The inverse of `nested`; records in a list have numbers in their names.
+    """The inverse of `tables`; records in a list have numbers in their names.
 
     whole: a table with one of these keys is a value.
     """

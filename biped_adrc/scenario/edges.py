@@ -27,7 +27,7 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Trajectory
 
-NEAR = 1e-3
+_NEAR = 1e-3
 """[s], the usual integration step: whether an edge this close to an impact acts before or after it is decided
 by the error of the method."""
 BURIED = 5e-3
@@ -42,7 +42,7 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     """Sentences on pushes, steps beside their edges, start, last stone, controller and gait (None: no motors).
 
     A push is named that did not act, that an impact cuts off, or with an edge at an impact. An edge within
-    `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
+    `_NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
     the impact on" is written.
     """
     for part in () if walker.disturbance is None else summands(walker.disturbance):
@@ -113,12 +113,12 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
         yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
     ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
     impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
-    near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= NEAR}
+    near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= _NEAR}
     for s, end in sorted(near):
-        edge = f"the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s"
+        edge = f"the edge at {s:g} s within {1e3 * _NEAR:g} ms of the impact at {end:.4f} s"
         yield f"{name} has {edge}; move it away from there"
     own = [end for number, end in impacts if number == step]
-    late = [s for end in own for s in times if s > end + NEAR]
+    late = [s for end in own for s in times if s > end + _NEAR]
     if late and not near:
         begun = "was cut by" if len(late) < len(times) else "did not begin before"
         yield f"{name} {begun} the impact at {own[0]:.4f} s"

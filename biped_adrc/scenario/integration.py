@@ -29,7 +29,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.scenario import FREE, RunRecord
+from biped_adrc.scenario.scenario import STEP_CONTROL, RunRecord
 
 
 class WalkPart(NamedTuple):
@@ -56,7 +56,7 @@ HARDWARE_STEP = 2.5e-4
 same results at a quarter of it; of those at 1 ms, 176."""
 STABLE = 2.5
 """Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""
-RESOLVED = 0.5
+_RESOLVED = 0.5
 """Largest |lambda| h [1] at which RK4 follows what decays (static friction around zero rate) within 0.05 %."""
 
 
@@ -81,7 +81,7 @@ def default_method(walker: Walker) -> OneStepMethod:
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
         method = RK4(1.0 / rate)
     rubs = rate_of_friction(walker.plant)
-    return method if method.h * rubs <= RESOLVED else replace(method, h=RESOLVED / rubs)
+    return method if method.h * rubs <= _RESOLVED else replace(method, h=_RESOLVED / rubs)
 
 
 def rate_of_friction(plant: Biped) -> float:
@@ -126,7 +126,7 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
     for the exponential method. In Python the fine steps would take minutes; there they have to be asked for,
     and `Walk.remarks` says so.
     """
-    if run.method in FREE:
+    if run.method in STEP_CONTROL:
         return METHODS[run.method](run.tolerance, run.tolerance), None
     method = default_method(walker) if run.method is None else METHODS[run.method]()
     if run.h is not None:

@@ -38,7 +38,7 @@ from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.signals import PLACE, Signals, recorded, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.statistics import rms
-from biped_adrc.analysis.touchdowns import Noticed, touchdowns
+from biped_adrc.analysis.touchdowns import Detections, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.errors import InputError, optional
@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
-OF_JOINTS = {
+_OF_JOINTS = {
     "q": "q{} [rad]",
     "v": "v{} [rad/s]",
     "u": "u{} [N m]",
@@ -233,7 +233,7 @@ class Walk(Shown):
         return Feasibility(run.status, judged, impacts)
 
     @cached_property
-    def touchdowns(self) -> Noticed:
+    def touchdowns(self) -> Detections:
         """When the controller noticed each touchdown. Raises InputError where it knows at once."""
         return touchdowns(self.walker, self.trajectory)
 
@@ -349,7 +349,7 @@ class Walk(Shown):
             events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
         columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}
         forces = dict(zip(("F_T [N]", "F_N [N]"), s.ground_reaction.T, strict=True))
-        return columns | joint_columns(s, OF_JOINTS) | forces
+        return columns | joint_columns(s, _OF_JOINTS) | forces
 
     def to_csv(self, path: Path | str) -> Path:
         """Write a table (.csv), a row for each stored node; its path. Raises InputError and OutputError.

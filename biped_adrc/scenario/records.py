@@ -28,11 +28,11 @@ from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
 from biped_adrc.core.shown import call_text
-from biped_adrc.scenario.dotted import NAME, flat, merged, nested
+from biped_adrc.scenario.dotted import NAME, flat, merged, tables
 from biped_adrc.scenario.units import ANY, PLAIN, own_quantity, quantity
 
 _T = TypeVar("_T")
-KINDS = {
+_KINDS = {
     float: "a number",
     int: "a whole number",
     bool: "true or false",
@@ -118,7 +118,7 @@ class Described(NamedTuple):
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
-            kinds = " or ".join(self.choices or (KINDS[kind] for kind in self.types))
+            kinds = " or ".join(self.choices or (_KINDS[kind] for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds}{self.in_brackets}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
@@ -292,7 +292,7 @@ class Record(BaseModel):
 
         s.replace(run={"seed": 3}), s.replace({"run.seed": 3}), s.replace(controller="NPD")
         """
-        return type(self)(**merged(self.record(), nested({**(values or {}), **more})))
+        return type(self)(**merged(self.record(), tables({**(values or {}), **more})))
 
     def __repr__(self) -> str:
         return call_text(type(self).__name__, ((k, repr(x)) for k, x in self.dotted().items()))

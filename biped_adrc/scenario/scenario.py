@@ -22,7 +22,7 @@ from pydantic import field_validator, model_validator
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write_text
-from biped_adrc.scenario.dotted import flat, nested
+from biped_adrc.scenario.dotted import flat, tables
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, by_default, field
@@ -31,11 +31,11 @@ MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
 LONGEST_PLANT_STEP = 2e-4
 """Default step of an engine with soft ground, where the ground is soft enough [s]."""
-RESOLVED = 0.1
+_RESOLVED = 0.1
 """Of the ground's time constant: the longest step that resolves contact."""
-FREE = ("adaptive", "stiff")
+STEP_CONTROL = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
-Values = Any
+_Values = Any
 """A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
 
@@ -140,7 +140,7 @@ class GroundRecord(OpenRecord):
     @property
     def engine_step(self) -> float:
         """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
-        usual = min(LONGEST_PLANT_STEP, RESOLVED * self.time_constant)
+        usual = min(LONGEST_PLANT_STEP, _RESOLVED * self.time_constant)
         return usual if self.plant_step is None else self.plant_step
 
     @model_validator(mode="after")
@@ -237,12 +237,12 @@ class RunRecord(Record):
 
     @model_validator(mode="after")
     def _own_step(self) -> Self:
-        if self.method in FREE and (step := self.h or self.fine) is not None:
+        if self.method in STEP_CONTROL and (step := self.h or self.fine) is not None:
             raise Misfit("h", f"is {step:g} s, and '{self.method}' chooses its own; leave it out")
         return self
 
 
-USUAL = by_default(ControllerRecord)
+_USUAL = by_default(ControllerRecord)
 """The controller of a scenario that names none."""
 
 
@@ -268,7 +268,7 @@ class Scenario(Record):
 
     SHORT = "controller"
     APART = (("hardware.delay_known", "controller.prediction"),)
-    controller: ControllerRecord = field(USUAL)
+    controller: ControllerRecord = field(_USUAL)
     robot: RobotRecord = field(by_default(RobotRecord))
     gait: GaitRecord = field(by_default(GaitRecord))
     hardware: HardwareRecord = field(by_default(HardwareRecord))
@@ -281,22 +281,22 @@ class Scenario(Record):
 
     def __init__(
         self,
-        controller: ControllerRecord | Values = USUAL,
+        controller: ControllerRecord | _Values = _USUAL,
         *,
-        robot: RobotRecord | Values = by_default(RobotRecord),
-        gait: GaitRecord | Values = by_default(GaitRecord),
-        hardware: HardwareRecord | Values = by_default(HardwareRecord),
-        pushes: Push | Values | Sequence[Push | Values] = (),
-        errors: ErrorRecord | Values = by_default(ErrorRecord),
-        ground: GroundRecord | Values = by_default(GroundRecord),
-        start: StartRecord | Values = by_default(StartRecord),
-        limits: LimitRecord | Values = by_default(LimitRecord),
-        run: RunRecord | Values = by_default(RunRecord),
+        robot: RobotRecord | _Values = by_default(RobotRecord),
+        gait: GaitRecord | _Values = by_default(GaitRecord),
+        hardware: HardwareRecord | _Values = by_default(HardwareRecord),
+        pushes: Push | _Values | Sequence[Push | _Values] = (),
+        errors: ErrorRecord | _Values = by_default(ErrorRecord),
+        ground: GroundRecord | _Values = by_default(GroundRecord),
+        start: StartRecord | _Values = by_default(StartRecord),
+        limits: LimitRecord | _Values = by_default(LimitRecord),
+        run: RunRecord | _Values = by_default(RunRecord),
         **dotted: Any,
     ) -> None:
         here, fields = vars(), type(self).model_fields.items()
         records = {name: here[name] for name, x in fields if here[name] is not x.default}
-        super().__init__(**nested(records | dotted))
+        super().__init__(**tables(records | dotted))
 
     @field_validator("pushes", mode="before")
     @classmethod

@@ -32,7 +32,7 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
-from biped_adrc.core.shown import one_line, short
+from biped_adrc.core.shown import as_line, short
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
@@ -40,7 +40,7 @@ from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.program import COMPILED
-from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, evaluated, with_inputs
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -67,7 +67,7 @@ class Sample(NamedTuple):
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
@@ -279,14 +279,14 @@ class Stepper:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
-            size = len(reading(first, view, self.curve))
+            size = len(evaluated(first, view, self.curve))
             laws = np.array([self._law(i, view) for i in range(len(self.walks))], dtype=np.int64)
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         _, result, at = self._laws[view]
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk):
-                result[i] = reading(walk, view, self.curve)
+                result[i] = evaluated(walk, view, self.curve)
         self._kernels.looks(*self._walks, *at)
         return result.copy()
 

@@ -61,7 +61,7 @@ def _again(home: str) -> str:
     return f"a stored walk cannot go on without '{home}'; walk it again with walk_scenario(walk.scenario)"
 
 
-OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
+_OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
 OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u", "zeta_estimate")
 """Signals with a column for each direction, coordinate and joint, as xi has; others are one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
@@ -99,7 +99,7 @@ def load_walk(path: Path | str) -> Walk:
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
     """The signals in a file. Raises ValueError for an array that does not fit the walk."""
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
-    wide = dict.fromkeys(OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
+    wide = dict.fromkeys(_OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
     estimates = [name for name in arrays if name.startswith("xi")]
     wide |= dict.fromkeys((*OF_JOINTS, *estimates), plant.p)
     for name, x in arrays.items():

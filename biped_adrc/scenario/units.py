@@ -26,14 +26,14 @@ class Unit(NamedTuple):
     """Exponents of (m, kg, s, rad)."""
 
 
-TABLES = packaged("biped_adrc.scenario", "units.toml")
+_TABLES = packaged("biped_adrc.scenario", "units.toml")
 """The tables of units.toml."""
-WHOLE = {name: Unit(k, tuple(powers)) for name, (k, *powers) in TABLES["whole"].items()}
+_WHOLE = {name: Unit(k, tuple(powers)) for name, (k, *powers) in _TABLES["whole"].items()}
 """Units by the symbols that take no SI prefix."""
-SYMBOLS = WHOLE | {
+SYMBOLS = _WHOLE | {
     prefix + name: Unit(times * k, tuple(powers))
-    for name, (k, *powers) in TABLES["prefixed"].items()
-    for prefix, times in ({"": 1.0} | TABLES["prefixes"]).items()
+    for name, (k, *powers) in _TABLES["prefixed"].items()
+    for prefix, times in ({"": 1.0} | _TABLES["prefixes"]).items()
 }
 """All units by symbol, with prefix and without."""
 
@@ -89,14 +89,14 @@ def unit_of(text: str) -> Unit:
 
     Raises ValueError for an unknown symbol, and a factor out of range.
     """
-    factor, powers = WHOLE["1"]
+    factor, powers = _WHOLE["1"]
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
             match = _FACTOR.fullmatch(word)
             symbol = match and SYMBOLS.get(match[1])
             if match is None or symbol is None:
-                known = ", ".join([*TABLES["prefixed"], *WHOLE])
+                known = ", ".join([*_TABLES["prefixed"], *_WHOLE])
                 raise ValueError(
                     f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
                 )

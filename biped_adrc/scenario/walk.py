@@ -25,7 +25,7 @@ from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, WalkWarning, check_count
 from biped_adrc.core.types import Array
-from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
@@ -41,7 +41,7 @@ from biped_adrc.scenario.integration import (
     refined,
 )
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.scenario import FREE, RunRecord, Scenario
+from biped_adrc.scenario.scenario import STEP_CONTROL, RunRecord, Scenario
 
 
 def halved(s: Scenario, walker: Walker) -> Scenario:
@@ -53,7 +53,7 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
     run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
     if ground.plant != RIGID:
         ground = ground.model_copy(update={"plant_step": 0.5 * ground.engine_step})
-    elif run.method in FREE:
+    elif run.method in STEP_CONTROL:
         values |= {"method": "adaptive", "tolerance": 1e-2 * run.tolerance}
     else:
         usual, fine = methods_of(run, walker)
@@ -123,7 +123,7 @@ def walk(
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
-        loop = stepping_loop(walker, moved, engine, first_step)
+        loop = fastest_loop(walker, moved, engine, first_step)
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:

@@ -33,13 +33,13 @@ from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.structure import structure
 from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
-from biped_adrc.scenario.dotted import nested
+from biped_adrc.scenario.dotted import tables
 from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
-Record = Mapping[str, object]
+Plain = Mapping[str, object]
 """The values of one walk as JSON has them: what a worker receives."""
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
@@ -49,17 +49,17 @@ NO_WALK = (REFUSED, RAISED, CRASHED)
 """All of them; such rows count neither as a success nor as a fall."""
 SEED, PLANT = "run.seed", "ground.plant"
 """Names of values that a study treats apart."""
-SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
+_SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
 """By value, the suffix of a file in place of a registered name."""
 
 
-def scenario_of(values: Record) -> Scenario:
+def scenario_of(values: Plain) -> Scenario:
     """The scenario of values by name; where they say nothing of sampling, it is sampled at 1 kHz, ideally.
 
     A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit
     together.
     """
-    return Scenario(**nested({"hardware.profile": "ideal", **values}))
+    return Scenario(**tables({"hardware.profile": "ideal", **values}))
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
@@ -98,7 +98,7 @@ def _source(thing: Callable[..., object]) -> str:
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
     """The files that a value names: of a robot its TOML and its URDF; empty for a registered name."""
-    if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
+    if not isinstance(value, str) or Path(value).suffix != _SUFFIXES.get(name):
         return ()
     path = Path(value)
     with suppress(ModelError):  # who loads it says what is wrong

@@ -25,7 +25,7 @@ from biped_adrc.studies.results import Choice, Results, opened
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Runner, StudyProgress
 from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, searched
-from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, located, read_study
+from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""
@@ -114,7 +114,7 @@ class _Searched:
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
         def walk(kind: str, found: Sequence[Candidate]) -> list[Walks]:
-            return self.walk(kind, [(c.number, c.values, located(case=case)) for c in found])
+            return self.walk(kind, [(c.number, c.values, walk_names(case=case)) for c in found])
 
         result = searched(search, base, partial(walk, "search"), report)
         failure = self.failure(result, case, "search")
@@ -136,7 +136,9 @@ class _Searched:
         chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
         before = [(x.candidates[0], case, "before") for case, x in choices.items()]
         every = [*chosen, *before] if self.study.cases else [*before, *chosen]
-        self.walk("test", [(c.number, c.values, located(case=x, setting=s)) for c, x, s in every])
+        self.walk(
+            "test", [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
+        )
         self.runner.total = self.runner.done
         self.runner.tell()
 
@@ -147,7 +149,7 @@ class _Searched:
         first, points = self.place, list[Point]()
         for (number, values, named), c in itertools.product(candidates, conditions):
             there = {**values, **self.study.conditions.get(c, {})}
-            at = located(set=kind, **named, candidate=number, condition=c)
+            at = walk_names(set=kind, **named, candidate=number, condition=c)
             for seed in self.study.seeded(walks.seeds, at, self.undrawn):
                 points.append(Point(first + len(points), at | seed, there | seed))
         self.place += len(points)

@@ -15,7 +15,7 @@ from biped_adrc.analysis.statistics import Interval
 from biped_adrc.core.files import write_text
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.measure import OF_ALL, Row, is_counted
-from biped_adrc.studies.results import Group, Line, Results
+from biped_adrc.studies.results import Group, Results, TableLine
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.view.pages import as_text, data_uri, rendered
 from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
@@ -35,7 +35,7 @@ def write_page(found: Results) -> Path:
         columns=headings(found),
         lines=[texts(line) for line in found.table()],
         figures=[(words, "", data_uri(render(x, "svg"))) for words, x in _figures(found)],
-        chosen=chosen(found),
+        chosen=choices(found),
         notes=(*found.failures, *found.notes),
     )
     write_text(path, text)
@@ -49,7 +49,7 @@ def headings(found: Results) -> tuple[str, ...]:
     return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"
 
 
-def chosen(found: Results) -> dict[str, str]:
+def choices(found: Results) -> dict[str, str]:
     """The values that a search chose, as text by case, and the candidate's number."""
     variables = found.study.search.variables if found.study.search else ()
     return {
@@ -59,7 +59,7 @@ def chosen(found: Results) -> dict[str, str]:
     }
 
 
-def texts(line: Line, short: bool = False) -> tuple[str, ...]:
+def texts(line: TableLine, short: bool = False) -> tuple[str, ...]:
     """A line of the table as text: "17 of 20 (0.64 to 0.95)", and a dash for what there is not.
 
     short: with the interval of the ratio alone.

@@ -43,7 +43,7 @@ MARKS = {"application_id": 0x62614453, "user_version": 1}
 """Of SQLite: a number by which a results file is told from other databases, and the form of its tables."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
-TABLES = [
+_TABLES = [
     "CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT)",
     "CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT, sum TEXT)",
 ]
@@ -137,14 +137,14 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
         record = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
         marks = (f"PRAGMA {name} = {x}" for name, x in MARKS.items())
         with db:
-            db.executescript("; ".join(("BEGIN IMMEDIATE", *TABLES, *marks)))
+            db.executescript("; ".join(("BEGIN IMMEDIATE", *_TABLES, *marks)))
             db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", record)
         return ""
     if mark != MARKS["application_id"]:
         return "is a database of another program"
     if form != MARKS["user_version"]:
         return f"has results of form {form}, expected form {MARKS['user_version']}"
-    if tables != TABLES:
+    if tables != _TABLES:
         return f"has other tables than results have, or damaged ones: {tables}"
     key, old, before = db.execute("SELECT hash, study, versions FROM study").fetchone()
     if key != study.hash:
@@ -195,7 +195,7 @@ class Group(NamedTuple):
     rows: tuple[Result, ...]
 
 
-class Line(NamedTuple):
+class TableLine(NamedTuple):
     """A line of the table; intervals are NaN where nothing was drawn."""
 
     name: str
@@ -252,7 +252,7 @@ class Results(Shown):
         """One walk of all that are equal to the last bit, in each cell of a grid."""
         return list({self._same(x): x for x in g.rows}.values())
 
-    def table(self) -> list[Line]:
+    def table(self) -> list[TableLine]:
         """A line for each case and condition."""
         first, lines = dict[str, Group](), []
         for g in self.groups:
@@ -264,7 +264,7 @@ class Results(Shown):
             if not self.study.drawn:
                 counted, middle = _alone(counted), _alone(middle)
                 ratio = ratio and Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
-            lines.append(Line(g.name, g.condition, len(rows), counted, made, middle, ratio))
+            lines.append(TableLine(g.name, g.condition, len(rows), counted, made, middle, ratio))
         return lines
 
     def _pairs(self, a: Group, b: Group) -> tuple[list[float], list[float]]:

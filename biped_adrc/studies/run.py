@@ -39,7 +39,7 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk_scenario
-from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
+from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Plain, Trial, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
@@ -47,20 +47,20 @@ WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
-Function = Callable[[Sequence[Record]], Sequence[Any]]
+Function = Callable[[Sequence[Plain]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
 JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque")
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""
-AT_ONCE = 160
+_AT_ONCE = 160
 """Impacts of the walks that are in memory together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
 
 
 def rows_of(
-    function: Function, records: Sequence[Record], folders: Mapping[str, str] | None = None
+    function: Function, records: Sequence[Plain], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
@@ -79,7 +79,7 @@ def rows_of(
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
+def run_trials(records: Sequence[Plain], aside: bool = False) -> list[WalkRow]:
     """Walk the trials, and return a row for each in their order. aside: whether rows have the column
     `rounding`.
 
@@ -89,7 +89,7 @@ def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
-    size, rows = max(1, AT_ONCE // max(impacts, default=1)), list[WalkRow]()
+    size, rows = max(1, _AT_ONCE // max(impacts, default=1)), list[WalkRow]()
     for i in range(0, len(trials), size):
         some = trials[i : i + size]
         with _PREPARING:
@@ -97,7 +97,7 @@ def run_trials(records: Sequence[Record], aside: bool = False) -> list[WalkRow]:
         walks = _each(lambda run: run(), runs)
         with _PREPARING:
             pairs = zip(some, walks, strict=True)
-            rows += [_row(x if isinstance(x, dict) else measured(t, x, aside)) for t, x in pairs]
+            rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
     return rows
 
 
@@ -126,7 +126,7 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
         return {"status": RAISED, "detail": f"{type(error).__name__}: {error}", "impacts": 0}
 
 
-def measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
+def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
     The cost of transport, work / (weight x distance), is None without forward motion.

@@ -24,11 +24,11 @@ from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of
 from biped_adrc.studies.study import Point
 
-PRELOADED = ("biped_adrc.studies.run",)
+_PRELOADED = ("biped_adrc.studies.run",)
 """Modules that worker processes share: all that they need."""
 LARGEST_CHUNK = 32
 """Most walks handed to a worker at once: what a kill may lose, and what progress is counted in."""
-AHEAD = 3
+_AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 MOST_CRASHED = 20
 """Walks that kill their workers one after the other, and so end the study."""
@@ -73,7 +73,7 @@ class Crew:
         if isinstance(self.workers, Executor):
             self.executor: Executor = self.workers
         else:
-            self.executor = processes(self.workers, PRELOADED)
+            self.executor = processes(self.workers, _PRELOADED)
 
     @property
     def count(self) -> int:
@@ -116,7 +116,7 @@ class Runner:
         missing = self._missing(iter(points))
         while part := tuple(itertools.islice(missing, size)):
             self._again(self._send(part))
-            while len(self.pending) >= AHEAD * workers:
+            while len(self.pending) >= _AHEAD * workers:
                 self._again(self._collect(futures.FIRST_COMPLETED))
         while self.pending:
             self._again(self._collect(futures.FIRST_COMPLETED))

@@ -49,7 +49,7 @@ from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without_walk
-from biped_adrc.studies.space import Section, Seeds, Span, each, read_list, read_range, table
+from biped_adrc.studies.space import Section, Seeds, Span, each_read, read_list, read_range, table
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
@@ -100,14 +100,16 @@ def _variable(name: str, value: Any) -> Variable:
     """One variable of a file. Raises ValueError."""
     keys = table(value)
     beside = keys.pop("when", {})
-    when = each(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
+    when = each_read(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
         choices = read_list(name, keys["choices"], 2)
         return Variable.model_validate({**keys, "choices": choices, "when": when})
     return Variable(range=read_range(name, keys), when=when)
 
 
-Variables = Annotated[dict[str, Variable], BeforeValidator(lambda value: each(value, _variable))]
+Variables = Annotated[
+    dict[str, Variable], BeforeValidator(lambda value: each_read(value, _variable))
+]
 """Variables by name, read with their units."""
 
 
@@ -208,11 +210,11 @@ class Candidate(NamedTuple):
 
 FIRST_PART = 0.4
 """The share of the budget that TPE has."""
-SMALLEST = 10
+_SMALLEST = 10
 """Candidates of TPE below which it goes on alone; CMA-ES begins from the best tenth."""
-ASKED = 8
+_ASKED = 8
 """How often a generation asks again in place of candidates that miss a limit without a walk."""
-MISSED = 1e30
+_MISSED = 1e30
 """What the sampler is told of a candidate that misses limits, times 1 + what it misses."""
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
@@ -241,7 +243,7 @@ def searched(
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in result)) > 0:
         batch, new = list[Candidate](), list[Candidate]()
-        for number in itertools.islice(numbers, ASKED * search.generation):
+        for number in itertools.islice(numbers, _ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
             if number == 0 or not any(c.missed):
                 batch.append(c)
@@ -295,13 +297,13 @@ class _Proposals:
     def score(self, c: Candidate) -> float:
         """A number by which candidates have their order."""
         if any(c.missed) or not c.walked:
-            return MISSED * (1.0 + sum(c.missed) + (not c.walked))
-        return min(self.search.objective.sign * c.objective, MISSED)
+            return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
+        return min(self.search.objective.sign * c.objective, _MISSED)
 
     def refine(self, found: Sequence[Candidate]) -> None:
         """Go on with CMA-ES, once TPE's part of the budget is spent and where there is something to refine."""
         best = [c for c in self.search.ranked(found) if c.number]
-        if self.refining or len(best) < max(SMALLEST, FIRST_PART * self.search.budget):
+        if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
         acting, variables = best[0].values, self.search.variables

@@ -17,7 +17,7 @@ from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
-MOST = 1_000_000
+_MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
 
 
@@ -36,7 +36,7 @@ def table(value: object) -> dict[str, Any]:
     return dict(value)
 
 
-def each(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
+def each_read(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
     result, wrong = {}, []
     for name, x in flat(table(value), whole=("from", "to", "choices")).items():
@@ -84,7 +84,7 @@ class Span(Section):
 class Levels(Span):
     """Levels of one field of the grid, evenly spaced on the scale."""
 
-    count: int = Field(ge=1, le=MOST)
+    count: int = Field(ge=1, le=_MOST)
 
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
@@ -124,23 +124,27 @@ def _seeds(value: object) -> object:
     keys = value if isinstance(value, Mapping) else {"from": 0, "count": value}
     if set(keys) == {"from", "count"}:
         first, count = keys["from"], keys["count"]
-        if type(first) is type(count) is int and 1 <= count <= MOST:
+        if type(first) is type(count) is int and 1 <= count <= _MOST:
             return tuple(range(first, first + count))
     if not isinstance(value, list | tuple) or len(set(map(repr, value))) < len(value):
         raise ValueError(f"found {value!r}, expected how many, {{from, count}}, or a list")
     return tuple(value)
 
 
-Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, Scenario.value_of))]
+Named = Annotated[
+    dict[str, Any], BeforeValidator(lambda value: each_read(value, Scenario.value_of))
+]
 """Values of a scenario by name, read with their units."""
-Sets = dict[str, Values]
+Sets = dict[str, Named]
 """Values by name of the case or condition."""
-Grid = Annotated[dict[str, tuple[Any, ...]], BeforeValidator(lambda value: each(value, _levels))]
+Grid = Annotated[
+    dict[str, tuple[Any, ...]], BeforeValidator(lambda value: each_read(value, _levels))
+]
 """Levels by name."""
 Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
 Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
-Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: each(value, read_range))]
+Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: each_read(value, read_range))]
 """Ranges by name."""
 
 
@@ -149,7 +153,7 @@ class Draw(Section):
 
     kind: Literal["random", "sobol"] = "sobol"
     """Independent uniform numbers, or a scrambled Sobol sequence, which fills space evenly."""
-    count: int = Field(ge=1, le=MOST)
+    count: int = Field(ge=1, le=_MOST)
     seed: int = Field(default=0, ge=0)
     ranges: Ranges = Field(min_length=1)
 

@@ -33,20 +33,20 @@ from biped_adrc.core.files import beside, reading
 from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.scenario import Scenario, read_scenario
-from biped_adrc.studies.build import SEED, Record, differ, scenario_of, trial_of, versions_of
+from biped_adrc.studies.build import SEED, Plain, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
-from biped_adrc.studies.space import Draw, Grid, Section, Seeds, Sets, Values
+from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
 
 Undrawn = frozenset[tuple[str, str]]
 """Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
 MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
-LONGEST = 100
+_LONGEST = 100
 """Letters of the name of a file that a search writes."""
 
 
-def located(**names: object) -> dict[str, Any]:
+def walk_names(**names: object) -> dict[str, Any]:
     """The names that tell a walk from others with the same values, without those that are empty.
 
     case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
@@ -64,8 +64,8 @@ class Point(NamedTuple):
     """A walk of a study: its place, the values that locate it, and those of its scenario."""
 
     place: int
-    at: Record
-    record: Record
+    at: Plain
+    record: Plain
 
 
 class Study(Section):
@@ -78,7 +78,7 @@ class Study(Section):
     """A text for the reader; it takes no part in the hash."""
     column: Column = "rms_error"
     """Of the results: whose median the table and the page show."""
-    base: Values = Field(default_factory=dict)
+    base: Named = Field(default_factory=dict)
     cases: Sets = Field(default_factory=dict)
     conditions: Sets = Field(default_factory=dict)
     grid: Grid = Field(default_factory=dict)
@@ -116,7 +116,7 @@ class Study(Section):
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]
-        if len(set(files)) < len(files) or any(len(name) > LONGEST for name in files):
+        if len(set(files)) < len(files) or any(len(name) > _LONGEST for name in files):
             yield f"cases: their files would be {files}, expected different, shorter names"
         for (a, x), (b, y) in itertools.combinations(search.walks, 2):
             if both := sorted({*x.seeds} & {*y.seeds}):
@@ -154,7 +154,7 @@ class Study(Section):
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
-    def seeded(self, seeds: Sequence[int], at: Record, undrawn: Undrawn) -> list[dict[str, int]]:
+    def seeded(self, seeds: Sequence[int], at: Plain, undrawn: Undrawn) -> list[dict[str, int]]:
         """The values of each seed; of one walk without one, where there is none or nothing is drawn from it."""
         return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
 
@@ -211,7 +211,7 @@ class Study(Section):
         """For each case under each condition: the values that its walks share, and its names."""
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
             values = self.values_of(case_) | self.conditions.get(condition, {})
-            yield values, located(case=case_, condition=condition)
+            yield values, walk_names(case=case_, condition=condition)
 
     def values_of(self, name: str) -> dict[str, Any]:
         """The values of a case, "" for none."""

@@ -12,7 +12,7 @@ REACTION, TORQUE = "#009E73", "#CC79A7"
 """Colours of the ground reaction, bluish green, and of a torque from outside, reddish purple."""
 WEIGHT_LENGTH = 0.4
 """Length [m] of the arrow of a ground reaction that is as large as the robot's weight."""
-LONGEST = 1.2
+LONGEST_ARROW = 1.2
 """Longest arrow of a ground reaction [m]; that of a larger one is cut, and the picture says so."""
 METRES_PER_NEWTON_METRE = 0.004
 """Radius of the ring that shows an external torque, per torque [m / N m]; the same for all robots."""

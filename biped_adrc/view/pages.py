@@ -25,7 +25,7 @@ from biped_adrc.core.types import PlainRecord
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HERE = "biped_adrc.view"
+_HERE = "biped_adrc.view"
 """The package with the templates shared by all pages."""
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
@@ -34,7 +34,7 @@ POLICY = (
 """Content security policy of a page: the browser itself refuses every load from a network."""
 CLAIM_COLUMNS = ("claim", "where", "word", "number", "limit", "share", "reason")
 """Columns of the table of claims in the report, by their key in the summary."""
-KINDS = {
+_KINDS = {
     "reproduced": "what the paper claims and what could have failed",
     "law": "physics and numerics that hold whatever the paper says",
     "consistency": "what was built in and has to come out again",
@@ -44,7 +44,7 @@ HEIGHT = 480
 """[px] of the animation in a notebook."""
 
 
-def rendered(template: str, package: str = HERE, **values: object) -> str:
+def rendered(template: str, package: str = _HERE, **values: object) -> str:
     """Fill in a page's template; returns the text of the page.
 
     template: name of the file, in `package` or here. values: for the names in it. Every value is escaped as
@@ -56,7 +56,7 @@ def rendered(template: str, package: str = HERE, **values: object) -> str:
 @cache
 def _environment(package: str) -> Environment:
     """Jinja's environment for the templates of a package, made once, since it compiles them."""
-    places = [files(package), files(HERE), files(HERE) / "templates"]
+    places = [files(package), files(_HERE), files(_HERE) / "templates"]
     loader = FileSystemLoader([str(place) for place in places])
     environment = Environment(
         loader=loader, autoescape=True, finalize=as_text, trim_blocks=True, lstrip_blocks=True
@@ -114,7 +114,7 @@ def report_html(
         figures=[_figure(name, picture) for name, picture in figures.items()],
         animation=animation,
         columns=CLAIM_COLUMNS,
-        kinds=KINDS,
+        kinds=_KINDS,
     )
 
 
@@ -123,7 +123,7 @@ def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
 
     The rest of the name, such as the preset of a map, follows in the heading.
     """
-    known = packaged(HERE, "captions.toml")["report"]
+    known = packaged(_HERE, "captions.toml")["report"]
     key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
     caption = known.get(key, {"title": name, "text": ""})
     rest = name.removeprefix(key).replace("_", " ").strip() if key else ""
@@ -141,7 +141,7 @@ def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[st
 
 
 def with_viewer(
-    template: str, settings: Mapping[str, object], package: str = HERE, **values: object
+    template: str, settings: Mapping[str, object], package: str = _HERE, **values: object
 ) -> str:
     """Text of a page that draws in Meshcat's viewer and whose scripts read the settings as JSON.
 

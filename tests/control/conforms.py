@@ -30,7 +30,7 @@ from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program, push_code
 from biped_adrc.engine.symbols import Vector, column
-from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import LinearOutputs, Outputs
@@ -518,7 +518,7 @@ def agree(law, *arguments):
     expected = law(*arguments)
     numbers = np.array([x for argument in arguments for x in floats(argument)] + [0.0])
     K = Vector("K", len(numbers))
-    found = run(Tracer(), law, *(K.like(argument) for argument in arguments))
+    found = apply(Tracer(), law, *(K.like(argument) for argument in arguments))
     out = column(flatten(found))
     text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, out)})
     code = load_or_compile(text, ["law"])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.engine import machine
-from biped_adrc.engine.machine import VARIABLE, load_or_compile, object_code, stored
+from biped_adrc.engine.machine import VARIABLE, fetch, load_or_compile, object_code
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {
@@ -69,9 +69,9 @@ def test_damaged_machine_code_is_made_again(make, damage, tmp_path, monkeypatch)
     data = bytearray(path.read_bytes())
     data[-7] ^= 1
     path.write_bytes(bytes(data) if damage is None else damage)
-    assert stored(path.stem) is None
+    assert fetch(path.stem) is None
     assert make() == (42.0, 1)
-    assert stored(path.stem) is not None
+    assert fetch(path.stem) is not None
 
 
 def python(lines, folder):

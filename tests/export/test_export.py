@@ -15,7 +15,7 @@ from biped_adrc.core.tree import flatten
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.computer import Computer, Landing, Noticed
 from biped_adrc.extras.export.export import export_c
-from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, compiled
+from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, build_c
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status
@@ -204,7 +204,7 @@ def test_no_compiler_warns(tmp_path, program, real):
 def program():
     """The example's program of a robot's controller, under sanitizers."""
     files = recorded("on a robot")[0].source.files
-    with compiled(files, ["main.c", "controller.c"], *SANITIZERS) as (path, said):
+    with build_c(files, ["main.c", "controller.c"], *SANITIZERS) as (path, said):
         assert not said
         yield path
 

@@ -18,7 +18,7 @@ from biped_adrc.gait.exchange.importing import (
     read_mat,
     read_record,
 )
-from biped_adrc.gait.exchange.record import GaitRecord, coordinates, mapped, record_of
+from biped_adrc.gait.exchange.record import GaitFile, coordinates, mapped, record_of
 
 
 def assert_same(one, other, abs=1e-13):
@@ -45,7 +45,7 @@ def recipe(biped):
 def record(gait):
     """The published gait as arrays without state, period or origin."""
     c = gait.constraint
-    return GaitRecord("paper", c.curve.coefficients, c.theta_plus, c.theta_minus, name="arrays")
+    return GaitFile("paper", c.curve.coefficients, c.theta_plus, c.theta_minus, name="arrays")
 
 
 # -- round trips ---------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from biped_adrc.gait.conventions import convention
 from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.exchange.causes import with_legs
 from biped_adrc.gait.exchange.importing import read_mat, write_record
-from biped_adrc.gait.exchange.record import GaitRecord, record_of
+from biped_adrc.gait.exchange.record import GaitFile, record_of
 from biped_adrc.gait.exchange.samples import Samples
 from biped_adrc.gait.gait import onto_section
 from biped_adrc.gait.zero_dynamics import (
@@ -86,7 +86,7 @@ def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait
     own = turned_gait(gait, biped)
     c, a = own.constraint, own.constraint.curve.coefficients.copy()
     a[3, 0] += 0.1
-    record = GaitRecord("own", a, c.theta_plus, c.theta_minus)
+    record = GaitFile("own", a, c.theta_plus, c.theta_minus)
     with pytest.raises(ba.BipedError, match="right_knee"):
         ba.import_gait(record, biped)
     for wrong in ({"convention": "paper"}, {"coefficients": a[:3]}):
@@ -296,7 +296,7 @@ def test_a_gait_tilted_about_its_stance_foot_is_put_onto_the_ground(height, bipe
     tilt = np.arcsin(height / gait.step_length(biped)) * np.array([0.0, 0.0, 0.0, 0.0, 1.0])
     record, path = record_of(gait, biped), tmp_path / "tilted.json"
     ends = (end + biped.phase @ tilt for end in (record.theta_plus, record.theta_minus))
-    write_record(GaitRecord("paper", record.coefficients, *ends), path)
+    write_record(GaitFile("paper", record.coefficients, *ends), path)
     assert biped.swing_foot(gait.q_minus + tilt)[1] == pytest.approx(height, abs=1e-12)
     if abs(height) > 5e-3:
         with pytest.raises(ba.BipedError, match=f"swing foot ends {height:.4g} m above"):

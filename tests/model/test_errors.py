@@ -6,7 +6,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.model.physical import checks
+from biped_adrc.model.physical import physical_checks
 from biped_adrc.scenario.build import plant_of
 
 ERRORS = ModelErrors(
@@ -73,8 +73,8 @@ def test_drawn_errors_leave_a_physical_robot_with_the_same_geometry(robot):
     for seed in range(5):
         errors = ModelErrors.drawn(biped, seed)
         wrong = errors.apply(biped)
-        broken = [check.name for check in checks(wrong) if not check.holds]
-        assert broken == [check.name for check in checks(biped) if not check.holds], seed
+        broken = [check.name for check in physical_checks(wrong) if not check.holds]
+        assert broken == [check.name for check in physical_checks(biped) if not check.holds], seed
         assert not broken or robot == "rimless_wheel", "whose legs are spokes of one body"
         assert np.array_equal(wrong.swing_foot(q), biped.swing_foot(q))
         assert np.array_equal(

@@ -15,7 +15,7 @@ from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.gait.conventions import AngleMap
 from biped_adrc.model.biped import check_numbers
-from biped_adrc.model.physical import checks
+from biped_adrc.model.physical import physical_checks
 from biped_adrc.model.robot_import.import_robot import Hints, biped_from_urdf, derive
 from validation.frost_urdf import HUNG, LIMIT, TURNED, bodies, body, joint
 from validation.frost_urdf import rabbit_urdf as rabbit
@@ -544,9 +544,9 @@ def test_legs_that_are_not_alike_are_refused():
 def test_a_broken_law_is_found(urdf, change, law):
     """Each check can fail. The stance thigh's origin moves in re-rooting, so it is no hip."""
     biped = biped_from_urdf(urdf(rabbit()))
-    broken = [check.name for check in checks(change(biped)) if not check.holds]
+    broken = [check.name for check in physical_checks(change(biped)) if not check.holds]
     assert any(law in name for name in broken)
-    assert all(check.holds for check in checks(biped))
+    assert all(check.holds for check in physical_checks(biped))
 
 
 def test_written_record_is_loaded_again(urdf, tmp_path):

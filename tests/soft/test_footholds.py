@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.model.ground import SoftGround, StepUp, ground_axes
@@ -23,7 +23,7 @@ def walker_on(biped, gait, *steps):
 
 
 def walked(walker, gait, impacts=3):
-    loop = stepping_loop(walker, MuJoCoPlant(walker.plant))
+    loop = fastest_loop(walker, MuJoCoPlant(walker.plant))
     return loop, run_of(loop, gait, impacts=impacts)
 
 

@@ -9,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.protocols import Load
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.on_plant import CompiledLoop, stepping_loop
+from biped_adrc.engine.on_plant import CompiledLoop, fastest_loop
 from biped_adrc.extras.mujoco.mjcf import mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
@@ -75,11 +75,11 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
 def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=TICK, motors=Motors(1e4, TAU))
-    loop = stepping_loop(walker, MuJoCoPlant(biped))
+    loop = fastest_loop(walker, MuJoCoPlant(biped))
     assert loop.motors == Motors(1e4)
     assert loop.plant.lag == TAU
     for wrong in (
-        lambda: stepping_loop(walker, MuJoCoPlant(biped, lag=1e-3)),
+        lambda: fastest_loop(walker, MuJoCoPlant(biped, lag=1e-3)),
         lambda: MuJoCoPlant(biped, lag=-1.0),
         lambda: SteppingLoop(MuJoCoPlant(biped), law, None, TICK, biped, motors=Motors(lag=TAU)),
     ):

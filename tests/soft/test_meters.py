@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.soft_steps import feet_of, step_of, weights
-from biped_adrc.closed_loop.feet import NAMES, with_readings
+from biped_adrc.analysis.soft_steps import feet_of, spans, step_of
+from biped_adrc.closed_loop.feet import FEET, with_readings
 from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
@@ -54,7 +54,7 @@ def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
     loop = under_npd(plant, gait, disturbance=ba.HipForce(biped, force))
     (arc,) = with_readings(loop, run_of(loop, gait, 0.1)).arcs
     a, b, t = 100, len(arc.t) - 1, arc.t
-    impulse = weights(t[a:]) @ feet_of(arc)[0][a:].sum(axis=1)
+    impulse = spans(t[a:]) @ feet_of(arc)[0][a:].sum(axis=1)
     outside = np.array([0.0, biped.weight]) - force
     change = momentum(loop, arc, b) - momentum(loop, arc, a)
     np.testing.assert_allclose(impulse, change + outside * (t[b] - t[a]), rtol=3e-3)
@@ -97,7 +97,7 @@ def test_a_block_that_slides_to_rest():
     place = np.full((len(t), 2, 2), -2e-4)
     none = np.zeros((len(t), 2))
     feet = (x.reshape(-1, 4) for x in (force, place, speed))
-    read = dict(zip(NAMES, (*feet, none), strict=True))
+    read = dict(zip(FEET, (*feet, none), strict=True))
     found = step_of(Arc(Mode(), t, none, none, read=read), mu, FLAT)
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))

@@ -12,7 +12,7 @@ from biped_adrc.analysis.signals import accelerations
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.around import Hold
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.ground import SoftGround
@@ -111,7 +111,7 @@ def test_what_only_the_rigid_plant_has_is_named(biped, gait):
     law, plant = ba.NPDController(gait.constraint), MuJoCoPlant(biped)
     walker = Walker(biped, law, timing=TICK, impact_gain=(0.01,) * 5)
     with pytest.raises(InputError, match="impact"):
-        stepping_loop(walker, plant)
+        fastest_loop(walker, plant)
     with pytest.raises(InputError, match="method"):
         ba.walk(walker, gait, method=ba.RK4(), plant=plant)
 

@@ -130,7 +130,7 @@ def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) ->
 
 TICKS_BEFORE = 2
 """Ticks before the one that is differentiated, after which every sensor has a difference of its angles."""
-SAME = 1e-12
+_SAME = 1e-12
 """Largest difference of two columns that count as equal; their largest entry is 1."""
 
 
@@ -195,7 +195,7 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     k = len(columns)
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]
-    alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < SAME
+    alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < _SAME
     first = np.argmax(alike, axis=1) if k else np.zeros(0, dtype=int)
     some = np.flatnonzero((first == np.arange(k)) & (largest != 0.0))
     if len(some) == k:

@@ -61,7 +61,7 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 
-OWN = 2.0
+_OWN = 2.0
 """A mode belongs to the gait itself where |s| is below this many times sqrt(g / l) [1]."""
 MOST_DELAY = 0.05
 """Largest unknown delay that is tried [s]."""
@@ -159,7 +159,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     assert isinstance(twin.timing, SampledTime)
     if isinstance(gait, Gait):
         gait = FrozenGait.of(walker.plant, gait, walker.nominal)
-    T, delay, slow = twin.timing.period, twin.timing.delay, OWN * gait.falling
+    T, delay, slow = twin.timing.period, twin.timing.delay, _OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
     tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
@@ -174,7 +174,7 @@ BALANCED = 10
 """Sweeps of Osborne's iteration, whose bounds decide for which frequencies mu is computed."""
 TOP = 50
 """Number of matrices of largest norm whose spectral radius excludes frequencies with smaller mu."""
-SMOOTH = (8, 64, 512)
+_SMOOTH = (8, 64, 512)
 """Powers p of the norms (sum sigma^p)^(1/p), one after the other, for sigma_max, which is not smooth."""
 
 
@@ -211,7 +211,7 @@ def structured_value(M: ComplexArray) -> float:
         return float(value), slope[:-1] / weight.sum()
 
     x = np.zeros(p - 1)
-    for power in SMOOTH:
+    for power in _SMOOTH:
         x = minimize(smooth, x, args=(power,), jac=True, method="BFGS").x
     return float(np.linalg.norm(scaled(x), 2))
 

@@ -181,7 +181,7 @@ RATIO = 1.05
 """Ratio of one period of that search to the one before."""
 PARTS, MOST_PERIODS = 20, 50
 """Steps per period of the search for the largest delay, and its length in periods."""
-HIGHEST = 14
+_HIGHEST = 14
 """Largest m: above it round-off moves the poles of the discrete observer by more than the loop does."""
 
 
@@ -219,10 +219,10 @@ class SampledLoop:
 
     def __post_init__(self) -> None:
         SampledTime(self.period, delay=self.delay)
-        if self.observer.m > HIGHEST:
+        if self.observer.m > _HIGHEST:
             raise InputError(
                 f"the sampled loop of an observer with m = {self.observer.m} was asked for, expected m <= "
-                f"{HIGHEST}: above it round-off decides what is stable"
+                f"{_HIGHEST}: above it round-off decides what is stable"
             )
 
     @cached_property

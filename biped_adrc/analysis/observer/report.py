@@ -46,7 +46,7 @@ ALLOWED = "m", "bandwidth", "limited by", "rms torque", "delay margin", "|e / xi
 """Columns of the table of allowed bandwidths."""
 
 
-class Section(NamedTuple):
+class _Section(NamedTuple):
     """A table as text: its title, the headings of its columns, and its rows."""
 
     title: str
@@ -161,7 +161,7 @@ class ObserverReport(OnHardware):
 
     # -- tables --------------------------------------------------------------------------------------
     @property
-    def sections(self) -> list[Section]:
+    def sections(self) -> list[_Section]:
         """All tables: gains, stability, responses, impact and allowed bandwidths."""
         tables = (self._gains, self._stability, self._responses, self._impact, self._allowed)
         return [table() for table in tables]
@@ -171,7 +171,7 @@ class ObserverReport(OnHardware):
         tables = ("\n".join(section.lines()) for section in self.sections)
         return "\n\n".join((self.verdict, *tables))
 
-    def _gains(self) -> Section:
+    def _gains(self) -> _Section:
         """Table of the gains l of (19), physical [1/s^i] and scaled."""
         o = self.observer
         rows = (
@@ -179,9 +179,9 @@ class ObserverReport(OnHardware):
             for i, (physical, scaled) in enumerate(zip(o.gains, o.scaled_gains, strict=True))
         )
         title = f"Gains of the observer; states scaled by w = {o.scale:.6g} rad/s"
-        return Section(title, ("", "physical", "scaled"), tuple(rows))
+        return _Section(title, ("", "physical", "scaled"), tuple(rows))
 
-    def _stability(self) -> Section:
+    def _stability(self) -> _Section:
         """Table of delay margins and largest periods, for an unknown and for a known delay."""
         margins = [self.loop.delay_margin(known) for known in (False, True)]
         loop, period = self.sampled(), microseconds(self.hardware.period)
@@ -195,9 +195,9 @@ class ObserverReport(OnHardware):
             periods = (microseconds(largest_period(one, late)) for one in known)
             rows.append((f"largest period, {name}", *periods))
         title = "Stability of the linear loop, kappa as in the model"
-        return Section(title, ("", "unknown delay", "known delay"), tuple(rows))
+        return _Section(title, ("", "unknown delay", "known delay"), tuple(rows))
 
-    def _responses(self) -> Section:
+    def _responses(self) -> _Section:
         """Table of each response: level at low frequency, peak, and frequency at which it is 3 dB lower.
 
         xi^ / xi is compared with its level at low frequency, the others with their peak.
@@ -212,9 +212,9 @@ class ObserverReport(OnHardware):
                 edge = f"{_falls(response, grid[0 if name == 'xi^ / xi' else top], grid[-1]):.4g} rad/s"
             rows.append((f"|{name}|", f"{level[0]:.3g}", peak, edge))
         title = "Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]"
-        return Section(title, ("", "at low frequency", "peak", "-3 dB"), tuple(rows))
+        return _Section(title, ("", "at low frequency", "peak", "-3 dB"), tuple(rows))
 
-    def _impact(self) -> Section:
+    def _impact(self) -> _Section:
         """Table of the peaks of the estimation error after the gait's impact, one row per reset policy."""
         rows = []
         for policy in ResetPolicy:
@@ -223,9 +223,9 @@ class ObserverReport(OnHardware):
             xi, torque = f"{p.disturbance:.4g} rad/s^2", f"{p.torque:.4g} N m"
             rows.append((policy.value, y, dy, xi, torque))
         title = "Peak after the gait's impact: error of the estimates, and the torque it costs"
-        return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
+        return _Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
 
-    def _allowed(self) -> Section:
+    def _allowed(self) -> _Section:
         """Table of the largest allowed bandwidth for every order m, with the loop without an observer."""
         rows: list[tuple[str, ...]] = []
         for r in self.recommended:
@@ -240,7 +240,7 @@ class ObserverReport(OnHardware):
             f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of "
             f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"
         )
-        return Section(title, ALLOWED, tuple(rows))
+        return _Section(title, ALLOWED, tuple(rows))
 
 
 def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:

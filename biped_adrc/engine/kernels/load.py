@@ -20,7 +20,7 @@ from typing import Any
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.engine.kernels.write import sources, written
-from biped_adrc.engine.machine import LOCK, hash_of, keep, load_or_compile, stored
+from biped_adrc.engine.machine import LOCK, fetch, hash_of, load_or_compile, store
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
@@ -80,10 +80,10 @@ def loops(files: tuple[str, ...] = FILES) -> str:
             "anew, is not installed; reinstall biped-adrc, or run pip install numba"
         )
     key = hash_of(sources((*files, WRITER)), version("numba"))
-    code = stored(key)
+    code = fetch(key)
     if code is None:
         code = written(files).encode()
-        keep(key, code)
+        store(key, code)
     return code.decode()
 
 

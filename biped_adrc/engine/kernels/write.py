@@ -21,7 +21,7 @@ from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
 
-ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
+_ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
 """What numba calls where Python would raise an error, which the loops never do."""
 
 HINTS = re.compile(r" ?\bcaptures\(none\)| ?\bnoundef\b| ?\brange\([^)]*\)")
@@ -36,7 +36,7 @@ def sources(files: tuple[str, ...]) -> str:
     return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
 
-def joined(files: tuple[str, ...]) -> str:
+def _joined(files: tuple[str, ...]) -> str:
     """The text of files, one after the other, without their imports of each other and of the march's operations
     of Python.
     """
@@ -60,7 +60,7 @@ def written(files: tuple[str, ...]) -> str:
     module = ModuleType("biped_adrc_kernels")
     sys.modules[module.__name__] = module  # where numba looks for what a unit names
     # executed and not imported: the joined text is no file, and its imports of each other are gone
-    exec(compile(joined(files), module.__name__, "exec"), vars(module))
+    exec(compile(_joined(files), module.__name__, "exec"), vars(module))
     names, linked = dict[str, str](), None
     for name, (symbol, signature, function) in module.UNITS.items():
         callback: Any = cfunc(signature, error_model="numpy")(function)
@@ -82,6 +82,6 @@ def written(files: tuple[str, ...]) -> str:
     # numba_nextafter is in numba's library, which no user has; C's gives the same
     llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
-    llvm = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
+    llvm = _ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
     llvm = re.sub(r"^(attributes #\d+ = ).*$", r"\1{ nounwind }", llvm, flags=re.MULTILINE)
     return f"{HINTS.sub('', llvm)}\ndeclare void @llvm.trap()\n"

@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.ir import CHOICE, FUNCTIONS, Operation, Patterns, straight_line
+from biped_adrc.engine.ir import CHOICE, OF_C, Operation, Patterns, straight_line
 
-PATTERNS: Patterns = {
+_PATTERNS: Patterns = {
     ca.OP_ADD: "{a} + {b}",
     ca.OP_SUB: "{a} - {b}",
     ca.OP_MUL: "{a} * {b}",
@@ -45,7 +45,7 @@ PATTERNS: Patterns = {
     ca.OP_FLOOR: "{F}(floor)({a})",
     **{
         code: f"{{F}}({name})({{a}}, {{b}})" if name == "pow" else f"{{F}}({name})({{a}})"
-        for code, name in FUNCTIONS.items()
+        for code, name in OF_C.items()
     },
 }
 """Expression in C of each operation; {a}, {b}, {c} are its operands, and {F} is empty in double."""
@@ -111,7 +111,7 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
         else:
             wide = i in doubles
             operands = (values[k].name if wide else values[k].real for k in of)
-            text = PATTERNS[code].format(
+            text = _PATTERNS[code].format(
                 **dict(zip("abc", operands, strict=False)), F="" if wide else "F"
             )
             value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)

@@ -32,8 +32,8 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import OutputError
 from biped_adrc.core.files import write_bytes
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.loaded import NO_COMPILER, compiled, compiler
-from biped_adrc.extras.export.source import Source, rendered, source_of
+from biped_adrc.extras.export.loaded import NO_COMPILER, build_c, compiler
+from biped_adrc.extras.export.source import Source, rendered_c, source_of
 from biped_adrc.scenario.build import build
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
 
@@ -131,13 +131,13 @@ def _texts(source: Source, guid: str) -> dict[str, str]:
     P = source.prefix
     values = {**source.words, "guid": guid, "ports": ports(source)}
     return {
-        "modelDescription.xml": rendered("modelDescription.xml", values),
-        "documentation/index.html": rendered("index.html", values),
+        "modelDescription.xml": rendered_c("modelDescription.xml", values),
+        "documentation/index.html": rendered_c("index.html", values),
         "documentation/licenses/license.txt": source.files["LICENSE"],
         f"sources/{P}.c": source.files[f"{P}.c"],
         f"sources/{P}.h": source.files[f"{P}.h"],
-        f"sources/{P}_fmi2.h": rendered("fmi2.h", values),
-        f"sources/{P}_fmu.c": rendered("fmu.c", values),
+        f"sources/{P}_fmi2.h": rendered_c("fmi2.h", values),
+        f"sources/{P}_fmu.c": rendered_c("fmu.c", values),
     }
 
 
@@ -164,7 +164,7 @@ def _binary(source: Source, texts: Mapping[str, str]) -> bytes:
     """Compile the sources to a shared library; returns its bytes."""
     files = {Path(path).name: text for path, text in texts.items() if path.startswith("sources/")}
     names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
-    with compiled(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):
+    with build_c(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):
         return library.read_bytes()
 
 

@@ -27,14 +27,14 @@ from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
 from biped_adrc.engine.symbols import Scalar, Vector, column, wheres
-from biped_adrc.engine.tracer import run
+from biped_adrc.engine.tracer import apply
 from biped_adrc.extras.export.c_text import CFunction, Entry, read_by
 from biped_adrc.extras.export.computer import Computer, Noticed
 
-FIRST = {"m->t": True, "x->last": True, "next->step": False, "next->start": True}
+_FIRST = {"m->t": True, "x->last": True, "next->step": False, "next->start": True}
 """Names in C of the inputs before q -> whether they are doubles always: t, time of the previous sample instant,
 number and start of the single support."""
-HEAD = len(FIRST)
+_HEAD = len(_FIRST)
 """Number of these inputs."""
 
 
@@ -52,7 +52,7 @@ class Inputs:
     @cached_property
     def at(self) -> SymbolicInstant:
         """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
-        inp = Vector("inp", HEAD + self.equations.nx)
+        inp = Vector("inp", _HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.nx)
         return SymbolicInstant(inp, self.equations.loop(), t, x, mode)
@@ -73,7 +73,7 @@ def init(computer: Computer) -> SymbolicFunction:
     (q, v, _, tail), at = inputs.parts, inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
     controller = at.loop.trace.on_symbols(inputs.equations.symbols[1].controller)
-    s = run(at.loop.trace, controller.initial_state, m)
+    s = apply(at.loop.trace, controller.initial_state, m)
     held = at.loop.held
     w = None if held is None or held.sensors is None else held.sensors.start(q, v)
     line = np.zeros(computer.held.line.size)
@@ -155,7 +155,7 @@ def functions(computer: Computer) -> Functions:
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)
-    rates = tuple(i for i in range(n) if HEAD + n + i in read)
+    rates = tuple(i for i in range(n) if _HEAD + n + i in read)
     return Functions(tuple(kept), tuple(functions), rates)
 
 
@@ -196,7 +196,7 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
         read = read_by(step._replace(out=step.out[[*kept, *outputs]]), 1)
         if kept:
             read |= read_by(touchdown._replace(out=touchdown.out[kept]), 1)
-        result = {i - HEAD - 2 * n for i in read if i >= HEAD + 2 * n}
+        result = {i - _HEAD - 2 * n for i in read if i >= _HEAD + 2 * n}
         if result <= live:
             return live
         live |= result
@@ -208,7 +208,7 @@ def _named(
     """A function with the names of its inputs and `outputs` in C; an output with an empty name is dropped."""
     kept = [i for i, name in enumerate(outputs) if name]
     inputs = [
-        *(Entry(name, double) for name, double in FIRST.items()),
+        *(Entry(name, double) for name, double in _FIRST.items()),
         *(Entry(f"m->q[{i}]", True) for i in range(n)),
         *(Entry(f"m->v[{i}]") for i in range(n)),
         *(Entry(f"x->{name}", field.double) for field in fields for name in field),

@@ -41,7 +41,7 @@ COMPILERS = ("cc", "gcc", "clang")
 NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
 """Return values of the functions of the C."""
-ERRORS: Mapping[int, type[BipedError]] = {
+_ERRORS: Mapping[int, type[BipedError]] = {
     NOT_MEASURED: NotFiniteError,
     NO_RESULT: NotFiniteError,
     SINGULAR: SingularError,
@@ -49,7 +49,7 @@ ERRORS: Mapping[int, type[BipedError]] = {
 }
 """Return value of the C -> error that the controller in Python raises in this case, which ends a walk."""
 
-Record = NDArray[np.void]
+_Record = NDArray[np.void]
 """A struct of C."""
 
 
@@ -60,7 +60,7 @@ def compiler() -> str | None:
 
 
 @contextmanager
-def compiled(
+def build_c(
     files: Mapping[str, str], names: Sequence[str], *flags: str
 ) -> Iterator[tuple[Path, str]]:
     """Context with the result of compiling C files: the path of the binary, and the compiler's messages.
@@ -94,7 +94,7 @@ def tried(source: Source) -> str:
     """Compile a source; returns a sentence with the compiler's messages, or that there is no compiler."""
     if (program := compiler()) is None:
         return f"not compiled: {NO_COMPILER}"
-    with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, message):
+    with build_c(source.files, ["main.c", f"{source.prefix}.c"]) as (_, message):
         return f"compiled by {Path(program).name}: {message or 'no warnings'}"
 
 
@@ -125,29 +125,29 @@ class Loaded:
     def functions(self) -> dict[str, Any]:
         """init, step and touchdown as ctypes functions, compiled in a temporary folder at the first use."""
         P = self.source.prefix
-        with compiled(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
+        with build_c(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
             library = ctypes.CDLL(str(out))
         return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
 
-    def measured(self, t: float, q: Array, v: Array) -> Record:
+    def measured(self, t: float, q: Array, v: Array) -> _Record:
         """Struct of a measurement: t [s], q [rad] and v [rad/s], each (n,)."""
         m = np.zeros((), self.measurement)
         m["t"], m["q"], m["v"] = t, q, v
         return m
 
-    def init(self, m: Record) -> tuple[int, Record]:
+    def init(self, m: _Record) -> tuple[int, _Record]:
         """Call init with a measurement; returns its flag and the state."""
         x = np.zeros((), self.state)
         return self.functions["init"](_at(x), _at(m)), x
 
-    def step(self, x: Record, m: Record) -> tuple[int, Array]:
+    def step(self, x: _Record, m: _Record) -> tuple[int, Array]:
         """Call step with state and measurement; returns its flag and the torque (p,)
         [N m]. x changes in place.
         """
         u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
 
-    def touchdown(self, x: Record, m: Record) -> int:
+    def touchdown(self, x: _Record, m: _Record) -> int:
         """Call touchdown with state and measurement; returns its flag. x changes in place."""
         return self.functions["touchdown"](_at(x), _at(m))
 
@@ -193,18 +193,18 @@ class ExportedController(Controller):
             "an exported controller acts at sample instants; give timing=SampledTime(period)"
         )
 
-    def _inputs(self, m: Measurement) -> Record:
+    def _inputs(self, m: Measurement) -> _Record:
         """The measurement m as C's struct."""
         return self.loaded.measured(m.t, m.q, m.v)
 
-    def _state(self, s: Array) -> Record:
+    def _state(self, s: Array) -> _Record:
         """The struct of a state s (size,) of floats."""
         return np.array(unstructured_to_structured(s[: len(s) - self.source.p], self.loaded.state))
 
-    def _kept(self, flag: int, x: Record, u: Array) -> Array:
+    def _kept(self, flag: int, x: _Record, u: Array) -> Array:
         """The struct x and the torque u (p,) as one array of floats. Raises the error of
-        `ERRORS` for another flag than OK.
+        `_ERRORS` for another flag than OK.
         """
         if flag != OK:
-            raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
+            raise _ERRORS[flag](f"the exported controller returned {flag}: it has no result")
         return np.concatenate((structured_to_unstructured(x, float), u))

@@ -107,7 +107,7 @@ def source_of(
     }
     texts = {"header.h": f"{prefix}.h", "source.c": f"{prefix}.c"}
     texts |= {name: name for name in ("main.c", "Makefile", "README.md", "LICENSE")}
-    files = {name: rendered(template, words) for template, name in texts.items()}
+    files = {name: rendered_c(template, words) for template, name in texts.items()}
     return Source(prefix, real, files, functions_.fields, written, len(used), k.n, k.p, words)
 
 
@@ -171,7 +171,7 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
     return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
 
 
-def rendered(template: str, words: Mapping[str, object]) -> str:
+def rendered_c(template: str, words: Mapping[str, object]) -> str:
     """Text of a file: its template, filled in with `words`, the values that it names."""
     return _environment(Path(template).suffix).get_template(f"{template}.j2").render(words)
 

@@ -41,7 +41,7 @@ from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.hardware.sample_hold import Tail, motor_torque
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
-from biped_adrc.scenario.dotted import flat, merged, nested
+from biped_adrc.scenario.dotted import flat, merged, tables
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
 
@@ -57,7 +57,7 @@ OF_RIGID = "errors.impact_width"
 """A field of the scenario that only walks on the rigid plant have."""
 TORQUES, ADDED = "torques", "added"
 """Meaning of an action: all of the torque, or an addition to the torque of the scenario's controller."""
-NEAR = 0.1
+_NEAR = 0.1
 """e_1 of the reward [rad]."""
 FALLEN_FROM = 1e-9
 """Tolerance of the time limit [s]: a sample that ends so little before it is the last."""
@@ -106,7 +106,7 @@ class LearnerTask(Checked, Shown):
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
         how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
-        record = nested(values)
+        record = tables(values)
         if scenario is not None:
             return cls(scenario.replace(record), **how)
         ground = record.get("ground", RIGID)
@@ -117,7 +117,7 @@ class LearnerTask(Checked, Shown):
             raise InputError(
                 f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
             )
-        return cls(Scenario(**merged(nested({**BASE, **CONDITIONS[name]}), record)), **how)
+        return cls(Scenario(**merged(tables({**BASE, **CONDITIONS[name]}), record)), **how)
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
         """Limits of ground and motors; the torque limit is the scenario's where that is lower."""
@@ -128,7 +128,7 @@ class LearnerTask(Checked, Shown):
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
-NAMES = np.array(["walks", *(x.name.lower().replace("_", " ") for x in STATUS[1:])], dtype=object)
+_NAMES = np.array(["walks", *(x.name.lower().replace("_", " ") for x in STATUS[1:])], dtype=object)
 """Text of each status, by its code."""
 
 Flags = NDArray[np.bool_]
@@ -233,7 +233,7 @@ class Stage:
             "friction": rows[1],
             "normal_force": rows[2],
             "peak_torque": rows[3],
-            "status": NAMES[self.stepper.codes],
+            "status": _NAMES[self.stepper.codes],
         }
 
 
@@ -280,5 +280,5 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
         de=state.v[:p] - r.dq_d,
         u=motor_torque(line),
         at=np.array([t, mode.step]),
-        paid=np.array([1.0 / (1.0 + e @ e / NEAR**2), u @ u]),
+        paid=np.array([1.0 / (1.0 + e @ e / _NEAR**2), u @ u]),
     )

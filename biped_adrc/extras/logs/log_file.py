@@ -27,7 +27,7 @@ from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.units import quantity
 
-UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
+_UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 """First letter of a column -> its unit in the package."""
 CONTACT, STEP = "contact", "step"
 LEGS = (1.0, 2.0)
@@ -85,7 +85,7 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
     for name in _numbered(biped):
         i = int(name[1:]) - 1
         if name[0] != "v" or log.has_rate[i]:
-            columns[f"{name} [{UNITS[name[0]]}]"] = signals[name[0]][:, i]
+            columns[f"{name} [{_UNITS[name[0]]}]"] = signals[name[0]][:, i]
     return write_csv(columns, path)
 
 
@@ -134,7 +134,7 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
         result[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
     missing = [x for x in known if x[0] in "tqu" and x not in result]
     if missing or (CONTACT in result) == (STEP in result):
-        asked = [f"{x} [{UNITS[x[0]]}]" for x in missing] or [f"one of {CONTACT}, {STEP}"]
+        asked = [f"{x} [{_UNITS[x[0]]}]" for x in missing] or [f"one of {CONTACT}, {STEP}"]
         raise InputError(
             f"its columns are {head}, expected {', '.join(asked)} too; rates v1 .. may be left out"
         )
@@ -145,7 +145,7 @@ def _factor(column: str, name: str, unit: str | None) -> float:
     """Factor from the unit of a column to the package's. Raises InputError without a
     unit, or for another dimension.
     """
-    expected = UNITS[name[0]]
+    expected = _UNITS[name[0]]
     if not unit:
         raise InputError(
             f"column '{column}' has no unit, expected one in brackets, as '{name} [{expected}]'"

@@ -156,9 +156,9 @@ def measurements(
         yield walker.measure(t, *sensors.reading(w, q[i], v[i]), mode), after
 
 
-WINDOW = 0.02
+_WINDOW = 0.02
 """Time after a touchdown that counts as contact [s]; on MuJoCo's ground of 2 ms forces have settled by then."""
-COLUMNS = {
+_COLUMNS = {
     "torque": "u asked {} [N m]",
     "u": "u {} [N m]",
     "residual": "residual {} [rad]",
@@ -190,8 +190,8 @@ class ReplayRow(NamedTuple):
     """Largest difference of the controller's torque and the log's [N m]."""
 
 
-NUMBERS = "beyond model [N m]", "in contact [N m]", "residual [rad]", "u apart [N m]", "peak [N m]"
-HEADER = ("step", "samples", *NUMBERS)
+_NUMBERS = "beyond model [N m]", "in contact [N m]", "residual [rad]", "u apart [N m]", "peak [N m]"
+HEADER = ("step", "samples", *_NUMBERS)
 """Names of the columns of a `ReplayRow`."""
 
 
@@ -230,7 +230,7 @@ class Replay(Shown):
         q_b - x1^ [mrad]; the torque of the controller over the one in the log [N m]. The window of contact
         after each touchdown is shaded.
         """
-        from biped_adrc.view.plots.over_time import broken, curves, finished, say_no_observer
+        from biped_adrc.view.plots.over_time import curves, finished, gapped, say_no_observer
         from biped_adrc.view.style import GREY, new_figure
 
         x = self.signals
@@ -239,7 +239,7 @@ class Replay(Shown):
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
                 name = "in the log" if k == 0 else "_"
-                torque.plot(broken(x, x.t), broken(x, u), color=GREY, lw=0.8, ls=":", label=name)
+                torque.plot(gapped(x, x.t), gapped(x, u), color=GREY, lw=0.8, ls=":", label=name)
             for axes, values, symbol, unit in (
                 (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
                 (residual, 1e3 * x.residual, "q", "residual [mrad]"),
@@ -261,7 +261,7 @@ class Replay(Shown):
         """
         x = self.signals
         table = {"t [s]": x.t, "step": x.step.astype(int), "in contact": x.in_contact.astype(int)}
-        return write_csv(table | joint_columns(x, COLUMNS), path)
+        return write_csv(table | joint_columns(x, _COLUMNS), path)
 
 
 def cells(row: ReplayRow) -> tuple[str, ...]:
@@ -273,7 +273,7 @@ def cells(row: ReplayRow) -> tuple[str, ...]:
 def replay(
     log: RobotLog | Path | str,
     scenario: Scenario,
-    window: float = WINDOW,
+    window: float = _WINDOW,
     filter_time: float | None = None,
 ) -> Replay:
     """Replay a log, or the CSV file of one, through the controller of a scenario.

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.closed_loop.semantics import parts, turned
+from biped_adrc.closed_loop.semantics import in_other_names, parts
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError
@@ -235,7 +235,7 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> tuple[float, float, Arra
     step, other = float(arc.mode.step), 0.0
     if tail.belief is not None:
         step, other = float(tail.belief.step), tail.belief.other
-    q, v = held.reading(tail.sensors, *turned(walker, other, q, v))
+    q, v = held.reading(tail.sensors, *in_other_names(walker, other, q, v))
     nodes = slice(k, end + 1)
     t, acted = arc.t[nodes], motor_torque(parts(walker, arc.x[nodes]).tail.line)
     u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags

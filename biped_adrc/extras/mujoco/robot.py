@@ -26,7 +26,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import SoftGround, ground_axes
 from biped_adrc.model.robots.urdf import Joint, Tree
 
-KINDS = {"revolute": "hinge", "prismatic": "slide"}
+_KINDS = {"revolute": "hinge", "prismatic": "slide"}
 """Type of a joint in the tree -> MuJoCo's type."""
 PLANES = ("ground", "ground ahead")
 """Names of the planes: one for both feet; on steps, one under the stance foot and one under the other."""
@@ -129,7 +129,7 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
     for joint in joints:
         if joint.type == "fixed":
             continue
-        own = {"name": joint.name, "type": KINDS[joint.type], "axis": text(joint.axis)}
+        own = {"name": joint.name, "type": _KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:
             rotors = np.broadcast_to(biped.armature, biped.p)
             own["armature"] = text(float(rotors[d.actuated.index(joint.name)]))

@@ -22,10 +22,10 @@ import numpy as np
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import output_path, packaged, write_text
-from biped_adrc.extras.play.walks import MOST, PageWalk, numbers, variants
+from biped_adrc.extras.play.walks import MOST, PageWalk, page_numbers, variants
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.scenario.dotted import merged, nested
+from biped_adrc.scenario.dotted import merged, tables
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.view.colours import TORQUE
 from biped_adrc.view.meshcat import objects as draw
@@ -47,10 +47,10 @@ OTHERS: Mapping[str, Mapping[str, object]] = {
     },
 }
 """Name -> fields by which a walk to choose from differs from the page's scenario."""
-SAMPLES = 2
+_SAMPLES = 2
 """Largest delay of the torque on a page [samples]."""
-HERE = "biped_adrc.extras.play"
-AROUND = 4.0
+_HERE = "biped_adrc.extras.play"
+_AROUND = 4.0
 """Length of the ground before and behind the robot [m]."""
 PRINTS = 12
 """Number of footprints that are drawn at once."""
@@ -84,7 +84,7 @@ def play(
 
 
 def page(
-    scenario: Scenario, others: Mapping[str, Mapping[str, object]], samples: int = SAMPLES
+    scenario: Scenario, others: Mapping[str, Mapping[str, object]], samples: int = _SAMPLES
 ) -> str:
     """Text of the page; samples: the largest delay that its slider reaches [samples].
 
@@ -106,13 +106,13 @@ def page(
     scene = laid_out(walks[first][0])
     given = settings(walks[first][0], scene) | {
         "tour": stations,
-        "numbers": numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
+        "numbers": page_numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
     }
     title = f"{scenario.robot.name}, live"
     legend = captions({"walk": scene})[1:]
     if scenario.hardware.torque_limit is None:
         legend.append(("", "motors without a torque limit: set hardware.torque_limit for one"))
-    return with_viewer("play", given, HERE, title=title, captions=legend, style="play.css")
+    return with_viewer("play", given, _HERE, title=title, captions=legend, style="play.css")
 
 
 def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
@@ -121,7 +121,7 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
     Raises InputError for values that it does not take.
     """
-    name = nested(values).get("controller", {})
+    name = tables(values).get("controller", {})
     name = name if isinstance(name, str) else name.get("name", s.controller.name)
     if name != s.controller.name:
         s = s.replace({"controller.observer": ObserverRecord()})
@@ -130,7 +130,7 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
 def tour() -> list[dict[str, Any]]:
     """The stations of tour.toml, each with all values that it sets; "none" stands for no value."""
-    table = packaged(HERE, "tour.toml")
+    table = packaged(_HERE, "tour.toml")
     return [x | {"values": merged(table["base"], x["values"])} for x in table["station"]]
 
 
@@ -155,7 +155,7 @@ def laid_out(walk: PageWalk) -> WalkScene:
     """Scene of a walk at its start, with as much ground and as many footprints as are visible at once."""
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
-    footholds = np.linspace(-AROUND, AROUND, PRINTS)
+    footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
     slope = walk.walker.ground_slope
     return WalkScene(walk.walker, run, footholds, -math.tan(slope) * footholds)

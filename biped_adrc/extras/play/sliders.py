@@ -24,7 +24,7 @@ from biped_adrc.scenario.scenario import Scenario
 Form = tuple[float, float, int] | list[float]
 """How a number depends on the value s of a slider: (a, b, k) for a + b s^k, with tan(s) in place of s^k for
 k = 0; or a list of its values at the slider's table."""
-Numbers = Callable[[Mapping[str, object]], Array]
+_Numbers = Callable[[Mapping[str, object]], Array]
 """The numbers of a walk with these values of its scenario; raises BipedError where it has none, or another
 structure."""
 ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
@@ -32,7 +32,7 @@ ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 CLOSER = 8
 """Number of places between a slider's end and its value where another end is tried."""
 POWERS = (*range(1, 15), -1, -2)
-EXACT = 1e-12
+_EXACT = 1e-12
 """Largest relative error with which a form fits."""
 ELSEWHERE = (*CONTEXT, *GAINS, "bandwidth", "order", "poles", "solve_theta", "reset")
 """Parameters of controllers that get no slider of their own."""
@@ -77,7 +77,7 @@ class Slider(NamedTuple):
 
 
 OBSERVER = "controller.observer."
-USUAL = (
+_USUAL = (
     Slider("controller.K_p", 30.0, 30000.0, True),
     Slider("controller.K_d", 3.0, 3000.0, True),
     Slider("controller.observer.bandwidth", 30.0, 3000.0, True),
@@ -95,7 +95,7 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
     c = s.controller
     values = {f"controller.{k}": getattr(c, k) or float(getattr(TABLE_II, k)) for k in GAINS}
-    for one in USUAL:
+    for one in _USUAL:
         also_here = also if one.name.startswith(OBSERVER) else {}
         yield one._replace(also=also_here, value=values.get(one.name))
     for name, parameter in takes(find("controller", c.name).load()).items():
@@ -106,7 +106,7 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
 
 
 def sliders(
-    s: Scenario, order: int | None, base: Array, numbers: Numbers
+    s: Scenario, order: int | None, base: Array, numbers: _Numbers
 ) -> dict[str, tuple[Slider, dict[int, Form]]]:
     """Find the sliders of a walk: name -> the slider, and the forms of the numbers that it changes, by index.
 
@@ -124,7 +124,7 @@ def sliders(
     return result
 
 
-def with_forms(one: Slider, base: Array, numbers: Numbers) -> tuple[Slider, dict[int, Form]]:
+def with_forms(one: Slider, base: Array, numbers: _Numbers) -> tuple[Slider, dict[int, Form]]:
     """Fit the forms of one slider's numbers, by index; returns the slider, with its
     range or table, and the forms.
 
@@ -136,14 +136,14 @@ def with_forms(one: Slider, base: Array, numbers: Numbers) -> tuple[Slider, dict
     except BipedError:  # such as gains of an unstable loop
         one = one._replace(low=end(one, one.low, numbers), high=end(one, one.high, numbers))
         rows = numbers_at(one, numbers)
-    if forms := fitted(one, base, rows):
+    if forms := forms_of(one, base, rows):
         return one, forms
     one = one.tabulated()
     rows = numbers_at(one, numbers, one.table)
     return one, {k: rows[:, k].tolist() for k in changing(base, rows)}
 
 
-def end(one: Slider, x: float, numbers: Numbers) -> float:
+def end(one: Slider, x: float, numbers: _Numbers) -> float:
     """The end x of a slider's range, moved towards its present value until the walk accepts it."""
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
@@ -155,7 +155,7 @@ def end(one: Slider, x: float, numbers: Numbers) -> float:
     return x
 
 
-def numbers_at(one: Slider, numbers: Numbers, values: Sequence[float] = ()) -> Array:
+def numbers_at(one: Slider, numbers: _Numbers, values: Sequence[float] = ()) -> Array:
     """Numbers of the walk at values of a slider, a row for each; at those of `tried` if none
     are given. Raises BipedError.
     """
@@ -170,7 +170,7 @@ def changing(base: Array, rows: Array) -> list[int]:
     return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
 
 
-def fitted(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
+def forms_of(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
     """Fit a form to each number that changes over the rows (3, N); index -> form, empty where one has
     no form.
     """
@@ -183,12 +183,12 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
     """Iterate over the forms (a, b, k) that pass through three values y (3,) at the slider's values s (3,)."""
     with np.errstate(all="ignore"):
         for k in POWERS if np.all(s > 0.0) else ():
-            if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < EXACT):
+            if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < _EXACT):
                 yield 0.0, float(y[2] / s[2] ** k), k
         for k, f in ((1, s), (0, np.tan(s))):
             b = (y[2] - y[0]) / (f[2] - f[0])
             a = y[0] - b * f[0]
-            if abs(a + b * f[1] - y[1]) <= EXACT * np.max(np.abs(y)):
+            if abs(a + b * f[1] - y[1]) <= _EXACT * np.max(np.abs(y)):
                 yield float(a), float(b), k
 
 

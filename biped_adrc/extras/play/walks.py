@@ -31,7 +31,7 @@ from biped_adrc.engine.kernels.record import FUNCTIONS, PLACES, Ints
 from biped_adrc.engine.leaves import paths
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import CompiledWalker
-from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
+from biped_adrc.extras.play.sliders import Form, Slider, forms_of, numbers_at, sliders
 from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.hybrid.constants import STRUCK
@@ -50,7 +50,7 @@ MOST = {"force": 300.0, "torque": 200.0}
 SPRING = {"stiffness": 1500.0, "damping": 40.0}
 """F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m]; holding it for T takes k T / 2 from d."""
 DELAY, FRICTION = "hardware.delay", "hardware.friction"
-SAME = 1e-9
+_SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
 
 
@@ -179,7 +179,7 @@ class PageWalk:
         if low == high:
             return {}
         inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
-        return fitted(inside, self.numbers, numbers_at(inside, self.at))
+        return forms_of(inside, self.numbers, numbers_at(inside, self.at))
 
     @property
     def delays(self) -> tuple[float, float]:
@@ -215,7 +215,7 @@ def with_hand(walker: Walker) -> Walker:
     return replace(walker, disturbance=Sum() + TorqueStep(np.zeros(walker.plant.n)) + force)
 
 
-def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
+def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     """What machine.js reads of the walks; vectors in base64. Raises InputError.
 
     walks       by name: its scenario as lines, its sliders, and its variants, which are blocks as they begin
@@ -326,7 +326,7 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
 
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
-    """A, and the closed form of the points of each link; see `numbers`."""
+    """A, and the closed form of the points of each link; see `page_numbers`."""
     result: dict[str, Any] = {}
     for link in dict.fromkeys(links):
         corner, *others = (
@@ -349,7 +349,7 @@ def trunk_of(plant: Biped) -> str:
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])
-    if np.max(np.abs(point(turned(k.A, q), k.re, k.im) - base)) > SAME:
+    if np.max(np.abs(point(turned(k.A, q), k.re, k.im) - base)) > _SAME:
         raise InputError(
             f"robot '{plant.description.name}' is drawn from a base that is not the origin of its trunk "
             f"'{trunk}'; a page expects that"

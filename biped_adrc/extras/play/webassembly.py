@@ -25,7 +25,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import LoadedCode, hash_of, keep, object_code, parsed, stored
+from biped_adrc.engine.machine import LoadedCode, fetch, hash_of, object_code, parsed, store
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -53,7 +53,7 @@ def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, {name: k for k, name in enumerate(LOOPS, 1)})
+    laws = _Laws({}, {name: k for k, name in enumerate(_LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
     code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))
     return WebWalkers(code, tuple(laws.numbers), tuple(modules))
@@ -98,11 +98,11 @@ def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
 
 TARGET = "wasm32-unknown-unknown"
 """LLVM's name of what a browser runs."""
-LOOPS = ("go_on", "land", "look")
+_LOOPS = ("go_on", "land", "look")
 """Functions of the kernels that a page calls."""
 
 
-def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
+def web_module(laws: Mapping[str, str], called: Sequence[str] = _LOOPS) -> bytes:
     """Compile the loops and the functions `laws` to WebAssembly; returns the bytes, which are cached on disk.
 
     laws: name -> text for LLVM. called: names of functions in the order of their numbers; function `f`
@@ -110,10 +110,10 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
     """
     own = Path(__file__).read_text(encoding="utf-8")
     key = hash_of(TARGET, loops(), own, *called, *chain(*laws.items()))
-    code = stored(key)
+    code = fetch(key)
     if code is None:
         code = _linked(laws, called)
-        keep(key, code)
+        store(key, code)
     return code
 
 

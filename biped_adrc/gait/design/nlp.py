@@ -34,15 +34,15 @@ from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
-LONGEST = 1.2
+LONGEST_STEP = 1.2
 """Longest step that is searched, as a share of the leg length."""
-SHORTEST = 0.05
+_SHORTEST = 0.05
 """Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5
 """Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
 LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
 """What is asked of a foot that needs no clearance."""
-SMOOTH = 1e-2
+_SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2
 """Weight of torque squared beside the other objectives, which alone would leave the torque undetermined."""
@@ -57,7 +57,7 @@ ASKED = ("the speed", "the step length")
 """Names of the equality rows that state the request rather than the physics of the step."""
 ASKED_WEIGHT = 100.0
 """Weight of the slacks of ASKED in the relaxation, so that a limit gives way before the request does."""
-MISSED = 1e-5
+_MISSED = 1e-5
 """Largest slack of a limit that counts as kept."""
 INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
 """Statuses with which CasADi ends IPOPT after Ctrl-C, in an evaluation or between two of them."""
@@ -191,7 +191,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             "the slowest rate", x.rates / x.rate, limits.slowest, infinite, "of that before impact"
         ),
         Bounded("stability, delta^2 below 1", ratio, -infinite, limits.multiplier),
-        Bounded("the range of steps", k.length / k.leg, SHORTEST, LONGEST, legs),
+        Bounded("the range of steps", k.length / k.leg, _SHORTEST, LONGEST_STEP, legs),
     ]
     if np.isfinite(mu_i):
         rows += [
@@ -228,7 +228,7 @@ def _objective(k: SymbolicStep) -> ca.MX:
         case Objective.TORQUE:
             return calm
         case Objective.TRANSPORT:
-            power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + SMOOTH**2) - SMOOTH)
+            power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + _SMOOTH**2) - _SMOOTH)
             work = ca.sum2(power * k.dt) * k.limits.torque
             return work / (k.biped.weight * k.length) + CALM * calm
         case Objective.PEAK:
@@ -314,7 +314,7 @@ def relaxed(
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
-    missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > MISSED}
+    missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
     if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
         unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"

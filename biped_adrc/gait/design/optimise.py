@@ -39,7 +39,15 @@ from scipy.optimize import least_squares
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.nlp import ASKED, LATE, LONGEST, Bounds, relaxed, solve_nlp, transcribe
+from biped_adrc.gait.design.nlp import (
+    ASKED,
+    LATE,
+    LONGEST_STEP,
+    Bounds,
+    relaxed,
+    solve_nlp,
+    transcribe,
+)
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, onto_section
@@ -53,7 +61,7 @@ FROUDE = 1.5
 """Largest speed over sqrt(g leg) that is searched; above 1 an inverted pendulum already leaves the ground."""
 MOVED = 1e-3
 """Largest change of a joint by which a requested state is moved onto the ground [rad]."""
-STEP = 0.5
+_STEP = 0.5
 """Step length of the guess over the leg, and speed over sqrt(g leg), where the request leaves them free."""
 BEND = 0.2
 """Distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
@@ -75,7 +83,7 @@ def standing(robot: PlanarRobot) -> Array:
     return np.asarray(np.linalg.solve(robot.A, a), dtype=np.float64)
 
 
-def inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
+def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
     """Move the joints of q (n,) [rad] that have a range a little inside of it; returns the configuration.
 
     ranges: (low, high) [rad] by joint; the distance from an end is BEND or a quarter of the range. A guess at
@@ -97,7 +105,7 @@ def apart(
     Least squares: the foot weighs most, then the hip half way between the feet, then nearness to `standing`.
     """
     robot = robot_of(biped)
-    near, K = inside(standing(robot), biped, ranges), robot.K
+    near, K = _inside(standing(robot), biped, ranges), robot.K
     target = step * ground_axes(slope)[0]
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
     for joint, ends in ranges.items():
@@ -143,18 +151,18 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     c = biped.phase
     if request.through is None:
         leg = robot_of(biped).leg
-        step = request.step or STEP * leg
+        step = request.step or _STEP * leg
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
-        if step > LONGEST * leg or (request.speed or 0.0) > most:
+        if step > LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
                 f"{request.in_words()} is asked for; legs of {leg:g} m cannot walk, one foot always on the "
-                f"ground, faster than {most:.3g} m/s, or in steps of more than {LONGEST * leg:.3g} m: ask for "
-                "less"
+                f"ground, faster than {most:.3g} m/s, or in steps of more than {LONGEST_STEP * leg:.3g} m: ask "
+                "for less"
             )
         q = apart(biped, step, request.slope, limits.ranges)
         q_plus = biped.relabel(q)
         dq = (q - q_plus) / float(c @ (q - q_plus))
-        duration = step / (request.speed or STEP * math.sqrt(biped.description.gravity * leg))
+        duration = step / (request.speed or _STEP * math.sqrt(biped.description.gravity * leg))
         rate = abs(float(c @ (q - q_plus))) / duration
     else:
         q, v = _given_state(biped, np.array(request.through), request.slope)
@@ -163,11 +171,11 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     return at_gait(biped, h, q, dq, rate, np.full(request.nodes, rate), 0.5)
 
 
-NODES = 120
+_NODES = 120
 """Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""
 SPEED = 5e-5
 """Largest deviation of the speed (relative) and of the step length (over the leg) from the request."""
-EXACT = 1e-6
+_EXACT = 1e-6
 """Largest violation of any other row by an exact gait."""
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
 """Bounds of the unknown rates."""
@@ -195,7 +203,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # the foot may scuff, and is kept up in the second half at the nodes alone
     allowed[LATE] = np.inf
     result = programme.missed(stacked(x))
-    missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, EXACT)}
+    missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
     return programme.in_words(missed)
 
 
@@ -326,7 +334,7 @@ def exact_gait(
     h = invariant_constraint(request.kind, biped, q, dq, request.degree)
     alpha = np.array(h.curve.coefficients)
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
-    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), NODES)
+    zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), _NODES)
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = gait.step_length(biped)
     limits = vars(request.limits.of(biped))

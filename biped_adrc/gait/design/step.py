@@ -26,38 +26,38 @@ from biped_adrc.gait.curves import basis_at
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.derivatives import each, impact_rows, pose_function, together
+from biped_adrc.model.derivatives import entries, impact_rows, pose_function, together
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import point, turned
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
-T = TypeVar("T", bound=Any)
+_T = TypeVar("_T", bound=Any)
 
 
-class Unknowns(NamedTuple, Generic[T]):
+class Unknowns(NamedTuple, Generic[_T]):
     """The unknowns as symbols or as numbers, in the order of the decision vector.
 
     n coordinates, p motors, K nodes.
     """
 
-    q: T
+    q: _T
     """q- (n,): configuration just before impact [rad]."""
-    slope: T
+    slope: _T
     """dq_b/dTheta just before impact (p,) [rad/rad]."""
-    alpha: T
+    alpha: _T
     """Bezier coefficients (p, M + 1) [rad]."""
-    theta: T
+    theta: _T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
-    after: T
+    after: _T
     """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s]; it is linear in
     Theta'-."""
-    impulse: T
+    impulse: _T
     """(F_T, F_N) of that impact (2,) [N s]."""
-    rate: T
+    rate: _T
     """|Theta'| just before impact (1,) [rad/s]."""
-    rates: T
+    rates: _T
     """|Theta'| at the nodes (K,) [rad/s]."""
-    peak: T
+    peak: _T
     """Largest |u_i| of the step as a share of the torque limit (1,)."""
 
     def split(self, x: Array) -> Unknowns[Array]:
@@ -122,13 +122,13 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     dq = ca.vertcat(dh, (1.0 - ca.dot(c_b, dh)) / c_N)
     ddq = ca.vertcat(ddh, -ca.dot(c_b, ddh) / c_N)
     rate = direction * r
-    x, v = each(q), each(dq * rate)
+    x, v = entries(q), entries(dq * rate)
     D, Omega = map(together, robot.inertia_and_bias(x, v))
     inertia = D[p, :] @ dq
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
-    t, force = turned(robot.A, x), robot.ground_reaction(x, v, each(a))
+    t, force = turned(robot.A, x), robot.ground_reaction(x, v, entries(a))
     foot, (G, _) = point(t, K.foot_re, K.foot_im), robot.gravity_and_turning(t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])

@@ -27,7 +27,7 @@ from biped_adrc.model.robots.urdf import vector
 
 EXPLAINS = 5e-3
 """Largest distance of samples from the orbit of the robot that explains them [rad]."""
-WIDE = math.log(10.0)
+_WIDE = math.log(10.0)
 """Largest logarithm of a factor that is tried."""
 CLEARLY = 3.0
 """Ratio of distances from which one cause is better than another."""
@@ -44,7 +44,7 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
         return ZeroDynamics.of(make(k), fit(s, make(k), degree))
 
     def late(log_k: float, make: Callable[[float], Biped]) -> float:
-        k = math.exp(min(max(log_k, -WIDE), WIDE))
+        k = math.exp(min(max(log_k, -_WIDE), _WIDE))
         return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
 
     d, found = biped.description, dict[str, tuple[float, float]]()

@@ -15,8 +15,8 @@ MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, an
 run is columns over time. Every array has a unit in the struct `units`, which is written last, so
 that a truncated file is detected.
 
-`read_record` checks that the entries exist, `record.GaitRecord` shapes and numbers, and `import_gait` whether
-it is a gait.
+`read_record` checks that the entries exist, `record.GaitFile` shapes and numbers, and `import_gait`
+whether it is a gait.
 
 A gait file of another program needs three entries, and one more unless the caller states the convention:
 
@@ -51,7 +51,7 @@ from biped_adrc.gait.exchange.record import (
     ENTRIES,
     REQUIRED,
     SLOPES,
-    GaitRecord,
+    GaitFile,
     coordinates,
     foot_down,
     onto_ground,
@@ -99,14 +99,14 @@ def _text(value: object) -> object:
     return value
 
 
-FORMAT = "biped_adrc exchanged gait 1"
+_FORMAT = "biped_adrc exchanged gait 1"
 """Entry `format` of a gait file written here; files of other programs need none."""
-_KEYS = tuple(f.name for f in fields(GaitRecord))
-SHOWN = 30
+_KEYS = tuple(f.name for f in fields(GaitFile))
+_SHOWN = 30
 """Most names of entries that an error lists."""
 
 
-def write_record(record: GaitRecord, path: Path | str) -> None:
+def write_record(record: GaitFile, path: Path | str) -> None:
     """Write a record as .json or .mat: the fields of `GaitRecord` by name, a `format`, and the units.
 
     Fields that are None are left out; provenance is text of JSON in a .mat file. Raises InputError for another
@@ -120,9 +120,9 @@ def write_record(record: GaitRecord, path: Path | str) -> None:
             entries[key] = np.atleast_2d(x) if isinstance(x, np.ndarray) else x  # rows stay rows
         entries["provenance"] = json.dumps(dict(record.provenance))
         units = {key: unit for key, unit in units.items() if key in entries}
-        write_mat(path, {"format": FORMAT, **entries}, units)
+        write_mat(path, {"format": _FORMAT, **entries}, units)
     else:
-        write_json({"format": FORMAT, **plain(entries), "units": units}, path)
+        write_json({"format": _FORMAT, **plain(entries), "units": units}, path)
 
 
 def read_record(
@@ -130,7 +130,7 @@ def read_record(
     convention: str | None = None,
     names: Mapping[str, str] | None = None,
     usual: str | None = None,
-) -> tuple[GaitRecord | Samples, str, str]:
+) -> tuple[GaitFile | Samples, str, str]:
     """Read the record in a .json or .mat file, or the samples of a step where it has t
     and q and no coefficients, or is a result of FROST; its convention; and where it stood.
 
@@ -151,7 +151,7 @@ def read_record(
     with reading("gait file", path, GaitError):
         entries, source = all_entries(result), path.name
         known, steps, names = list(entries), frost_steps(entries), dict(names or {})
-        cut_off = result.get("format") == FORMAT and "units" not in result
+        cut_off = result.get("format") == _FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []
         if steps and not {"coefficients", "q"} & {*names, *entries}:
             step = names.pop("step", next(iter(steps)))
@@ -168,9 +168,9 @@ def read_record(
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
         absent += [key for key in REQUIRED if not samples and key not in entries]
         if absent:
-            more = f" and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
+            more = f" and {len(known) - _SHOWN} more" if len(known) > _SHOWN else ""
             raise GaitError(
-                f"the entries {absent} are missing; the file has {sorted(known)[:SHOWN]}{more}. Say what they "
+                f"the entries {absent} are missing; the file has {sorted(known)[:_SHOWN]}{more}. Say what they "
                 'are called there with names={"coefficients": "..."}, or --name coefficients=...'
             )
         own = entries.get("convention")
@@ -191,7 +191,7 @@ def read_record(
         if isinstance(provenance, str):
             provenance = json.loads(provenance)
         record |= {"convention": str(convention_), "provenance": dict(provenance)}
-        return GaitRecord(**record), str(convention_), source
+        return GaitFile(**record), str(convention_), source
 
 
 RUN_FORMAT = "biped_adrc exchanged run 1"
@@ -231,7 +231,7 @@ RATES = 1e-2
 
 
 def import_gait(
-    gait: GaitRecord | Samples | Path | str,
+    gait: GaitFile | Samples | Path | str,
     biped: Biped,
     convention: str | None = None,
     names: Mapping[str, str] | None = None,
@@ -262,12 +262,12 @@ def import_gait(
     0.0
     """
     check_part(biped, "biped", Biped)
-    check_part(gait, "gait", GaitRecord, Samples, str, Path)
+    check_part(gait, "gait", GaitFile, Samples, str, Path)
     source, title = "arrays", "samples"
     if isinstance(gait, str | Path):
         title, usual = Path(gait).stem, None if of_the_paper(biped) else OWN
         gait, convention, source = read_record(gait, convention, names, usual)
-    own = gait.convention if isinstance(gait, GaitRecord) else convention or OWN
+    own = gait.convention if isinstance(gait, GaitFile) else convention or OWN
 
     def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
         if isinstance(gait, Samples):
@@ -307,7 +307,7 @@ def _with_preset(biped: Biped, name: str) -> Biped:
     return replace(biped, preset=name, tree=d.tree(name), armature=d.presets[name].armature)
 
 
-def _gait_of(record: GaitRecord, biped: Biped, source: str) -> Gait:
+def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     """The gait of a record, completed by the zero dynamics and checked. Raises GaitError."""
     layout = layout_of(record.convention, biped)
     along, remark = onto_ground(coordinates(record, layout), biped, record.slope)

@@ -55,7 +55,7 @@ REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 
 
 @dataclass(frozen=True)
-class GaitRecord(Shown):
+class GaitFile(Shown):
     """A gait of a robot with n coordinates in one angle convention.
 
         record = GaitRecord("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
@@ -173,7 +173,7 @@ def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
 
 
-def coordinates(record: GaitRecord, layout: Convention) -> Coordinates:
+def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     """Convert a record to curves of all the paper's coordinates; layout: the record's convention.
 
     Completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
@@ -196,7 +196,7 @@ def coordinates(record: GaitRecord, layout: Convention) -> Coordinates:
     return Coordinates(curve, row, float(ends[0]), float(ends[1]), turns)
 
 
-def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
+def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
     """Curves (n, M + 1) of all coordinates of a convention; c (n,): row of the phase. Raises
     GaitError if they do not fit.
     """
@@ -238,7 +238,7 @@ def whole_turns(middle: Array) -> Array:
     return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)
 
 
-def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitRecord:
+def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
     """Convert the gait of a robot to a record in another convention, with its outputs
     and its sense of the phase.
 
@@ -250,7 +250,7 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitRecord:
     back = other.to_paper.inverse
     # Theta = c q = c A q' + c b
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
-    return GaitRecord(
+    return GaitFile(
         to,
         other.outputs @ mapped(curve, back.A, back.b).coefficients,
         float(plus),

@@ -22,7 +22,7 @@ import numpy as np
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import CsvTable, reading
-from biped_adrc.core.shown import one_line
+from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
@@ -33,7 +33,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 
-LARGEST = 4.0 * np.pi
+_LARGEST = 4.0 * np.pi
 """Largest angle of a sample [rad]; a larger one is probably in degrees."""
 FITS = 5e-3
 """Largest distance of a sample from the curve in a good fit [rad]."""
@@ -50,7 +50,7 @@ class Samples(NamedTuple):
     v: Array | None = None
 
     def __repr__(self) -> str:
-        return one_line(self)
+        return as_line(self)
 
 
 def gait_of_samples(
@@ -140,11 +140,11 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
     shapes, largest = {x.shape for x in (q, v) if x is not None}, np.max(np.abs(q), initial=0.0)
     finite = all(np.all(np.isfinite(x)) for x in (t, q, v) if x is not None)
     rising = t.ndim == 1 and degree in DEGREES and len(t) > degree and np.all(np.diff(t) > 0.0)
-    if not (shapes == {(t.size, n)} and finite and rising and largest <= LARGEST):
+    if not (shapes == {(t.size, n)} and finite and rising and largest <= _LARGEST):
         raise InputError(
             f"the samples are {t.size} times and rows of shape {sorted(shapes)}, angles up to {largest:.5g}, "
             f"the degree is {degree}; expected a degree of {DEGREES[0]} to {DEGREES[-1]}, more finite numbers "
-            f"t (K,) that grow, {n} coordinates for each, in radians, at most {LARGEST:.4g}"
+            f"t (K,) that grow, {n} coordinates for each, in radians, at most {_LARGEST:.4g}"
         )
     return Samples(t, q, v)
 

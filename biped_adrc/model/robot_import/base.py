@@ -21,7 +21,7 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
-from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Vector, free_name, text_of
+from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Triple, free_name, text_of
 from biped_adrc.model.robots.urdf_reader import PLANAR
 
 _NAMES = ("base_x", "base_z", "base_pitch")
@@ -150,7 +150,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
 
 
 def added(
-    tree: Tree, root: str, axis: Vector | None = None, names: tuple[str, ...] = _NAMES
+    tree: Tree, root: str, axis: Triple | None = None, names: tuple[str, ...] = _NAMES
 ) -> PlanarBase:
     """The tree below link `root` with a base above it; its pitch turns about `axis`, or in the sense of the
     first revolute joint.

@@ -46,7 +46,7 @@ from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import reading, toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.physical import checks
+from biped_adrc.model.physical import physical_checks
 from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy, on_feet
 from biped_adrc.model.robot_import.base import PlanarBase, on_planar_base
 from biped_adrc.model.robot_import.mjcf import read_mjcf
@@ -56,7 +56,7 @@ from biped_adrc.model.robots.urdf import Joint, Link, Note, Notes, Tree, Visual,
 from biped_adrc.model.robots.urdf_reader import Contents, read
 
 Joints = tuple[Joint, ...]
-Colour = tuple[float, float, float, float]
+_Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
 _STEEL = 7800.0  # [kg/m^3]
 _RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and number
@@ -80,7 +80,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     return replace(tree, links=links), (Note("assumed", text),)
 
 
-def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
+def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
     """Rods from the link's origin to the joints below it, or to its COM, and a ball at the COM.
 
     A rod is a cylinder along z, and a row of balls in another direction.
@@ -136,7 +136,7 @@ class Hints:
     (6,), of the stance foot, then of the swing foot."""
 
 
-def record_of(
+def _record_of(
     file: str, contents: Contents, body: PlanarBase, parts: Anatomy, hints: Hints, rotors: Rotors
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
@@ -268,7 +268,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     torque, of_torque = _torque(contents, actuated, hints)
     rotors, of_rotors = _armature(contents, actuated, hints)
     path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
-    record = record_of(path.name, contents, body, parts, known, rotors)
+    record = _record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature)
     biped.check()
@@ -276,7 +276,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
     ordered = tuple(sorted(notes, key=lambda note: order.index(note.kind)))
-    return Derived(biped, ordered, checks(biped), record)
+    return Derived(biped, ordered, physical_checks(biped), record)
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:

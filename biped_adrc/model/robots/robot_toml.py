@@ -42,7 +42,7 @@ from biped_adrc.core.errors import ModelError, problem, unknown
 from biped_adrc.core.files import beside, data_folder, reading
 from biped_adrc.core.registry import stored
 from biped_adrc.core.shown import Shown
-from biped_adrc.model.robots.urdf import Inertial, Tree, Vector, text_of
+from biped_adrc.model.robots.urdf import Inertial, Tree, Triple, text_of
 from biped_adrc.model.robots.urdf_reader import read
 
 
@@ -60,11 +60,11 @@ def _rising(ends: tuple[float, float]) -> tuple[float, float]:
     return ends
 
 
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0.0)]
-NotNegative = Annotated[Number, Field(ge=0.0)]
+_Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[_Number, Field(gt=0.0)]
+NotNegative = Annotated[_Number, Field(ge=0.0)]
 Names = Annotated[tuple[str, ...], AfterValidator(_different)]
-Ends = Annotated[tuple[Number, Number], AfterValidator(_rising)]
+Ends = Annotated[tuple[_Number, _Number], AfterValidator(_rising)]
 Rotors = NotNegative | tuple[NotNegative, ...]
 """Inertia of the rotor of every motor, or of each one, reflected to the joint [kg m^2]."""
 
@@ -75,7 +75,7 @@ class BodyParameters:
 
     mass: Positive
     """Mass [kg]."""
-    com: Number
+    com: _Number
     """Distance of the COM from the link's origin along +z [m]."""
     inertia: Positive
     """Moment of inertia about the COM and the axis y [kg m^2]."""
@@ -124,9 +124,9 @@ class RobotDescription(Shown):
     """Link whose origin is the hip."""
     trunk: str
     """Link that the floating base carries; that of the hip if the record names no other."""
-    phase: tuple[Number, ...]
+    phase: tuple[_Number, ...]
     """Row c (n,) of the phase variable Theta = c q, dimensionless."""
-    offset: tuple[Number, ...]
+    offset: tuple[_Number, ...]
     """Offset r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
     peak_torque: Positive
     """Torque limit of every motor [N m]."""
@@ -299,7 +299,7 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
     Raises ModelError that names the joint, its axis and the expected one.
     """
     x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    axes: dict[str, Vector] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
+    axes: dict[str, Triple] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
     joints = {joint.name: joint for joint in tree.joints}
     for name, axis in axes.items():
         kind = "revolute" if axis == y else "prismatic"

@@ -33,11 +33,11 @@ from biped_adrc.core.errors import ModelError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 
-Vector = tuple[float, float, float]
+Triple = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""
 
 
-def vector(values: Array) -> Vector:
+def vector(values: Array) -> Triple:
     """The three entries of an array as a tuple."""
     x, y, z = values.tolist()
     return x, y, z
@@ -74,7 +74,7 @@ class Inertial:
 
     mass: float
     """Mass [kg]."""
-    com: Vector
+    com: Triple
     """COM from the origin of the link's frame [m]."""
     inertia: tuple[float, float, float, float, float, float]
     """Moments about the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
@@ -94,7 +94,7 @@ class Visual:
     """Name of the shape, a key of GEOMETRY_SIZES."""
     size: tuple[float, ...]
     """Edges of a box, radius of a sphere, radius and length of a cylinder [m]."""
-    origin: Vector
+    origin: Triple
     """Centre in the frame of the link [m]."""
     rgba: tuple[float, float, float, float]
     """Red, green, blue, opacity, each from 0 to 1."""
@@ -123,9 +123,9 @@ class Joint:
     """One of JOINT_TYPES."""
     parent: str
     child: str
-    origin: Vector
+    origin: Triple
     """Origin of the child's frame in the parent's [m]."""
-    axis: Vector
+    axis: Triple
     """Unit vector, the same in both frames; without meaning for a fixed joint."""
     speed: float = math.inf
     """<limit velocity> [rad/s] or [m/s]; infinite where there is none, or one that is 0 or at least FREE."""
@@ -192,7 +192,7 @@ class Tree(Shown):
         return replace(self, links=links)
 
 
-def with_tip(tree: Tree, link: str, place: Vector, name: str = "") -> tuple[Tree, str]:
+def with_tip(tree: Tree, link: str, place: Triple, name: str = "") -> tuple[Tree, str]:
     """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name,
     `name` or that of the link with "_tip" where no other has it.
     """
@@ -403,6 +403,6 @@ def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     return replace(tree, links=links, joints=tuple(joints.values())), (Note("assumed", text),)
 
 
-def text_of(values: Vector) -> str:
+def text_of(values: Triple) -> str:
     """Text of a vector, for a message."""
     return f"({', '.join(f'{value:.6g}' for value in values)})"

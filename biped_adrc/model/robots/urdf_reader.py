@@ -34,17 +34,17 @@ from biped_adrc.core.errors import ModelError
 from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
 from biped_adrc.model.robots import urdf
-from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Note, Tree, Vector, Visual, vector
+from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Note, Tree, Triple, Visual, vector
 
 MOST_LINKS = 200
 """Largest number of links of a robot."""
-LARGEST = 1e100
+_LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _FORMATS = {"mujoco": "MJCF, <mujoco>", "sdf": "SDF, <sdf>"}
 PLANAR = 1e-4
 """Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
-SMALLEST = 1e-9
+_SMALLEST = 1e-9
 """Least size of a shape [m]."""
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
@@ -196,8 +196,8 @@ def _numbers(
     default: str,
     count: int,
     where: str,
-    least: float = -LARGEST,
-) -> Vector:
+    least: float = -_LARGEST,
+) -> Triple:
     """`count` numbers of an attribute, none below `least`; `default` where it is missing.
 
     Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
@@ -206,9 +206,9 @@ def _numbers(
     text = default if element is None else element.get(key, default)
     words = text.split()
     values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
-    if len(values) != count or not all(least <= value < LARGEST for value in values):
+    if len(values) != count or not all(least <= value < _LARGEST for value in values):
         raise ModelError(
-            f"{where}: {key}={text!r}, expected {count} number(s) from {least:g} to {LARGEST:g}"
+            f"{where}: {key}={text!r}, expected {count} number(s) from {least:g} to {_LARGEST:g}"
         )
     return values  # type: ignore[return-value]
 
@@ -280,7 +280,7 @@ def _clean(turn: Array) -> Array:
     return np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
 
 
-def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
+def _origin(element: ET.Element, where: str, R: Array) -> tuple[Triple, Array]:
     """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`.
 
     R (3, 3): from the axes of the element to the result's. where: place in the file, for errors.
@@ -340,7 +340,7 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, urdf.GEOMETRY_SIZES[shape.tag]
-    size = sum((_numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
+    size = sum((_numbers(shape, key, "", count, where, _SMALLEST) for key in keys), ())
     rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = vector(axes @ size) if box else size
     return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))

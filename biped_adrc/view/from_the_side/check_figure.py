@@ -20,14 +20,14 @@ from biped_adrc.view.colours import STANCE, SWING, TORQUE, TRUNK, bent_arrow
 from biped_adrc.view.placement import joint_values, legs, link_placements
 from biped_adrc.view.style import label, literal, new_figure
 
-STEP = 0.6
+_STEP = 0.6
 """Distance of the feet, as a share of the leg."""
 
 
 def check_figure(biped: Biped) -> Figure:
     """Draw the robot from the side as it was understood."""
     d, tree, leg = biped.description, biped.tree, robot_of(biped).leg
-    q = apart(biped, STEP * leg, 0.0, {})
+    q = apart(biped, _STEP * leg, 0.0, {})
     places = link_placements(tree, joint_values(biped, q))
     stance, swing = legs(biped)
     with new_figure(8.0, 7.0) as figure:

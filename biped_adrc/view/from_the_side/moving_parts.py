@@ -21,7 +21,15 @@ from matplotlib.patches import FancyArrow
 
 from biped_adrc.core.types import Array
 from biped_adrc.view import colours
-from biped_adrc.view.colours import LONGEST, REACTION, STANCE, SWING, TORQUE, TRUNK, bent_arrow
+from biped_adrc.view.colours import (
+    LONGEST_ARROW,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    TRUNK,
+    bent_arrow,
+)
 from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads_at
 
@@ -172,9 +180,9 @@ class DrawnWalk:
         length, words = float(np.hypot(*vector)), ""
         if not math.isfinite(length):
             vector, length, words = np.zeros(2), 0.0, "no finite force, arrow cut"
-        elif length > LONGEST:
-            vector, words = LONGEST / length * vector, f"{np.hypot(*force):.3g} N, arrow cut"
-            length = LONGEST
+        elif length > LONGEST_ARROW:
+            vector, words = LONGEST_ARROW / length * vector, f"{np.hypot(*force):.3g} N, arrow cut"
+            length = LONGEST_ARROW
         self.arrows[k].set_visible(length > 0.0)
         head = min(0.09, length)
         x, y, dx, dy = (*start, *vector)

@@ -38,11 +38,11 @@ from biped_adrc.view.placement import Clip, Drawable, WalkScene, check_frames, e
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, label, literal, new_figure, style, write_figure
 
-GHOST = 0.35
+_GHOST = 0.35
 """Opacity of all walks but the solid one."""
 WIDTH, SHOWN = 600, 2.6
 """Width of the picture of walks laid over one another [px], [m]."""
-FPS = 0.1, 50.0
+_FPS = 0.1, 50.0
 """Range of frames per second, as a GIF counts time in hundredths of a second."""
 REST = 2.0
 """Extra time [s] for which the last frame is shown where a walk ended early, to read the reason."""
@@ -65,8 +65,8 @@ def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) 
     Raises InputError for a frame rate, a part or an arrangement that does not fit, and OutputError.
     """
     fps = clip.fps or 25.0
-    if not FPS[0] <= fps <= FPS[1]:
-        raise InputError(f"fps is {fps:g}, expected {FPS[0]:g} to {FPS[1]:g} in a moving picture")
+    if not _FPS[0] <= fps <= _FPS[1]:
+        raise InputError(f"fps is {fps:g}, expected {_FPS[0]:g} to {_FPS[1]:g} in a moving picture")
     times = _times(walks, clip, fps * clip.slower)
     pace = "" if clip.slower == 1.0 else f"{clip.slower:g} times slower"
     with style():
@@ -106,7 +106,7 @@ def _over_one_another(
     axes.set_axis_off()
     draw.ground(axes, list(views.values()))
     drawn = [
-        draw.DrawnWalk(axes, view, 1.0 if view is last else GHOST, k, trail=True)
+        draw.DrawnWalk(axes, view, 1.0 if view is last else _GHOST, k, trail=True)
         for k, view in enumerate(views.values(), start=2)
     ]
     caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid

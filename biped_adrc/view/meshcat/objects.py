@@ -39,7 +39,7 @@ with warnings.catch_warnings():
 _UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 DARK = (0.1, 0.1, 0.1)
 """Colour (red, green, blue) of footprints and of the hip's trace."""
-Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
+_Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
 """Red, green, blue in 0..1, perhaps with opacity, or "#RRGGBB"."""
 VIEW = 2.0
 """Height [m] of the picture from the side."""
@@ -51,12 +51,12 @@ SceneNode: TypeAlias = meshcat.Visualizer
 """A node of Meshcat's tree; `node[path]` is one below it."""
 
 
-def paint(rgb: Colour, opacity: float = 1.0) -> object:
+def paint(rgb: _Colour, opacity: float = 1.0) -> object:
     """Meshcat's material of one colour and opacity (0 to 1)."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
-def colour(rgb: Colour) -> int:
+def colour(rgb: _Colour) -> int:
     """Convert a colour to Meshcat's whole number 0xRRGGBB."""
     red, green, blue = (
         (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
@@ -149,14 +149,14 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
     return placed(np.array([point[0], side, point[1]]) - depth * R[:, 2], R)
 
 
-def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
+def add_trace(node: SceneNode, points: int, rgb: _Colour, opacity: float) -> None:
     """Add an empty line with room for `points` points; the player fills it in."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
-def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
+def add_arrow(node: SceneNode, rgb: _Colour, opacity: float) -> None:
     """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
@@ -165,7 +165,7 @@ def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
     head.set_transform(placed((0.0, 0.0, 0.5 * HEAD), UPRIGHT))
 
 
-def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
+def add_ring(node: SceneNode, origin: Sequence[float], rgb: _Colour, opacity: float) -> None:
     """Draw a bent arrow of radius 1 m about `origin` (3,) [m] in the x-z plane, counter-clockwise as q.
 
     The player scales its node `turn` by the torque; a negative torque mirrors it.

@@ -29,11 +29,11 @@ from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.pages import player
 from biped_adrc.view.placement import Clip, Drawable, WalkScene, ending, exchanged, joint_values
 
-GHOST = 0.35
+_GHOST = 0.35
 """Opacity of a ghost (1 is solid)."""
 LANE = 0.4
 """Distance [m] of each ghost from the walk before it, away from the camera: equal planes would flicker."""
-FPS = 60.0
+_FPS = 60.0
 """Frames per second of a page."""
 TRACE_POINTS = 20_000
 """Points of the traces of a walk that is not sampled beforehand."""
@@ -54,7 +54,7 @@ def animation_html(
     """
     clip = Clip() if clip is None else clip
     scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
-    frames = {name: Frames.of(scene, clip.fps or FPS) for name, scene in scenes.items()}
+    frames = {name: Frames.of(scene, clip.fps or _FPS) for name, scene in scenes.items()}
     settings = scene_settings(scenes, clip, frames, marks)
     return player(settings, " and ".join(walks), captions(scenes))
 
@@ -87,7 +87,7 @@ def scene_settings(
     viewer = window.viewer
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
-        opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
+        opacity, sampled = (1.0 if lane == 0 else _GHOST), (frames or {}).get(name)
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
         robot.set_transform(placement.placed((0.0, LANE * lane, 0.0)))
@@ -104,7 +104,7 @@ def scene_settings(
         "walks": described,
         "follow": f"meshcat/robots/0/{draw.joint_path(tree, base_x)}",
         "marks": [list(mark) for mark in marks],
-        "fps": clip.fps or FPS,
+        "fps": clip.fps or _FPS,
         "start": min(scene.trajectory.t_start for scene in scenes.values()),
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": clip.view,
@@ -166,7 +166,7 @@ def _add_walk(
         "ground": -depth,
         "head": draw.HEAD,
         "metres_per_newton": colours.WEIGHT_LENGTH / biped.weight,
-        "longest": colours.LONGEST,
+        "longest": colours.LONGEST_ARROW,
         "metres_per_newton_metre": colours.METRES_PER_NEWTON_METRE,
     }
 

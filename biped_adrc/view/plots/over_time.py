@@ -34,7 +34,7 @@ class OverTime(Protocol):
     def step(self) -> Array: ...
 
 
-def broken(s: OverTime, y: Array) -> Array:
+def gapped(s: OverTime, y: Array) -> Array:
     """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
 
     matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
@@ -44,7 +44,7 @@ def broken(s: OverTime, y: Array) -> Array:
 
 def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
     """Draw y (K,) over time [s] in the i-th colour and dash."""
-    axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
+    axes.plot(gapped(s, s.t), gapped(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
 def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
@@ -110,13 +110,13 @@ def joint_tracking(
 
     joints: indices from 0, all if None. push: (start, stop) [s], shaded. Returns the axes.
     """
-    joints, t = range(s.q_d.shape[1]) if joints is None else joints, broken(s, s.t)
+    joints, t = range(s.q_d.shape[1]) if joints is None else joints, gapped(s, s.t)
     for i in joints:
-        name, y = joint_name(s, i), broken(s, s.q[:, i])
+        name, y = joint_name(s, i), gapped(s, s.q[:, i])
         axes.plot(t, y, color=PALETTE[i], ls=DASHES[i % 2], lw=2.2, label=name)
     for i in joints:
         on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])  # not behind a fall
-        name, y = "references" if i == joints[0] else "_", broken(s, on_curve)
+        name, y = "references" if i == joints[0] else "_", gapped(s, on_curve)
         axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
     return finished(axes, "angle [rad]", push)
 
@@ -179,12 +179,12 @@ def _pair(
 
     names: symbols of both in TeX. colour: of the signal; the estimate is dashed in black.
     """
-    t = broken(s, s.t)
-    axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
+    t = gapped(s, s.t)
+    axes.plot(t, gapped(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
         say_no_observer(axes)
         return
-    y, dash = broken(s, estimate), (0, (4, 2))
+    y, dash = gapped(s, estimate), (0, (4, 2))
     axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
 
 
@@ -223,7 +223,11 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
         name = f"cone, $\\mu$ = {mu:g}" if sign > 0 else "_"
         axes.plot([0.0, sign * mu * top], [0.0, top], color=GREY, ls="--", label=name)
     axes.plot(
-        broken(s, tangent), broken(s, normal), color=PALETTE[0], lw=0.9, label="ground reaction"
+        gapped(s, tangent),
+        gapped(s, normal),
+        color=PALETTE[0],
+        lw=0.9,
+        label="ground reaction",
     )
     axes.axhline(0.0, color="black", lw=0.8, label="_")
     label(axes, "$F_T$ [N]", "$F_N$ [N]")
@@ -248,7 +252,7 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
 
     name: in the legend. colour: index in the palette. Returns the axes.
     """
-    axes.plot(broken(s, s.theta), broken(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
+    axes.plot(gapped(s, s.theta), gapped(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
         axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)
@@ -258,7 +262,7 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
     return axes
 
 
-MARKERS = "osD^"
+_MARKERS = "osD^"
 """Marks by controller, repeated from the fifth on."""
 FLOOR = 1e-13
 """Least error that is drawn [rad]: on a logarithmic scale anything below it is round-off."""
@@ -272,7 +276,7 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
     """
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        x, y = broken(s, s.t), broken(s, largest)
+        x, y = gapped(s, s.t), gapped(s, largest)
         axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
     axes.set_yscale("log")
     return finished(axes, "largest tracking error [rad]", push)
@@ -287,7 +291,7 @@ def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
     for i, (name, s) in enumerate(walks.items()):
         past = s.before_fall
         sizes = [max(float(np.nanmax(np.abs(s.error))), FLOOR), max(rms(past.t, past.error), FLOOR)]
-        axes.plot([0, 1], sizes, color=PALETTE[i], marker=MARKERS[i % 4], ls="", ms=8, label=name)
+        axes.plot([0, 1], sizes, color=PALETTE[i], marker=_MARKERS[i % 4], ls="", ms=8, label=name)
         for k, size in enumerate(sizes):
             axes.annotate(
                 f"{size:.1e}", (k, size), xytext=(9, 0), textcoords="offset points", va="center"

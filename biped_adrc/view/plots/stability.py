@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label
 
-MARKERS = "ox^s"
+_MARKERS = "ox^s"
 """Marks of the points, one for each method of computing multipliers."""
 
 
@@ -67,7 +67,7 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     """Draw y (k,) over x (k,) as open marks of the i-th kind and colour, `size` [pt] large,
     with a name in the legend.
     """
-    marker, colour = MARKERS[i % 4], PALETTE[i]
+    marker, colour = _MARKERS[i % 4], PALETTE[i]
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 

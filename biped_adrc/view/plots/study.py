@@ -20,16 +20,16 @@ from numpy.typing import NDArray
 from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
-MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
+_MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 """Marks by series."""
 MOST_LEVELS, CELLS = 40, 20
 """An axis with more numbers than the first is cut into as many cells as the second."""
 MOST_PANELS = 12
 """Panels of a map; more are left out."""
-WRITTEN = 120
+_WRITTEN = 120
 """Cells of a panel up to which their numbers are written in them."""
 
-Numbers = Mapping[tuple[str, str], Sequence[float]]
+_Numbers = Mapping[tuple[str, str], Sequence[float]]
 """By row and series a number with the ends of its interval."""
 
 
@@ -51,7 +51,7 @@ def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
         return figure
 
 
-def dots_figure(numbers: Numbers, title: str, reference: float | None = None) -> Figure:
+def dots_figure(numbers: _Numbers, title: str, reference: float | None = None) -> Figure:
     """Draw numbers with their intervals on a logarithmic axis: a row for each name, a mark for each series.
 
     numbers: (row, series) -> (number, low, high). title: of the axis, with its unit. reference:
@@ -72,7 +72,7 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
             ]
             y, x, low, high = np.array(here).reshape(-1, 4).T
             ends = np.nan_to_num([x - low, high - x], posinf=0.0, neginf=0.0).clip(0.0)
-            mark, colour = MARKERS[i % len(MARKERS)], PALETTE[i % len(PALETTE)]
+            mark, colour = _MARKERS[i % len(_MARKERS)], PALETTE[i % len(PALETTE)]
             text = literal(name) or None
             axes.errorbar(x, y, xerr=ends, fmt=mark, color=colour, ms=4, lw=1.0, label=text)
         axes.set_yticks(range(len(rows)), [literal(row) for row in rows])
@@ -116,7 +116,7 @@ def map_figure(
             m = means[k]
             texts = [[f"{x:.2g}" if np.isfinite(x) else "" for x in row] for row in m]
             axes.set_facecolor("#DDDDDD")  # where there is no number
-            image = _cells(axes, m, texts if m.size <= WRITTEN else (), "cividis", norm, "white")
+            image = _cells(axes, m, texts if m.size <= _WRITTEN else (), "cividis", norm, "white")
             _ticks(axes, xs[1], ys[1])
             below, left = k + columns >= len(means), k % columns == 0
             words = literal(list(shown)[k])
