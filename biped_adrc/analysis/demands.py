@@ -19,7 +19,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import inner, shift, unit
 from biped_adrc.engine.kernels.record import Ints
 
-_SHORTEST = 1e-9
+SHORTEST = 1e-9
 """Shortest single support with a mean force [s]."""
 T, STEP, OUTSIDE, ERROR, U, Q, V, MOMENTUM, FOOT = range(9)
 """Columns in the order of `NodeRow`; `at` says where in a row each begins."""
@@ -46,7 +46,7 @@ def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -
 
 
 @unit
-def _demands(
+def demands(
     rows: Array,
     width: int,
     at: Ints,
@@ -83,7 +83,7 @@ def _demands(
             F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0
             loads(row, at, p, joints, shift(out, 3 * count + k), count)
             # t - start falls short of w by round-off where a window begins at the touchdown
-            if w > _SHORTEST and since >= w - same:
+            if w > SHORTEST and since >= w - same:
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
                     i += 1
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
@@ -101,7 +101,7 @@ def _demands(
 
 
 @unit
-def _totals(rows: Array, width: int, at: Ints, p: int, count: int, out: Array) -> None:
+def totals(rows: Array, width: int, at: Ints, p: int, count: int, out: Array) -> None:
     """out (6,): largest |e_i| [rad]; number of nodes that a later time follows; over these nodes the sums of
     |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i [J], dq_i the change to the next node."""
     for k in range(count):

@@ -1,4 +1,4 @@
-; sources 6d46eeb2d38bae61df37592287fbb4c1, text 70d25bcdb2e27563dcefeb14e2fab880
+; sources 7bd64c18cb8733dfdb180150eefdf860, text 70d25bcdb2e27563dcefeb14e2fab880
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

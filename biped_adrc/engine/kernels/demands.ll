@@ -1,4 +1,4 @@
-; sources 47aae0be3262eff53435a002d8abe679, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources e2ac89c7802bf6a9a77427d2083f1bb9, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
