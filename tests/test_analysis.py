@@ -8,7 +8,7 @@ from biped_adrc.core.errors import SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import regress_multipliers
-from biped_adrc.scenario.cycle import gait_map
+from biped_adrc.scenario.cycle import cycle_of, gait_map
 from biped_adrc.scenario.scenario import Scenario
 
 
@@ -68,3 +68,10 @@ def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):
     starts = (np.concatenate((gait.q_minus, k * gait.v_minus)) for k in f)
     after = [biped.phase @ P.lift(P(P.project(x)))[biped.n : 2 * biped.n] for x in starts]
     np.testing.assert_allclose(after, rate * np.sqrt(zeta / orbits.zeta_star), rtol=1e-7)
+
+
+def test_a_cycle_without_the_observer_s_states_has_a_multiplier_for_each_coordinate_of_the_section():
+    """n angles on the ground and n rates: 2 n - 1 = 9, whatever the observer keeps."""
+    result = ba.cycle_stability(cycle_of(Scenario("ADRC"), observer_states=False))
+    assert len(result.orbit.multipliers) == 9
+    assert result.table.stable
