@@ -56,7 +56,7 @@ def error(pair: Pair) -> AtTwoSteps:
     return at_two(ratio, *pair)
 
 
-def _largest(name: str, o: Outcome) -> float:
+def largest(name: str, o: Outcome) -> float:
     """The largest value of all steps; without a step it keeps no limit."""
     return float(np.max([getattr(s, name) for s in o.certificates] or [math.inf]))
 
@@ -194,7 +194,7 @@ def theta_of(o: MemberOutcome) -> str:
 
 
 # -- scenarios -------------------------------------------------------------------------------------
-def _headline(r: Runs) -> dict[str, Outcome]:
+def headline(r: Runs) -> dict[str, Outcome]:
     """The pushed walks, by controller."""
     return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
