@@ -41,7 +41,7 @@ COMPILERS = ("cc", "gcc", "clang")
 NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
 """Return values of the functions of the C."""
-_ERRORS: Mapping[int, type[BipedError]] = {
+ERRORS: Mapping[int, type[BipedError]] = {
     NOT_MEASURED: NotFiniteError,
     NO_RESULT: NotFiniteError,
     SINGULAR: SingularError,
@@ -203,8 +203,8 @@ class ExportedController(Controller):
 
     def _kept(self, flag: int, x: _Record, u: Array) -> Array:
         """The struct x and the torque u (p,) as one array of floats. Raises the error of
-        `_ERRORS` for another flag than OK.
+        `ERRORS` for another flag than OK.
         """
         if flag != OK:
-            raise _ERRORS[flag](f"the exported controller returned {flag}: it has no result")
+            raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
         return np.concatenate((structured_to_unstructured(x, float), u))
