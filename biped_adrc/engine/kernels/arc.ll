@@ -1,4 +1,4 @@
-; sources 7bd64c18cb8733dfdb180150eefdf860, text 70d25bcdb2e27563dcefeb14e2fab880
+; sources 359596be9ebcd4128d499ee0a2ae807a, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
@@ -8344,8 +8344,6 @@ _ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqEr
   br label %B116
 
 B116:                                             ; preds = %B0.endif, %_ZN18biped_adrc_kernels3armB3v71B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit
-  call void @llvm.lifetime.start.p0(ptr nonnull %.33.i)
-  call void @llvm.lifetime.start.p0(ptr nonnull %excinfo.1.i)
   store ptr null, ptr %excinfo.1.i, align 8, !noalias !204
   %.8.i1 = getelementptr i8, ptr %arg.r, i64 328
   %.10.i2 = load double, ptr %.8.i1, align 8, !noalias !204
@@ -8386,8 +8384,6 @@ B186.i:                                           ; preds = %B170.i
 
 _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit.thread: ; preds = %B186.i, %B170.i, %B36.i, %B116
   %.78.0.ph = phi i64 [ 0, %B116 ], [ 0, %B186.i ], [ %.60.i, %B170.i ], [ %.25.i4, %B36.i ]
-  call void @llvm.lifetime.end.p0(ptr nonnull %.33.i)
-  call void @llvm.lifetime.end.p0(ptr nonnull %excinfo.1.i)
   %sunkaddr33 = getelementptr i8, ptr %arg.r, i64 392
   %.107 = load i64, ptr %sunkaddr33, align 8
   %.109 = icmp eq i64 %.107, %.9
@@ -8395,8 +8391,6 @@ _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2f
 
 _ZN18biped_adrc_kernels6travelB3v72B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a.exit: ; preds = %B112.i
   %.38.i = load ptr, ptr %excinfo.1.i, align 8, !noalias !204
-  call void @llvm.lifetime.end.p0(ptr nonnull %.33.i)
-  call void @llvm.lifetime.end.p0(ptr nonnull %excinfo.1.i)
   %.90 = icmp sgt i32 %.37.i5, 0
   %.91 = select i1 %.90, ptr %.38.i, ptr undef
   store ptr %.91, ptr %excinfo, align 8
@@ -8732,7 +8726,6 @@ B180:                                             ; preds = %B178.epil, %B180.lo
 }
 
 ; Function Attrs: nocallback nofree nosync nounwind willreturn memory(argmem: readwrite)
-declare void @llvm.lifetime.start.p0(ptr) #8
 
 ; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
 define linkonce_odr i32 @_ZN18biped_adrc_kernels10next_breakB3v73B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2a(ptr noalias writeonly %retptr, ptr noalias writeonly %excinfo, ptr readonly %arg.r) local_unnamed_addr #5 {
@@ -8854,7 +8847,6 @@ B210.endif.endif:                                 ; preds = %B108.i16, %B210.end
 }
 
 ; Function Attrs: nocallback nofree nosync nounwind willreturn memory(argmem: readwrite)
-declare void @llvm.lifetime.end.p0(ptr) #8
 
 ; Function Attrs: nofree norecurse nosync nounwind memory(read, argmem: readwrite, inaccessiblemem: none, target_mem0: none, target_mem1: none)
 define linkonce_odr i32 @_ZN18biped_adrc_kernels11next_switchB3v74B58c8tJTIeFIjxB2IKSgI4CrvQCk0Z4yRYcWsBAQ4s_2fqErM2IZJFEEM0wQAE8int64_2add(ptr noalias writeonly %retptr, ptr noalias readnone %excinfo, ptr readonly %arg.r, double %arg.t, double %arg.last) local_unnamed_addr #5 {

@@ -1,4 +1,4 @@
-; sources e2ac89c7802bf6a9a77427d2083f1bb9, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources a41eb9874ce4a81164ca82a3f3c3dbd5, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
