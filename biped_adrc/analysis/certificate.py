@@ -167,7 +167,7 @@ def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
     }[name]
 
 
-def judged(
+def limit_series(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> tuple[dict[str, Array], Callable[[str, int], Joint | None]]:
     """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
@@ -208,7 +208,7 @@ def supports(
     """
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
-    worst, joint = judged(walker, n, k, impacts, after)
+    worst, joint = limit_series(walker, n, k, impacts, after)
     joints = [
         {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in _OF_JOINTS}
         for a, b in pairwise(n.edges)

@@ -28,7 +28,7 @@ WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8,
 
 
 # numba alone compiles this text, and Python never runs it. The imports from the kernels are left out of the
-# text that numba gets (`engine.kernels.load.source`). A vector has no length here, and an index beyond it
+# text that numba gets (`engine.kernels.write.joined`). A vector has no length here, and an index beyond it
 # reads other memory without an error: the places above have to follow `NodeRow` and `ground_force.Known`.
 @inner
 def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -> None:

@@ -21,8 +21,8 @@ from biped_adrc.analysis.certificate import (
     Support,
     after_last_impact,
     ended_in_impact,
-    judged,
     keeps,
+    limit_series,
     violation,
 )
 from biped_adrc.analysis.ground_force import Nodes
@@ -150,7 +150,7 @@ def first_violation(
     impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
     """
     result = []
-    numbers, joint = judged(walker, n, k, impacts, after)
+    numbers, joint = limit_series(walker, n, k, impacts, after)
     for name, x in numbers.items():
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
             at = i if name in AT_NODES else n.last[i]

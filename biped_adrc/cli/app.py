@@ -145,7 +145,7 @@ console, errors = Terminal(), Terminal(stderr=True)
 """Where all commands print, and complain; rich fits tables to the terminal."""
 
 
-def typed_line() -> str:
+def command_line() -> str:
     """The command line as a shell takes it, for reports and provenance: the reader can repeat it."""
     return shlex.join(["biped-adrc", *sys.argv[1:]])
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import biped_adrc as ba
 from biped_adrc.cli.app import FIGURES, app, console, inputs, target
-from biped_adrc.cli.options import WALKS, named, options, scenario_from
+from biped_adrc.cli.options import WALKS, assignments, options, scenario_from
 from biped_adrc.core.files import check_folder, write_text
 from biped_adrc.core.types import PlainRecord
 
@@ -37,7 +37,7 @@ def observer_command(
     from biped_adrc.scenario.controllers import controller
 
     out = target(out, FIGURES)
-    if not {"hardware", "hardware.profile"} & named(sets).keys():
+    if not {"hardware", "hardware.profile"} & assignments(sets).keys():
         values = {"hardware.profile": "rabbit", **values}
     s = scenario_from(values, sets)
     h, scene = s.hardware, RobotAndGait.of(s)

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import biped_adrc as ba
-from biped_adrc.cli.app import FIGURES, GAITS, console, group, inputs, target, typed_line
-from biped_adrc.cli.options import named, options, with_sets
+from biped_adrc.cli.app import FIGURES, GAITS, command_line, console, group, inputs, target
+from biped_adrc.cli.options import assignments, options, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
 
@@ -76,7 +76,7 @@ def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
 
     with console.status(f"IPOPT designs a gait for {request.in_words()}"):
         result = certify(biped, request, optimise(biped, request))
-    provenance = {**result.gait.provenance, "command": typed_line()}
+    provenance = {**result.gait.provenance, "command": command_line()}
     return replace(result, gait=replace(result.gait, provenance=provenance))
 
 
@@ -115,7 +115,7 @@ def _family(
     gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=console.say)
     with console.status("fitting the family"):
         name = path.stem.removesuffix(f"-{biped.preset}")
-        family = design_family(name, biped, gaits, {"command": typed_line()})
+        family = design_family(name, biped, gaits, {"command": command_line()})
     family.save(path)
     console.written(path)
 
@@ -216,7 +216,9 @@ def gait_import(
     read = (file, *inputs(robot))
     out = target(out, GAITS, read)
     biped = ba.Biped.load(robot, preset)
-    names = named(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha or theta_minus=p(1)")
+    names = assignments(
+        name, "--name", "OURS=THEIRS, such as coefficients=R.alpha or theta_minus=p(1)"
+    )
     gait = ba.import_gait(file, biped, convention, names, slopes, degree, slope)
     path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)

@@ -95,7 +95,7 @@ def scenario_from(
     for a text or a file that cannot be read, and for a value that is given twice.
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
-    for name, x in named(sets, taken=values).items():
+    for name, x in assignments(sets, taken=values).items():
         values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
@@ -115,7 +115,7 @@ def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     return {"controller.name": usual if motors else "passive"}
 
 
-def named(
+def assignments(
     sets: list[str] | None,
     option: str = "--set",
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
@@ -154,7 +154,7 @@ def with_sets(
     """
     hints, values = get_type_hints(make), dict(usual or {})
     known = [name for name in signature(make).parameters if name not in fixed]
-    for name, text in named(sets).items():
+    for name, text in assignments(sets).items():
         if name not in known:
             raise InputError(f"--set {name}: {unknown(name, known)}")
         x = text.split(",") if "tuple" in str(hints[name]) else None if text == "none" else text

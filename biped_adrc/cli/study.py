@@ -16,7 +16,14 @@ from typing import Any
 import typer
 
 import biped_adrc as ba
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, app, console, target, typed_line
+from biped_adrc.cli.app import (
+    EXIT_CHECK_FAILED,
+    EXIT_INTERRUPTED,
+    app,
+    command_line,
+    console,
+    target,
+)
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
 
@@ -104,7 +111,7 @@ def reproduce(
         description.joint_index(joint)
     plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
     with console.bar("starting") as progress:
-        summary = run(plan, out, typed_line(), workers, progress)
+        summary = run(plan, out, command_line(), workers, progress)
     console.say("\n".join(lines(summary, out)))
     if not summary["holds"]:
         raise typer.Exit(EXIT_CHECK_FAILED)

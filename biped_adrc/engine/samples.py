@@ -37,7 +37,7 @@ from biped_adrc.engine.run import compiled_plant
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.constants import next_tick
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import RunOptions, flow_arc, usable
+from biped_adrc.hybrid.simulator import RunOptions, finite_part, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event
 from biped_adrc.model.planar import link_point
@@ -176,7 +176,7 @@ class PythonWalk:
             until = next_tick(walk.t, start, timing.period)
             at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-                flown = usable(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
+                flown = finite_part(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
                 raise RaisedError(flown.detail)
             event, arcs = flown.arc.event, (*walk.arcs, flown.arc)
@@ -200,7 +200,7 @@ def _joined(arcs: Sequence[Arc]) -> Arc:
     return Arc(arcs[0].mode, t, x, dx, arcs[-1].event, read)
 
 
-def evaluated(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
+def python_row(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
     """Evaluate view(loop, t, x, mode, reference) at a walk's present state in Python, as one row."""
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])

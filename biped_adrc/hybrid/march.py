@@ -20,7 +20,7 @@ import numpy as np
 
 from biped_adrc.core.types import Array
 
-# The stars bring `flow`, `add`, `Run`, .. in as bare names. `engine.kernels.load` leaves these imports out of
+# The stars bring `flow`, `add`, `Run`, .. in as bare names. `engine.kernels.write` leaves these imports out of
 # the text that numba compiles, and the same names are then those of `engine.kernels.operations`. With a prefix
 # (`on_arrays.flow`) the march would need a text for each engine, and the two could find different events.
 from biped_adrc.hybrid.constants import *

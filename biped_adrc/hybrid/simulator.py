@@ -30,7 +30,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import After, AnyMode, HybridSystem
+from biped_adrc.hybrid.system import AnyMode, HybridSystem, JumpResult
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 Progress = Callable[[float, int], None]
@@ -88,7 +88,7 @@ class FlownArc(NamedTuple):
     """COMPLETED also where the run goes on."""
     detail: str = ""
     """The error's own text, where one ended it."""
-    outcome: After = None
+    outcome: JumpResult = None
     """None where the run ends with this arc."""
 
 
@@ -144,7 +144,7 @@ def run_arcs(
     while True:
         # what overflows ends as the status NOT_FINITE
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            flown = usable(fly(t, x, mode, event))
+            flown = finite_part(fly(t, x, mode, event))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
@@ -162,7 +162,7 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-def usable(flown: FlownArc) -> FlownArc:
+def finite_part(flown: FlownArc) -> FlownArc:
     """The arc up to its last node that is finite, and without an event whose states are not."""
     arc, event = flown.arc, flown.arc.event
     rows = (arc.t[:, np.newaxis], arc.x, arc.dx)

@@ -24,7 +24,7 @@ from biped_adrc.hybrid.trajectory import Event, Recorder
 
 AnyMode = Any
 """The discrete state, a value of the system's own; Any, since only the system itself looks inside."""
-After = tuple[Array, AnyMode] | None
+JumpResult = tuple[Array, AnyMode] | None
 """(x+, mode+) after an event; None where the run ends with it."""
 
 
@@ -33,7 +33,7 @@ class FoundEvent(NamedTuple):
 
     event: Event
     """Guard, time and states."""
-    outcome: After = None
+    outcome: JumpResult = None
     """(x+, mode+), None where the run ends here."""
     status: Status = Status.COMPLETED
     """How the run ends, for an event that ends it."""

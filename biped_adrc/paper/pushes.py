@@ -187,7 +187,7 @@ def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
 
 
 # -- the map of pushes ------------------------------------------------------------------------------
-ENDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
+OUTCOME_WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and the columns of its table."""
 FORCES = ("mean_normal_force", "mean_friction", "impulse_ratio")
 """Numbers of a walk of the map that the summary has."""

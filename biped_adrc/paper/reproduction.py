@@ -30,7 +30,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all
 from biped_adrc.paper.poincare import regression_of
-from biped_adrc.paper.pushes import ENDS, PushCell, word_of
+from biped_adrc.paper.pushes import OUTCOME_WORDS, PushCell, word_of
 from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
@@ -240,6 +240,6 @@ def _map(cells: list[PushCell]) -> Table:
     count = Counter(fates)
     return _table(
         {"preset, torque limit": name, "controller": c}
-        | {COLUMN.get(word, word): count[name, c, word] for word in ENDS}
+        | {COLUMN.get(word, word): count[name, c, word] for word in OUTCOME_WORDS}
         for name, c in dict.fromkeys(fate[:2] for fate in fates)
     )

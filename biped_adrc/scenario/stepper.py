@@ -40,7 +40,7 @@ from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.program import COMPILED
-from biped_adrc.engine.samples import CompiledWalk, PythonWalk, evaluated, with_inputs
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, python_row, with_inputs
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -279,14 +279,14 @@ class Stepper:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
-            size = len(evaluated(first, view, self.curve))
+            size = len(python_row(first, view, self.curve))
             laws = np.array([self._law(i, view) for i in range(len(self.walks))], dtype=np.int64)
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         _, result, at = self._laws[view]
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk):
-                result[i] = evaluated(walk, view, self.curve)
+                result[i] = python_row(walk, view, self.curve)
         self._kernels.looks(*self._walks, *at)
         return result.copy()
 

@@ -39,7 +39,7 @@ from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
-Plain = Mapping[str, object]
+PlainValues = Mapping[str, object]
 """The values of one walk as JSON has them: what a worker receives."""
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
@@ -53,7 +53,7 @@ _SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
 """By value, the suffix of a file in place of a registered name."""
 
 
-def scenario_of(values: Plain) -> Scenario:
+def scenario_of(values: PlainValues) -> Scenario:
     """The scenario of values by name; where they say nothing of sampling, it is sampled at 1 kHz, ideally.
 
     A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit

@@ -39,7 +39,15 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk_scenario
-from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Plain, Trial, scenario_of, trial_of
+from biped_adrc.studies.build import (
+    NO_WALK,
+    RAISED,
+    REFUSED,
+    PlainValues,
+    Trial,
+    scenario_of,
+    trial_of,
+)
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
@@ -47,7 +55,7 @@ WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
-Function = Callable[[Sequence[Plain]], Sequence[Any]]
+Function = Callable[[Sequence[PlainValues]], Sequence[Any]]
 """What workers run: a row of plain values for each record, in their order."""
 JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque")
 """Columns that `Feasibility` has under the same names."""
@@ -60,7 +68,7 @@ _PREPARING = Lock()
 
 
 def rows_of(
-    function: Function, records: Sequence[Plain], folders: Mapping[str, str] | None = None
+    function: Function, records: Sequence[PlainValues], folders: Mapping[str, str] | None = None
 ) -> list[tuple[str, str | None]]:
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
@@ -79,7 +87,7 @@ def rows_of(
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trials(records: Sequence[Plain], aside: bool = False) -> list[WalkRow]:
+def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[WalkRow]:
     """Walk the trials, and return a row for each in their order. aside: whether rows have the column
     `rounding`.
 

@@ -49,7 +49,7 @@ from biped_adrc.core.errors import optional
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.build import Values
 from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without_walk
-from biped_adrc.studies.space import Section, Seeds, Span, each_read, read_list, read_range, table
+from biped_adrc.studies.space import Section, Seeds, Span, by_entry, read_list, read_range, table
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
@@ -100,7 +100,7 @@ def _variable(name: str, value: Any) -> Variable:
     """One variable of a file. Raises ValueError."""
     keys = table(value)
     beside = keys.pop("when", {})
-    when = each_read(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
+    when = by_entry(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
         choices = read_list(name, keys["choices"], 2)
         return Variable.model_validate({**keys, "choices": choices, "when": when})
@@ -108,7 +108,7 @@ def _variable(name: str, value: Any) -> Variable:
 
 
 Variables = Annotated[
-    dict[str, Variable], BeforeValidator(lambda value: each_read(value, _variable))
+    dict[str, Variable], BeforeValidator(lambda value: by_entry(value, _variable))
 ]
 """Variables by name, read with their units."""
 

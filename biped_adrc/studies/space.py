@@ -36,7 +36,7 @@ def table(value: object) -> dict[str, Any]:
     return dict(value)
 
 
-def each_read(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
+def by_entry(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
     result, wrong = {}, []
     for name, x in flat(table(value), whole=("from", "to", "choices")).items():
@@ -131,20 +131,18 @@ def _seeds(value: object) -> object:
     return tuple(value)
 
 
-Named = Annotated[
-    dict[str, Any], BeforeValidator(lambda value: each_read(value, Scenario.value_of))
-]
+Named = Annotated[dict[str, Any], BeforeValidator(lambda value: by_entry(value, Scenario.value_of))]
 """Values of a scenario by name, read with their units."""
 Sets = dict[str, Named]
 """Values by name of the case or condition."""
 Grid = Annotated[
-    dict[str, tuple[Any, ...]], BeforeValidator(lambda value: each_read(value, _levels))
+    dict[str, tuple[Any, ...]], BeforeValidator(lambda value: by_entry(value, _levels))
 ]
 """Levels by name."""
 Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
 Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
-Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: each_read(value, read_range))]
+Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: by_entry(value, read_range))]
 """Ranges by name."""
 
 

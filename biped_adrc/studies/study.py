@@ -33,7 +33,7 @@ from biped_adrc.core.files import beside, reading
 from biped_adrc.core.registry import FOLDERS, is_own, top_of
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.scenario import Scenario, read_scenario
-from biped_adrc.studies.build import SEED, Plain, differ, scenario_of, trial_of, versions_of
+from biped_adrc.studies.build import SEED, PlainValues, differ, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Aim, Column, Limit, Measure
 from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
@@ -64,8 +64,8 @@ class Point(NamedTuple):
     """A walk of a study: its place, the values that locate it, and those of its scenario."""
 
     place: int
-    at: Plain
-    record: Plain
+    at: PlainValues
+    record: PlainValues
 
 
 class Study(Section):
@@ -154,7 +154,9 @@ class Study(Section):
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
-    def seeded(self, seeds: Sequence[int], at: Plain, undrawn: Undrawn) -> list[dict[str, int]]:
+    def seeded(
+        self, seeds: Sequence[int], at: PlainValues, undrawn: Undrawn
+    ) -> list[dict[str, int]]:
         """The values of each seed; of one walk without one, where there is none or nothing is drawn from it."""
         return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
 

@@ -1,4 +1,4 @@
-; sources 359596be9ebcd4128d499ee0a2ae807a, text 76a099898943c9107fd37fec1ad4fdd5
+; sources a8af3cf6da569b71226958a0d76f4f48, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

@@ -1,4 +1,4 @@
-; sources a41eb9874ce4a81164ca82a3f3c3dbd5, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources 40084b5ade21c25184a0e33ef399229e, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

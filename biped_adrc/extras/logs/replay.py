@@ -230,7 +230,7 @@ class Replay(Shown):
         q_b - x1^ [mrad]; the torque of the controller over the one in the log [N m]. The window of contact
         after each touchdown is shaded.
         """
-        from biped_adrc.view.plots.over_time import curves, finished, gapped, say_no_observer
+        from biped_adrc.view.plots.over_time import curves, finished, say_no_observer, with_gaps
         from biped_adrc.view.style import GREY, new_figure
 
         x = self.signals
@@ -239,7 +239,9 @@ class Replay(Shown):
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
                 name = "in the log" if k == 0 else "_"
-                torque.plot(gapped(x, x.t), gapped(x, u), color=GREY, lw=0.8, ls=":", label=name)
+                torque.plot(
+                    with_gaps(x, x.t), with_gaps(x, u), color=GREY, lw=0.8, ls=":", label=name
+                )
             for axes, values, symbol, unit in (
                 (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
                 (residual, 1e3 * x.residual, "q", "residual [mrad]"),

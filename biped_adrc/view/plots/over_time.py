@@ -34,7 +34,7 @@ class OverTime(Protocol):
     def step(self) -> Array: ...
 
 
-def gapped(s: OverTime, y: Array) -> Array:
+def with_gaps(s: OverTime, y: Array) -> Array:
     """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
 
     matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
@@ -44,7 +44,7 @@ def gapped(s: OverTime, y: Array) -> Array:
 
 def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
     """Draw y (K,) over time [s] in the i-th colour and dash."""
-    axes.plot(gapped(s, s.t), gapped(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
+    axes.plot(with_gaps(s, s.t), with_gaps(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
 def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
@@ -110,13 +110,13 @@ def joint_tracking(
 
     joints: indices from 0, all if None. push: (start, stop) [s], shaded. Returns the axes.
     """
-    joints, t = range(s.q_d.shape[1]) if joints is None else joints, gapped(s, s.t)
+    joints, t = range(s.q_d.shape[1]) if joints is None else joints, with_gaps(s, s.t)
     for i in joints:
-        name, y = joint_name(s, i), gapped(s, s.q[:, i])
+        name, y = joint_name(s, i), with_gaps(s, s.q[:, i])
         axes.plot(t, y, color=PALETTE[i], ls=DASHES[i % 2], lw=2.2, label=name)
     for i in joints:
         on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])  # not behind a fall
-        name, y = "references" if i == joints[0] else "_", gapped(s, on_curve)
+        name, y = "references" if i == joints[0] else "_", with_gaps(s, on_curve)
         axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
     return finished(axes, "angle [rad]", push)
 
@@ -179,12 +179,12 @@ def _pair(
 
     names: symbols of both in TeX. colour: of the signal; the estimate is dashed in black.
     """
-    t = gapped(s, s.t)
-    axes.plot(t, gapped(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
+    t = with_gaps(s, s.t)
+    axes.plot(t, with_gaps(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
         say_no_observer(axes)
         return
-    y, dash = gapped(s, estimate), (0, (4, 2))
+    y, dash = with_gaps(s, estimate), (0, (4, 2))
     axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
 
 
@@ -223,8 +223,8 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
         name = f"cone, $\\mu$ = {mu:g}" if sign > 0 else "_"
         axes.plot([0.0, sign * mu * top], [0.0, top], color=GREY, ls="--", label=name)
     axes.plot(
-        gapped(s, tangent),
-        gapped(s, normal),
+        with_gaps(s, tangent),
+        with_gaps(s, normal),
         color=PALETTE[0],
         lw=0.9,
         label="ground reaction",
@@ -252,7 +252,9 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
 
     name: in the legend. colour: index in the palette. Returns the axes.
     """
-    axes.plot(gapped(s, s.theta), gapped(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
+    axes.plot(
+        with_gaps(s, s.theta), with_gaps(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name
+    )
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
         axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)
@@ -276,7 +278,7 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
     """
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
-        x, y = gapped(s, s.t), gapped(s, largest)
+        x, y = with_gaps(s, s.t), with_gaps(s, largest)
         axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
     axes.set_yscale("log")
     return finished(axes, "largest tracking error [rad]", push)
