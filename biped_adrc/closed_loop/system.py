@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, Self, TypeVar
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from biped_adrc.control.base import Controller, Measurement, check_methods, nest
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
 from biped_adrc.core.errors import BipedError, InputError, RanAwayError
+from biped_adrc.core.once import once, shared
 from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
@@ -69,7 +70,9 @@ class _Bounds(NamedTuple):
 
 
 _P = TypeVar("_P", bound=Plant)
-MADE_AGAIN = ("held", "calls", "layout")
+
+
+MADE_AGAIN = ("held", "calls", "layout", "undisturbed", "_once")
 """What a loop keeps besides its fields, and makes again where it is needed."""
 
 
@@ -127,6 +130,11 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         """The model the controller knows; the plant itself when none was given."""
         return self.plant if self.model is None else self.model
 
+    @cached_property
+    def undisturbed(self) -> Self:
+        """The loop without disturbance; loops that differ in that alone share it, and what it remembers."""
+        return shared(self, disturbance=None)
+
     @property
     def exact(self) -> bool:
         """Whether the controller knows the plant: no other model is given and the plant has no friction."""
@@ -134,7 +142,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def law(self) -> Controller:
-        """The controller in this time base."""
+        """The controller in this time base; walkers with the same controller share it."""
         if isinstance(self.timing, SampledTime):
             return self.controller.at_ticks(self.timing.period)
         return self.controller.continuous()
@@ -237,15 +245,12 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
             m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
-            self._begun(m, self.law.initial_state(m), mode)
+            vars(self)["layout"] = Layout.of(self._begun(m, self.law.initial_state(m), mode))
         return vars(self)["layout"]
 
-    def _begun(self, m: Measurement, s: Any, mode: Mode) -> Array:
-        """x (nx,) at the start of a run at m, with the state s of the controller; its layout is kept."""
-        tail = () if self.held is None else self.held.start(m.q, m.v, *mode)
-        state = State(m.q, m.v, s, tail)
-        vars(self).setdefault("layout", Layout.of(state))
-        return flatten(state)
+    def _begun(self, m: Measurement, s: Any, mode: Mode) -> State:
+        """The state at the start of a run at m, with the state s of the controller."""
+        return State(m.q, m.v, s, () if self.held is None else self.held.start(m.q, m.v, *mode))
 
     def split_state(self, x: Array) -> tuple[Array, Array, Any]:
         """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
@@ -258,15 +263,10 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
         """
         mode = Mode() if mode is None else mode
-        # what overflows is refused, or ends the walk
-        with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            q, v = (np.asarray(x, dtype=float) for x in (q, v))
-            m = self.measure(mode.start, q, v, mode)
-            for part in nested(self.law):
-                _check_tracking(part, m, self.plant.p)
-            s = returned_tree(self.law.initial_state(m), None, self.law, "initial_state")
-            check_methods(self.law, s, m, self.sampled)
-            return self._begun(m, s, mode)
+        q, v = (np.asarray(x, dtype=float) for x in (q, v))
+        x, layout = _start(self.undisturbed, mode, q.shape, q.tobytes(), v.shape, v.tobytes())
+        vars(self).setdefault("layout", layout)
+        return x.copy()
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
@@ -362,6 +362,22 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
             f"the model is a {type(model).__name__}, which has no feet; a controller that notices touchdowns "
             "needs one with R, relabel and swing_foot, such as Biped.load('rabbit')"
         )
+
+
+@once
+def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layout]:
+    """As `initial_state`, with the layout; start: shape and bytes of q and of v."""
+    shapes, data = start[::2], start[1::2]
+    q, v = (np.frombuffer(x).reshape(shape) for shape, x in zip(shapes, data, strict=True))
+    # what overflows is refused, or ends the walk
+    with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+        m = loop.measure(mode.start, q, v, mode)
+        for part in nested(loop.law):
+            _check_tracking(part, m, loop.plant.p)
+        s = returned_tree(loop.law.initial_state(m), None, loop.law, "initial_state")
+        check_methods(loop.law, s, m, loop.sampled)
+        state = loop._begun(m, s, mode)
+        return flatten(state), Layout.of(state)
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:

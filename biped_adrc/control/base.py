@@ -27,6 +27,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part, line_of, returned, spoken
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.once import once
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import as_line
 from biped_adrc.core.tree import Layout, flatten, returned_tree
@@ -156,6 +157,7 @@ class Controller(Part):
         """
         return self
 
+    @once
     def at_ticks(self, period: float) -> Controller:
         """Call `sampled`, and check its result. Raises InputError for a controller whose state flows in
         continuous time, but that has no `predict` for ticks.

@@ -36,7 +36,7 @@ from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve, solve_positive
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, Indices, frozen
+from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
@@ -68,7 +68,7 @@ class Gains(Shown):
                 raise InputError(
                     f"gain {name} is {value}, expected positive numbers, one per joint, at most {_HIGHEST:g}"
                 )
-            object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
+            object.__setattr__(self, name, float(value) if value.ndim == 0 else read_only(value))
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint whose number is not p."""

@@ -119,9 +119,9 @@ def check_fields(part: Any) -> None:
     InputError.
     """
     cls: Any = type(part)
-    for name, kinds, range in _expected(cls):
-        value, what = getattr(part, name), f"{name} of {type(part).__name__}"
-        if all(map(_looked_at, kinds)):
+    for name, kinds, typed, range in _expected(cls):
+        value, what = getattr(part, name), f"{name} of {cls.__name__}"
+        if typed:
             check_part(value, what, *kinds)
         if range is not None and not ((value is None and NoneType in kinds) or range.has(value)):
             or_none = " or None" if NoneType in kinds else ""
@@ -326,15 +326,16 @@ def hints_of(cls: type) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=256)
-def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...]:
-    """Fields of a class to check: name, allowed types and range of each.
+def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None], ...]:
+    """Fields of a class to check: name, allowed types, whether these are checked, and range of each.
 
     Without fields whose annotation cannot be read or contains other types.
     """
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
-    result = ((name, *_members(hints[name])) for name in names if name in hints)
-    return tuple(x for x in result if x[2] is not None or all(map(_looked_at, x[1])))
+    members = ((name, *_members(hints[name])) for name in names if name in hints)
+    result = ((name, kinds, all(map(_looked_at, kinds)), range) for name, kinds, range in members)
+    return tuple(x for x in result if x[2] or x[3] is not None)
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:

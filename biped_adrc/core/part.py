@@ -62,6 +62,8 @@ class Setup:
     """Placeholder for a field of `setup` where methods run on symbols."""
 
 
+MEMORY = ("_constant", "_once")
+"""Names under which `core.once` keeps in a part what it computed of it."""
 SETUP = {"setup": True}
 """Metadata of a field that no method reads on symbols."""
 
@@ -121,7 +123,9 @@ def with_fields(part: _T, **values: Any) -> _T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    return with_content(part, vars(part) | values)
+    return with_content(
+        part, {name: x for name, x in vars(part).items() if name not in MEMORY} | values
+    )
 
 
 @lru_cache(maxsize=512)

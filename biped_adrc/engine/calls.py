@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.core.once import once
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
@@ -33,7 +34,7 @@ from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
 
 if TYPE_CHECKING:
@@ -179,7 +180,7 @@ class CompiledBiped(Biped):
         return cast(Array, self._called("ground_reaction", q, v, a))
 
 
-@once_each
+@once
 def compiled_biped(biped: Biped) -> CompiledBiped:
     """A robot with its formulas in machine code, remembered for the last robots. Raises ModelError for one that
     is no planar tree.

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.core.once import once
 from biped_adrc.core.part import Setup, content, is_part
+from biped_adrc.core.tree import Layout
 from biped_adrc.model.biped import Biped
 
 REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
@@ -23,7 +25,16 @@ def floats(tree: object) -> list[float]:
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    if isinstance(tree, Layout):
+        return []
+    return _floats(tree) if is_part(tree) else _floats_inside(tree)
+
+
+def _floats_inside(tree: object) -> list[float]:
     return [number for _, x in _inside(tree) for number in floats(x)]
+
+
+_floats = once(_floats_inside)
 
 
 def paths(tree: object) -> list[str]:

@@ -16,12 +16,13 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
+from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
@@ -183,45 +184,69 @@ class CompiledWalker:
         `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
         NotCompiled where a part or the method cannot be compiled, InputError for a method without coordinates.
         """
-        if not isinstance(method, RK4 | Exponential):
-            raise NotCompiled(
-                f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
-            )
-        etd = isinstance(method, Exponential)
-        split = walker.split_form() if etd else None
-        if etd and split is None:
-            raise no_coordinates()
-        numbers = numbers_of(walker, split, reference)
-        if in_python:
-            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
-            numbers, layout = numbers._replace(controller=Passive(), held=held), at_rest(layout)
-        program = Program(layout, numbers)
-        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
-        push = walker.disturbance or NO_PUSH
+        still = _still(walker.undisturbed, method, layout, reference, in_python)
+        push, n = walker.disturbance or NO_PUSH, walker.plant.n
         parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
-        relaxing = walker.relaxing()
-        k = 0 if split is None else len(split.A)
-        # the torque of the motors, then all does; q'' at a sample instant comes from machine code alone
-        flows = walker.held is None or relaxing or in_python
         tables = {
-            "K": program.K,
-            "fastest": bounds.fastest,
-            "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+            **still.tables,
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
-            "phi": np.zeros(0) if split is None else phi_levels(method.h, split.A),
             "push": np.array(floats(push.terms)),
             "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
-        fields = dict[str, float]()
-        if isinstance(walker.timing, SampledTime) and walker.held is not None:
-            T = walker.timing.period
-            part = walker.held.motors.fraction * T
-            fields |= {"period": T, "restart": walker.timing.restart, "part": part}
-        fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
-        fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
-        fields |= {"t_first": t_first, "pulled": push.pulls}
-        fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
-        if relaxing is not None:
-            fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
-        fields |= {name: program.address(name) for name in FUNCTIONS}
-        return cls(walker, program, plan(tables, fields), method.label)
+        fields = {**still.fields, "t_first": t_first, "pulled": push.pulls}
+        return cls(walker, still.program, plan(tables, fields), method.label)
+
+
+class _Still(NamedTuple):
+    """What walkers share that differ in their disturbance alone."""
+
+    program: Program
+    tables: dict[str, Array]
+    fields: dict[str, float]
+
+
+@once
+def _still(
+    walker: Walker,
+    method: OneStepMethod,
+    layout: Layout,
+    reference: Reference | None,
+    in_python: bool,
+) -> _Still:
+    """As `CompiledWalker.of`, of a walker without disturbance."""
+    if not isinstance(method, RK4 | Exponential):
+        raise NotCompiled(
+            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
+        )
+    etd = isinstance(method, Exponential)
+    split = walker.split_form() if etd else None
+    if etd and split is None:
+        raise no_coordinates()
+    numbers = numbers_of(walker, split, reference)
+    if in_python:
+        held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
+        numbers, layout = numbers._replace(controller=Passive(), held=held), at_rest(layout)
+    program = Program(layout, numbers)
+    n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
+    relaxing = walker.relaxing()
+    k = 0 if split is None else len(split.A)
+    # the torque of the motors, then all does; q'' at a sample instant comes from machine code alone
+    flows = walker.held is None or relaxing or in_python
+    tables = {
+        "K": program.K,
+        "fastest": bounds.fastest,
+        "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+        "phi": np.zeros(0) if split is None else phi_levels(method.h, split.A),
+    }
+    fields = dict[str, float]()
+    if isinstance(walker.timing, SampledTime) and walker.held is not None:
+        T = walker.timing.period
+        part = walker.held.motors.fraction * T
+        fields |= {"period": T, "restart": walker.timing.restart, "part": part}
+    fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
+    fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
+    fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
+    if relaxing is not None:
+        fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
+    fields |= {name: program.address(name) for name in FUNCTIONS}
+    return _Still(program, tables, fields)

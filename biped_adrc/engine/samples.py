@@ -25,6 +25,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
+from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
@@ -41,7 +42,6 @@ from biped_adrc.hybrid.simulator import RunOptions, finite_part, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event
 from biped_adrc.model.planar import link_point
-from biped_adrc.model.planar_robot import once_each
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""
@@ -57,7 +57,7 @@ def with_inputs(walker: Walker) -> tuple[Walker, Array]:
     return replace(walker, controller=law, disturbance=push), outside
 
 
-_trunk = once_each(lambda biped: link_point(biped, biped.description.trunk))
+_trunk = once(lambda biped: link_point(biped, biped.description.trunk))
 """Origin of the trunk's frame of a robot."""
 
 

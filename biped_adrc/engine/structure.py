@@ -19,7 +19,9 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.core.checks import LIBRARIES, PACKAGE, is_users
+from biped_adrc.core.once import once
 from biped_adrc.core.part import content, is_part
+from biped_adrc.core.tree import Layout
 from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.leaves import HIDDEN, LISTS, REALS
 from biped_adrc.engine.machine import hash_of
@@ -41,7 +43,9 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     if isinstance(tree, HIDDEN):
         return "hidden", type(tree)
     if is_part(tree):
-        return type(tree), *((name, structure(x, exact)) for name, x in content(tree).items())
+        return _of_part(tree, exact)
+    if isinstance(tree, Layout):
+        return tree
     if isinstance(tree, LISTS):
         return type(tree), *(structure(x, exact) for x in tree)
     if isinstance(tree, dict):
@@ -55,6 +59,11 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     known = isinstance(tree, type | types.FunctionType | types.ModuleType)
     inside = {} if known else getattr(tree, "__dict__", {})
     return type(tree), tree, structure(inside, True) if inside else None
+
+
+@once
+def _of_part(part: Any, exact: bool) -> Hashable:
+    return type(part), *((name, structure(x, exact)) for name, x in content(part).items())
 
 
 def lasting(key: Hashable) -> str:

@@ -165,11 +165,11 @@ def run_arcs(
 def finite_part(flown: FlownArc) -> FlownArc:
     """The arc up to its last node that is finite, and without an event whose states are not."""
     arc, event = flown.arc, flown.arc.event
-    rows = (arc.t[:, np.newaxis], arc.x, arc.dx)
-    good = np.logical_and.accumulate(np.all([np.all(np.isfinite(a), axis=1) for a in rows], axis=0))
-    states = () if event is None else (event.x_minus, event.x_plus)
-    if good[-1] and all(x is None or np.all(np.isfinite(x)) for x in states):
+    rows, states = (arc.t, arc.x, arc.dx), () if event is None else (event.x_minus, event.x_plus)
+    if all(x is None or np.isfinite(x).all() for x in (*rows, *states)):
         return flown
+    each = [np.isfinite(x.reshape(len(arc.t), -1)).all(axis=1) for x in rows]
+    good = np.logical_and.accumulate(np.all(each, axis=0))
     if not good[0]:  # what an arc starts from is finite, its slope may not be
         good[0], arc = True, replace(arc, dx=np.zeros_like(arc.dx))
     read = {name: rows[good] for name, rows in arc.read.items()}

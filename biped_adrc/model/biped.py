@@ -68,6 +68,8 @@ class Biped(Shown):
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
 
+    _constant = True  # for `core.once`: it is read from files once
+
     def __repr__(self) -> str:
         name, parts = self.description.name, f"n = {self.n}, p = {self.p}, {self.mass:.4g} kg"
         return f"Biped('{name}', preset '{self.preset}': {parts}{', friction' if self.friction else ''})"

@@ -34,15 +34,15 @@ It is a part as all others (`core.part`): the engine runs its methods on symbols
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.once import once
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
@@ -105,6 +105,7 @@ class PlanarRobot:
     """Relabelling of the actuated joints (p,)."""
     friction: tuple[Array, Array] | tuple[()] = ()
     """Viscous [N m s] and static [N m], each (n,), or empty."""
+    _constant = True  # for `core.once`: nobody else has its arrays
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarRobot:
@@ -281,27 +282,5 @@ def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
     return K.gravity * (K.w_re * t.c - K.w_im * t.s)
 
 
-_T = TypeVar("_T")
-REMEMBERED = 64
-"""Number of robots whose formulas are kept in memory."""
-
-
-def once_each(make: Callable[[Biped], _T]) -> Callable[[Biped], _T]:
-    """`make`, with what it made of the last REMEMBERED robots; a robot is known by its identity.
-
-    By identity, since comparing two robots would cost more than reading one.
-    """
-    memory: dict[int, tuple[Biped, _T]] = {}
-
-    def found(biped: Biped) -> _T:
-        if id(biped) not in memory or memory[id(biped)][0] is not biped:
-            while len(memory) >= REMEMBERED:
-                memory.pop(next(iter(memory)))
-            memory[id(biped)] = biped, make(biped)
-        return memory[id(biped)][1]
-
-    return found
-
-
-robot_of = once_each(PlanarRobot.of)
-"""As `PlanarRobot.of`, remembered for the last robots."""
+robot_of = once(PlanarRobot.of)
+"""As `PlanarRobot.of`, remembered in the robot."""

@@ -34,6 +34,7 @@ import numpy as np
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_count, check_positive
+from biped_adrc.core.once import once
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import as_line
 from biped_adrc.core.types import Array, Indices, relabelled
@@ -136,6 +137,7 @@ class Observer(Part):
             "has no discrete form; give it a method sampled(period), or use ContinuousTime()"
         )
 
+    @once
     def at_ticks(self, period: float) -> Observer:
         """Call `sampled`, and check its result. Raises InputError for one without `correct` and `predict`."""
         found = self.sampled(period)

@@ -24,6 +24,7 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.outer_loop import own_reference
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, WalkWarning, check_count
+from biped_adrc.core.once import shared
 from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import fastest_loop
 from biped_adrc.engine.program import COMPILED
@@ -119,7 +120,7 @@ def walk(
         start = gait.start(walker.nominal)
     parts = tuple[WalkPart, ...]()
     if walker.slope is None:
-        walker = replace(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
+        walker = shared(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant

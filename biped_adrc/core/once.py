@@ -1,0 +1,83 @@
+"""What is computed of a part once, and remembered in it: walks that share a part share what it decides.
+
+Only of a part in which nothing can change. A class of the user's may change, so nothing is remembered there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from dataclasses import fields
+from enum import Enum
+from functools import wraps
+from types import NoneType
+from typing import Any, TypeVar
+
+import numpy as np
+
+from biped_adrc.core.part import is_part
+
+_T = TypeVar("_T")
+_PLAIN = (int, float, complex, str, bytes, Enum, NoneType, type, np.generic)
+_REMEMBERED = 64
+"""Results that a function of `once` keeps of a part, and parts that `shared` keeps."""
+
+
+class _Memory(dict[Hashable, Any]):
+    """The last results by what they were computed of; empty in another process, and in a copy by pickle."""
+
+    def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        if key not in self:
+            result = make()
+            while len(self) >= _REMEMBERED:
+                self.pop(next(iter(self)), None)
+            self[key] = result
+        return self[key]
+
+    def __reduce__(self) -> tuple[type, tuple[()]]:
+        return _Memory, ()
+
+
+_SHARED = _Memory()
+
+
+def constant(x: object) -> bool:
+    """Whether nothing in x can change: a number, text, read-only array, or part of this package with such."""
+    if isinstance(x, np.ndarray):
+        return not x.flags.writeable and (x.base is None or constant(x.base))
+    if isinstance(x, tuple):
+        return all(map(constant, x))
+    cls: Any = type(x)
+    names = getattr(cls, "__dataclass_fields__", None)
+    if names is None:
+        return isinstance(x, _PLAIN)
+    if not hasattr(x, "_constant"):
+        own = cls.__module__.startswith("biped_adrc.") and cls.__dataclass_params__.frozen
+        if not (own and all(constant(getattr(x, name)) for name in names)):
+            return False
+        vars(x)["_constant"] = True
+    return True
+
+
+def once(make: Callable[..., _T]) -> Callable[..., _T]:
+    """The function make(x, *more), computed once for each x that is a part in which nothing can change.
+
+    The part remembers the last results, so that walks that share a part share them. more: hashable.
+    """
+
+    @wraps(make)
+    def found(x: Any, *more: Hashable) -> _T:
+        if not (is_part(x) and constant(x)):
+            return make(x, *more)
+        memory = vars(x).setdefault("_once", _Memory())
+        return memory.found((make, *more), lambda: make(x, *more))
+
+    return found
+
+
+def shared(part: _T, **values: Any) -> _T:
+    """A copy of a part with other fields; the same object for the very same fields, so that it remembers."""
+    items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
+    same = all(getattr(part, name) is x for name, x in values.items())
+    # kept with the fields: while they live nothing else has their identities
+    made = lambda: (items, part if same else type(part)(**items))  # noqa: E731
+    return _SHARED.found((type(part), *map(id, items.values())), made)[1]

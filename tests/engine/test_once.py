@@ -1,0 +1,89 @@
+"""Walks share what does not differ between them, and nothing is remembered of what may change."""
+
+import pickle
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.core.once import constant, once, shared
+from biped_adrc.engine.program import CompiledWalker
+
+METHOD = ba.RK4(1e-3)
+
+
+@pytest.fixture(scope="module")
+def walker(biped, gait):
+    law = ba.ADRCController(gait.constraint)
+    return ba.Walker(biped, law, timing=ba.SampledTime(1e-3))
+
+
+def compiled(walker, gait):
+    x = walker.initial_state(*gait.start(walker.plant))
+    return CompiledWalker.of(walker, METHOD, walker.layout_of(x))
+
+
+def test_walkers_that_differ_in_a_push_share_their_program(walker, gait):
+    pushed = replace(walker, disturbance=ba.TorquePulse([0.0, 9.0, 0.0, 0.0, 0.0], 2, 0.1, 0.2))
+    other = replace(walker, controller=replace(walker.controller, gains=ba.Gains(3000.0, 90.0)))
+    assert pushed.undisturbed is walker.undisturbed
+    assert pushed.law is walker.law
+    assert compiled(pushed, gait).program is compiled(walker, gait).program
+    assert compiled(other, gait).program is not compiled(walker, gait).program
+    assert compiled(other, gait).program.K.tolist() != compiled(walker, gait).program.K.tolist()
+
+
+def test_a_start_is_the_callers_own(walker, gait):
+    q, v = gait.start(walker.plant)
+    x = walker.initial_state(q, v)
+    first = x.copy()
+    x[:] = 0.0
+    assert walker.initial_state(q, v).tolist() == first.tolist()
+    assert walker.initial_state(q, 0.5 * v).tolist() != first.tolist()
+
+
+@dataclass(frozen=True)
+class Outside(ba.Controller):
+    torque: object
+
+    def output(self, s, m):
+        return self.torque + 0.0 * m.q_b
+
+
+def test_what_may_change_is_not_remembered(biped, gait):
+    array = np.zeros(4)
+    view = array.view()
+    view.flags.writeable = False
+    fixed = np.zeros(4)
+    fixed.flags.writeable = False
+    assert [constant(x) for x in (array, view, fixed)] == [False, False, True]
+    assert constant(ba.ADRCController(gait.constraint))
+    assert not constant(Outside(fixed))  # a class of the user's
+    asked = []
+    first = once(lambda part: asked.append(part))
+    for _ in range(2):
+        first(Outside(fixed))
+        first(gait.constraint)
+    assert len(asked) == 3
+
+
+def test_a_controller_with_an_array_from_outside_walks_by_its_numbers_of_now(biped, gait):
+    torque = np.zeros(4)
+    walker = ba.Walker(biped, Outside(torque), timing=ba.SampledTime(1e-3))
+    case = ba.Case(walker, *gait.start(biped), METHOD, 1)
+    (still,) = ba.simulate_many([case], 1)
+    torque[0] = 20.0
+    (moved,) = ba.simulate_many([case], 1)
+    assert not np.array_equal(still.final_state, moved.final_state)
+
+
+def test_the_same_fields_give_the_same_copy_and_another_process_gets_none_of_it(walker):
+    a, b = shared(walker, slope=0.01), shared(walker, slope=0.02)
+    assert shared(walker, slope=a.slope) is a
+    assert b.slope == 0.02
+    _ = walker.undisturbed, walker.law
+    again = pickle.loads(pickle.dumps(walker))
+    assert again.controller == walker.controller
+    assert not vars(again.controller).get("_once")
+    assert not {"undisturbed", "_once"} & vars(again).keys()
