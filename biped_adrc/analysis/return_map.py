@@ -136,7 +136,7 @@ class ReturnMap(Shown):
         Raises SimulationError, with the status, when the walker does not come back.
         """
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
-        compiled = self._compiled(starts[0][0])
+        compiled = self.compiled(starts[0][0])
         if compiled is None:
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
         from biped_adrc.engine.batch import strides
@@ -147,7 +147,7 @@ class ReturnMap(Shown):
                 raise _no_return(walked.status, walked.detail)
         return [self.project(walked.x_minus[-1]) for walked in images]
 
-    def _compiled(self, x: Array) -> CompiledWalker | None:
+    def compiled(self, x: Array) -> CompiledWalker | None:
         """The compiled walker with states as x (nx,), or None where there is no compiled form."""
         if self.engine != COMPILED:
             return None

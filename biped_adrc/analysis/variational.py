@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -36,7 +37,7 @@ from biped_adrc.analysis.return_map import (
 )
 from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, SimulationError, SingularError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
@@ -219,10 +220,14 @@ def periodic_orbit(
 ) -> tuple[PeriodicOrbit, StepDerivative]:
     """Find P(s) = s by Newton's method with the exact dP/ds, from a state before impact (2 n,) [rad, rad/s].
 
-    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically. Raises SimulationError when it does not
-    converge or the walker does not come back, SingularError when a multiplier is 1.
+    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically, and begins at the fixed point of the
+    compiled map where there is one. Raises SimulationError when it does not converge or the walker does not come
+    back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
+    if P.compiled(x := P.lift(s)) is not None:
+        with suppress(SimulationError, SingularError):  # the derivative costs a hundred compiled steps
+            s = P.project(P.fixed_point(x, tolerance).x_minus)
     for _ in range(MOST_ITERATIONS):
         step = differentiate_step(P, s)
         gap = step.image - s

@@ -46,7 +46,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize
 
 from biped_adrc.analysis.loops.frozen_gait import (
     FrozenGait,
@@ -194,6 +193,8 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 def structured_value(M: ComplexArray) -> float:
     """Least upper bound of mu over scalings d of one matrix M (p, p)."""
+    from scipy.optimize import minimize  # half a second, which `poincare` has no use for
+
     p = len(M)
     if p == 1:
         return float(abs(M[0, 0]))

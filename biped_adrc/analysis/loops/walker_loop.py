@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 from scipy.linalg import eig, expm
-from scipy.optimize import brentq
 
 from biped_adrc.analysis.loops.frozen_gait import TickMatrices
 from biped_adrc.analysis.observer.loop import StepMatrices, covariance
@@ -166,6 +165,8 @@ class WalkerLoops:
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
         """
+        from scipy.optimize import brentq  # half a second, which `poincare` has no use for
+
         tried = [0.0, 0.25 * self.period]
         while tried[-1] < most:
             tried.append(1.25 * tried[-1])
