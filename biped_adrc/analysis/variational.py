@@ -220,9 +220,9 @@ def periodic_orbit(
 ) -> tuple[PeriodicOrbit, StepDerivative]:
     """Find P(s) = s by Newton's method with the exact dP/ds, from a state before impact (2 n,) [rad, rad/s].
 
-    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically, and begins at the fixed point of the
-    compiled map where there is one. Raises SimulationError when it does not converge or the walker does not come
-    back, SingularError when a multiplier is 1.
+    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically; it begins at the fixed point of the compiled
+    map where there is one. Raises SimulationError when it does not converge or the walker does not come back,
+    SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
     if P.compiled(x := P.lift(s)) is not None:
