@@ -343,14 +343,14 @@ def integrate(t: Array, y: Array) -> float:
     """
     if not np.all(np.isfinite(y)):
         return math.inf
-    cuts = np.flatnonzero(np.diff(t) == 0.0) + 1
-    total = 0.0
-    for time, value in zip(np.split(t, cuts), np.split(y, cuts), strict=True):
-        if len(time) >= 4:
-            total += _under_spline(time, value)
-        elif len(time) > 1:
-            total += float(np.trapezoid(value, time))
-    return total
+    width = np.diff(t)
+    starts = np.append(0, np.flatnonzero(width == 0.0) + 1)
+    area = np.append(width * (y[1:] + y[:-1]) / 2.0, 0.0)
+    pieces = np.add.reduceat(area, starts)
+    for i in np.flatnonzero(np.diff(starts, append=len(t)) >= 4):
+        piece = slice(starts[i], starts[i + 1] if i + 1 < len(starts) else None)
+        pieces[i] = _under_spline(t[piece], y[piece])
+    return float(np.cumsum(pieces)[-1])
 
 
 def _under_spline(t: Array, y: Array) -> float:

@@ -182,10 +182,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        sensors = None if self.sensors is None else self.sensors.sampled(n, p, time.period)
-        motors, known = self.motors or IDEAL, time.delay_known and time.delay > 0.0
-        drive, line = motors.sampled(p, time.delay, time.period)
-        return frozen(HeldParts(sensors, drive, self.touchdown, known, self.own, Layout.of(line)))
+        return _held(time, self.motors or IDEAL, self.sensors, self.touchdown, n, p, self.own)
 
     def __getstate__(self) -> dict[str, object]:
         """The fields without cached values, which another process computes again where it needs them."""
@@ -362,6 +359,22 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
             f"the model is a {type(model).__name__}, which has no feet; a controller that notices touchdowns "
             "needs one with R, relabel and swing_foot, such as Biped.load('rabbit')"
         )
+
+
+@once
+def _held(
+    time: SampledTime,
+    motors: Motors,
+    sensor: Sensor | None,
+    touchdown: Touchdown | None,
+    n: int,
+    p: int,
+    own: int,
+) -> HeldParts:
+    sensors = None if sensor is None else sensor.sampled(n, p, time.period)
+    drive, line = motors.sampled(p, time.delay, time.period)
+    known = time.delay_known and time.delay > 0.0
+    return frozen(HeldParts(sensors, drive, touchdown, known, own, Layout.of(line)))
 
 
 @once

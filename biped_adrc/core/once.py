@@ -59,14 +59,14 @@ def constant(x: object) -> bool:
 
 
 def once(make: Callable[..., _T]) -> Callable[..., _T]:
-    """The function make(x, *more), computed once for each x that is a part in which nothing can change.
+    """The function make(x, *more), computed once for a part x; in no part among them can anything change.
 
-    The part remembers the last results, so that walks that share a part share them. more: hashable.
+    The part x remembers the last results, so that walks that share it share them. more: hashable.
     """
 
     @wraps(make)
     def found(x: Any, *more: Hashable) -> _T:
-        if not (is_part(x) and constant(x)):
+        if not (is_part(x) and all(constant(part) for part in (x, *more) if is_part(part))):
             return make(x, *more)
         memory = vars(x).setdefault("_once", _Memory())
         return memory.found((make, *more), lambda: make(x, *more))

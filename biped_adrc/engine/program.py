@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -186,15 +187,17 @@ class CompiledWalker:
         """
         still = _still(walker.undisturbed, method, layout, reference, in_python)
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
-        parts = [(push_code(x, n).addresses["push"], len(floats(x))) for x in push.terms]
+        numbers = [floats(x) for x in push.terms]
+        codes = [push_code(x, n).addresses["push"] for x in push.terms]
+        parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
-            **still.tables,
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
-            "push": np.array(floats(push.terms)),
+            "push": np.array([*chain(*numbers)]),
             "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
-        fields = {**still.fields, "t_first": t_first, "pulled": push.pulls}
-        return cls(walker, still.program, plan(tables, fields), method.label)
+        run = still.plan(tables)
+        run["t_first"], run["pulled"] = t_first, push.pulls
+        return cls(walker, still.program, run, method.label)
 
 
 class _Still(NamedTuple):
@@ -203,6 +206,15 @@ class _Still(NamedTuple):
     program: Program
     tables: dict[str, Array]
     fields: dict[str, float]
+    plans: dict[tuple[int, ...], CompiledRun]
+    """By the sizes of the disturbance's tables."""
+
+    def plan(self, tables: dict[str, Array]) -> CompiledRun:
+        """A plan with these tables of a disturbance."""
+        sizes = tuple(len(table) for table in tables.values())
+        if sizes not in self.plans:
+            self.plans[sizes] = plan({**self.tables, **tables}, self.fields)
+        return self.plans[sizes].filled(tables)
 
 
 @once
@@ -249,4 +261,4 @@ def _still(
     if relaxing is not None:
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
     fields |= {name: program.address(name) for name in FUNCTIONS}
-    return _Still(program, tables, fields)
+    return _Still(program, tables, fields, {})

@@ -72,6 +72,14 @@ class CompiledRun:
         run.nodes[:count] = self.nodes[:count]
         return run
 
+    def filled(self, tables: Mapping[str, Array]) -> CompiledRun:
+        """A copy of a plan with other numbers in these tables, each of the size that it has there."""
+        run = CompiledRun(self.block, self.pointers)
+        for name, table in tables.items():
+            at = run.place(name)
+            run.numbers[at : at + table.size] = table.ravel()
+        return run
+
     def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
         """A run of this plan from x (nx,) at t [s] to t_end [s] at the latest, in the single support `step`
         from t_start on.
