@@ -20,8 +20,6 @@ from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
 from biped_adrc.view.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
-TOP, BOTTOM, WORDS = 75, 560, (0, 36, 800, 70)
-"""[px], of a frame with two robots: names and robots alone, without legend, curves and the line of errors."""
 MOTORS = {"hardware.torque_limit": 150.0, "run.impacts": 9}
 SAMPLED = {**MOTORS, "hardware.period": "1 ms", "run.impacts": 12}
 HELD = {"shape": "hip force", "force": 14.4, "direction": "180 deg", "steps": (5, 99)}
@@ -65,11 +63,7 @@ def moving_picture(path: Path, values: dict[str, Any], cases: dict[str, Any], cl
         frames = []
         for i in range(picture.n_frames):
             picture.seek(i)
-            frame = picture.convert("RGB")
-            if clip.apart:
-                frame = frame.crop((0, TOP, picture.width, BOTTOM))
-                frame.paste(frame.getpixel((0, 0)), WORDS)
-            frames.append(frame)
+            frames.append(picture.convert("RGB"))
     same = frames[len(frames) // 4].quantize(32)  # a frame with the push in it
     frames = [frame.quantize(palette=same, dither=Image.Dither.NONE) for frame in frames]
     times = [round(1000.0 / clip.fps)] * (len(frames) - 1) + [1500]

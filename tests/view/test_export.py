@@ -20,7 +20,12 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.export import export
-from biped_adrc.view.from_the_side.moving_picture import encoded, strip, write_moving_picture
+from biped_adrc.view.from_the_side.moving_picture import (
+    encoded,
+    moving_figure,
+    strip,
+    write_moving_picture,
+)
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.placement import Clip, WalkScene, ending
@@ -40,6 +45,21 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
         for point in (hip, foot, [view.scene.footholds[view.scene.arc_at(float(t))], 0.0]):
             assert np.min(np.hypot(*(ends - point).T)) < 1e-9
         assert sorted(view.roles(float(t))) == ["", "stance", "stance", "swing", "swing"]
+
+
+def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(walks):
+    figure, show = moving_figure(walks, "2 times slower", apart=True)
+    show(0.1)
+    assert [axes.get_position().bounds[::2] for axes in figure.axes] == [(0.0, 0.5), (0.5, 0.5)]
+    texts = [axes.texts[-1].get_text() for axes in figure.axes]
+    assert texts == [f"{name}\nt = 0.10 s, step 1, 2 times slower" for name in walks]
+    hips = [np.mean(axes.get_xlim()) for axes in figure.axes]
+    assert np.allclose(
+        hips,
+        [w.walker.plant.hip(w.trajectory.arcs[0].x[0, :5])[0] for w in walks.values()],
+        atol=0.1,
+    )
+    assert all(np.isclose(np.ptp(axes.get_xlim()), 1.5) for axes in figure.axes)
 
 
 def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(

@@ -105,17 +105,15 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
 
 
 class DrawnWalk:
-    """The artists of one walk: links as thick lines in the colours of their roles, footprints, and loads.
+    """The artists of one walk: links as thick lines in the colours of their roles, paths, footprints and loads.
 
     The ground reaction is an arrow at the stance foot, an external torque a ring around its joint. On soft
     ground the other foot has an arrow too while both carry, and "slips" is written where one slips. opacity: 0
-    to 1. order: number of the layer. trail: with the paths of hip and swing foot so far.
+    to 1. order: number of the layer.
     """
 
-    def __init__(
-        self, axes: Axes, view: SideView, opacity: float, order: int, trail: bool = False
-    ) -> None:
-        self.axes, self.view, self.trail = axes, view, trail
+    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
+        self.axes, self.view = axes, view
         layer = 10 * order
         (self.hip,) = axes.plot([], [], color="#555555", lw=0.9, alpha=opacity, zorder=order)
         (self.foot,) = axes.plot([], [], color=SWING, lw=0.9, alpha=opacity, zorder=order)
@@ -143,8 +141,7 @@ class DrawnWalk:
         self.links.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
         i, points = scene.arc_at(t), view.points(t)
         self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
-        if self.trail:
-            self._extend(points, view.step(t))
+        self._extend(points, view.step(t))
         acting, foot = loads_at(scene, t), np.array(scene.foot(i, t))
         drawn, cut = self._arrow(0, foot, acting.ground_reaction)
         self._arrow(1, points[2:], acting.other)

@@ -4,8 +4,8 @@
 `moving_parts.frames` draws the frames, and `encoded` writes them as a GIF: small, shown by every page and
 slide, 64 colours and at most 50 frames a second.
 
-Walks are laid over one another, or stand side by side with the tracking errors of all of them below: an error
-of a milliradian is invisible on a robot 1.4 m high, and the curves show which controller has it.
+Walks are laid over one another, or stand side by side. An error of a milliradian is invisible on a robot 1.4 m
+high: the curves of `plot` show which controller has it.
 
 *A strip* of stick figures over a few steps, as in papers on walking: postures at equally spaced times are
 drawn over one another on the ground they walk on, darker the later; stance leg, swing leg and trunk differ in
@@ -18,16 +18,13 @@ import io
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 from PIL import Image, ImageColor
 
-from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import write_bytes
 from biped_adrc.core.types import Array
@@ -35,24 +32,19 @@ from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import Clip, Drawable, WalkScene, check_frames, ending
-from biped_adrc.view.plots.over_time import angle_unit
-from biped_adrc.view.style import PUSH, label, literal, new_figure, style, write_figure
+from biped_adrc.view.style import label, literal, new_figure, style, write_figure
 
 _GHOST = 0.35
 """Opacity of all walks but the solid one."""
 WIDTH, SHOWN = 600, 2.6
 """Width of the picture of walks laid over one another [px], [m]."""
+WIDE, PANEL = 800, 1.5
+"""Width of the picture of walks side by side [px], and what the panel of one walk shows [m]."""
 _FPS = 0.1, 50.0
 """Range of frames per second, as a GIF counts time in hundredths of a second."""
 REST = 2.0
 """Extra time [s] for which the last frame is shown where a walk ended early, to read the reason."""
-WIDE, PANEL = 800, 1.5
-"""Width of the picture of walks side by side [px], and what the panel of one walk shows [m]."""
-LINES = ("#D55E00", "#000000", "#56B4E9", "#E69F00")
-"""Vermillion, black, sky blue, orange: one for the name and the error of each walk."""
-HEAD, STRIP = 78, 150
-"""Heights [px] of the legend above and of the errors below."""
-MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, *LINES, "black", "white")
+MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, "black", "white")
 """Colours that have a place in the palette of a GIF, even where few pixels have them."""
 
 
@@ -70,8 +62,7 @@ def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) 
     times = _times(walks, clip, fps * clip.slower)
     pace = "" if clip.slower == 1.0 else f"{clip.slower:g} times slower"
     with style():
-        make = side_by_side if clip.apart else _over_one_another
-        images = draw.frames(*make(walks, times, pace), times)
+        images = draw.frames(*moving_figure(walks, pace, clip.apart), times)
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     write_bytes(path, encoded(images, fps, REST if badly else 0.0))
 
@@ -90,42 +81,73 @@ def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
     return np.append(times, stop) if badly else times
 
 
-def _over_one_another(
-    walks: Mapping[str, Drawable], times: Array, pace: str
+def moving_figure(
+    walks: Mapping[str, Drawable], pace: str, apart: bool
 ) -> tuple[Figure, Callable[[float], None]]:
-    """Make the figure of walks laid over one another; also returns the function that moves it to a time t [s].
+    """Make the figure of walks, and the function that moves it to a time t [s].
 
-    The last walk is solid; its hip keeps its place in the picture, the ground moves. A caption gives time,
-    step and pace, and how walks have ended.
+    apart: side by side, in panels as high as the tallest robot asks for, in place of over one another.
     """
-    views = {name: SideView(WalkScene.of(walk)) for name, walk in walks.items()}
-    *ghosts, solid = views
-    last = views[solid]
-    figure = draw.blank(WIDTH, WIDTH * (draw.HEADROOM * last.height + draw.SOLE) / SHOWN)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    axes.set_axis_off()
-    draw.ground(axes, list(views.values()))
-    drawn = [
-        draw.DrawnWalk(axes, view, 1.0 if view is last else _GHOST, k, trail=True)
-        for k, view in enumerate(views.values(), start=2)
-    ]
-    caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
-    text = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90)
-    text.set_parse_math(False)
-    text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
+    groups = [{name: walk} for name, walk in walks.items()] if apart else [walks]
+    width, shown = (WIDE, PANEL) if apart else (WIDTH, SHOWN)
+    share, panels = 1.0 / len(groups), []
+    views = [[SideView(WalkScene.of(walk)) for walk in group.values()] for group in groups]
+    tallest = max(draw.HEADROOM * x[-1].height + draw.SOLE for x in views)
+    figure = draw.blank(width, share * width * tallest / shown)
+    for k, group in enumerate(groups):
+        axes = figure.add_axes((k * share, 0.0, share, 1.0))
+        panels.append(_Panel(axes, group, views[k], pace, 0.5 if apart else 0.6, shown))
 
     def show(t: float) -> None:
-        draw.follow(axes, last, t, 0.6 * SHOWN, 0.4 * SHOWN)
-        for walk in drawn:
-            walk.show(t)
-        runs = {name: walk.trajectory for name, walk in walks.items()}
-        over = [
-            f"{name} {ending(run)}" for name, run in runs.items() if ending(run) and t >= run.t_end
-        ]
-        clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {last.step(t)}", pace)))
-        text.set_text(draw.wrapped("\n".join((caption, clock, *over)), 0.96 * WIDTH))
+        for panel in panels:
+            panel.show(t)
 
     return figure, show
+
+
+class _Panel:
+    """Walks laid over one another in the same axes.
+
+    The last walk is solid; its hip keeps its place in the picture, at the share `ahead` of the width `shown`
+    [m], and the ground moves. A caption gives time, step and pace, and how walks have ended.
+    """
+
+    def __init__(
+        self,
+        axes: Axes,
+        walks: Mapping[str, Drawable],
+        views: Sequence[SideView],
+        pace: str,
+        ahead: float,
+        shown: float,
+    ) -> None:
+        self.axes, self.last, self.pace = axes, views[-1], pace
+        self.around = ahead * shown, (1.0 - ahead) * shown
+        self.runs = {name: walk.trajectory for name, walk in walks.items()}
+        axes.set_axis_off()
+        draw.ground(axes, list(views))
+        self.drawn = [
+            draw.DrawnWalk(axes, view, 1.0 if view is self.last else _GHOST, k)
+            for k, view in enumerate(views, start=2)
+        ]
+        *ghosts, solid = walks
+        self.caption = f"{solid} solid, {', '.join(ghosts)} translucent" if ghosts else solid
+        self.text = axes.text(
+            0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90
+        )
+        self.text.set_parse_math(False)
+        self.text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
+
+    def show(self, t: float) -> None:
+        """Draw the walks at t [s]."""
+        draw.follow(self.axes, self.last, t, *self.around)
+        for walk in self.drawn:
+            walk.show(t)
+        ends = {name: ending(run) for name, run in self.runs.items() if t >= run.t_end}
+        over = [f"{name} {end}" for name, end in ends.items() if end]
+        clock = ", ".join(filter(None, (f"t = {t:.2f} s, step {self.last.step(t)}", self.pace)))
+        words = "\n".join((self.caption, clock, *over))
+        self.text.set_text(draw.wrapped(words, 0.96 * self.axes.bbox.width))
 
 
 def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
@@ -148,123 +170,6 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     repeated = {"duration": durations, "loop": 0, "optimize": False}
     first.save(buffer, "GIF", save_all=True, append_images=others, **repeated)
     return buffer.getvalue()
-
-
-def side_by_side(
-    walks: Mapping[str, Drawable], times: Array, pace: str
-) -> tuple[Figure, Callable[[float], None]]:
-    """Make the figure with a panel for each walk and the errors of all below; also returns
-    the function that moves it.
-
-    walks: name -> walk. times (K,) [s]: of the frames. pace: text above. The returned function draws
-    the figure at a time t [s]. All panels have the height of the tallest robot. Raises InputError
-    for walks without a reference.
-    """
-    for walk in walks.values():
-        if walk.walker.plant.p == 0:
-            raise InputError(
-                "a walk without motors has no reference to deviate from; leave 'apart' out"
-            )
-    views = [SideView(WalkScene.of(walk)) for walk in walks.values()]
-    share = 1.0 / len(views)
-    body = share * WIDE * max(draw.HEADROOM * v.height + draw.SOLE for v in views) / PANEL
-    height = HEAD + body + STRIP
-    figure, panels = draw.blank(WIDE, height), []
-    for k, (name, walk) in enumerate(walks.items()):
-        axes = figure.add_axes((k * share, STRIP / height, share, body / height))
-        colour = LINES[k % len(LINES)]
-        panels.append(_Panel(axes, views[k], walk.signals, name, colour, float(times[0])))
-    strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
-    errors = _Errors(strip, panels, times)
-    _legend(figure, pace, height)
-
-    def show(t: float) -> None:
-        for panel in panels:
-            panel.show(t)
-        errors.show(t)
-
-    return figure, show
-
-
-class _Panel:
-    """The panel of one walk: the robot, its name, and its largest error so far.
-
-    s: its signals. colour: of its name and its error. start [s]: from when the largest error counts.
-    """
-
-    def __init__(
-        self, axes: Axes, view: SideView, s: Signals, name: str, colour: str, start: float
-    ) -> None:
-        self.axes, self.view, self.signals, self.colour, self.start = axes, view, s, colour, start
-        self.ending = ending(view.scene.trajectory)
-        axes.set_axis_off()
-        draw.ground(axes, [view])
-        self.walk = draw.DrawnWalk(axes, view, 1.0, 2)
-        title = axes.text(0.04, 0.99, name, fontsize=15, color=colour, weight="bold")
-        self.text = axes.text(0.04, 0.915, "", fontsize=11)
-        for text in (title, self.text):
-            text.set(transform=axes.transAxes, verticalalignment="top", zorder=90, parse_math=False)
-
-    def show(self, t: float) -> None:
-        """Draw the walk at t [s], with its largest error so far, or how it has ended, as text."""
-        draw.follow(self.axes, self.view, t, 0.5 * PANEL, 0.5 * PANEL)
-        self.walk.show(t)
-        if self.ending and t >= self.view.scene.trajectory.t_end:
-            width = 0.92 * self.axes.bbox.width
-            self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
-            return
-        s = self.signals
-        so_far = np.nan_to_num(np.abs(s.error[(s.t >= self.start) & (s.t <= t)]))
-        largest = float(np.max(so_far, initial=0.0))  # at the nodes of the walk
-        unit, factor = angle_unit(so_far)
-        size = f"{factor * largest:.3g} {unit}" if largest >= 1e-9 else "below 1 nrad"
-        self.text.set_text(f"largest error so far {size}")
-
-
-class _Errors:
-    """The panel of errors: max_i |q_i - q_di| of every walk up to now, on one scale, with the push shaded.
-
-    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those of the
-    frames; the unit is the one in which the largest error among them reads well.
-    """
-
-    def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:
-        self.axes, self.lines = axes, []
-        low, high = float(times[0]), float(times[-1])
-        signals = [panel.signals for panel in panels]
-        largest = [np.max(np.abs(s.error), axis=1) for s in signals]
-        inside = [(s.t >= low) & (s.t <= high) for s in signals]
-        tops = np.concatenate([e[rows] for e, rows in zip(largest, inside, strict=True)])
-        tops = tops[np.isfinite(tops)]
-        unit, factor = angle_unit(tops)
-        band, pushed = axes.get_xaxis_transform(), np.any(signals[0].zeta != 0.0, axis=1)
-        look: dict[str, Any] = {"transform": band, "color": PUSH, "alpha": 0.45, "lw": 0}
-        axes.fill_between(signals[0].t, 0, 1, pushed, **look)
-        for panel, s, error in zip(panels, signals, largest, strict=True):
-            (line,) = axes.plot([], [], color=panel.colour, lw=2.0)
-            (dot,) = axes.plot([], [], "o", color=panel.colour, ms=5)
-            self.lines.append((line, dot, s.t, factor * error))
-        top = factor * float(tops.max(initial=0.0)) or 1.0
-        axes.set(xlim=(low, high), ylim=(-0.06 * top, 1.15 * top), xlabel="time [s]")
-        axes.set_ylabel(f"error [{unit}]")
-
-    def show(self, t: float) -> None:
-        """Draw the errors up to t [s]."""
-        for line, dot, at, error in self.lines:
-            rows = at <= t
-            line.set_data(at[rows], error[rows])
-            dot.set_data(at[rows][-1:], error[rows][-1:])
-
-
-def _legend(figure: Figure, pace: str, height: float) -> None:
-    """Draw the legend of the colours, and the text `pace` above it; height [px] of the picture."""
-    entries = [Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")]
-    entries += [Patch(color=REACTION, label="ground force"), Patch(color=TORQUE, label="push")]
-    legend = figure.legend(
-        handles=entries, loc="upper center", ncols=4, fontsize=11, columnspacing=1.4
-    )
-    legend.set_bbox_to_anchor((0.5, 1.0 - 26 / height))
-    figure.text(0.5, 1.0 - 6 / height, pace, ha="center", va="top", fontsize=13)
 
 
 LOOKS = {
