@@ -74,6 +74,7 @@ clean:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "biped_adrc needs Python >= 3.11; found $$($(PYTHON) --version 2>&1). Try: make PYTHON=python3.12 ..."; exit 1; }
 	$(PYTHON) -m venv .venv
+	$(BIN)/python -m compileall -q biped_adrc # for a shell in which PYTHONDONTWRITEBYTECODE is set
 	@touch $@
 
 .venv/.core: .venv/.made pyproject.toml constraints.txt
