@@ -33,8 +33,8 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
     none = np.zeros((count, 4))
     momentum = cumulative_trapezoid(newton, t, axis=0, initial=0.0)
     height = zero + 0.05 if height is None else height
-    parts = (t, zero + 1.0, zero, zero, none, none if u is None else u, none, none, momentum)
-    return Nodes(np.column_stack((*parts, zero, height)), 4)
+    parts = (t, zero + 1.0, zero, zero, none, none if u is None else u, none, zero, none, momentum)
+    return Nodes(np.column_stack((*parts, zero, height)), 5, 4)
 
 
 def judged(walker, t, F_N, finished=True, **more):
@@ -427,8 +427,8 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
             np.maximum(low - angle, angle - high),
         )
         none, mass = np.zeros(p), np.array([0.0, 0.0, 0.0, 0.1])
-        row = np.concatenate(([0.0, step, 0.0, 0.0], none, none, q[:p], v[:p], mass))
-        (found,) = supports(walker, Nodes(row[np.newaxis], p), KNOWN, 0)
+        row = np.concatenate(([0.0, step, 0.0, 0.0], none, none, q, v[:p], mass))
+        (found,) = supports(walker, Nodes(row[np.newaxis], biped.n, p), KNOWN, 0)
         assert found.rate_share == pytest.approx(np.max(shares), rel=1e-6)
         assert found.beyond_range == pytest.approx(max(np.max(beyond), 0.0), abs=1e-12)
         texts = found.infeasible()

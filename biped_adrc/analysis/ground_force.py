@@ -14,13 +14,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.signals import Signals, nodes_before_fall
 from biped_adrc.closed_loop.instant_signals import NodeRow, StepReading, node_layout
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.load import compiled
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS
 
@@ -31,27 +32,33 @@ class Nodes:
 
     rows: Array
     """(K, width), a `NodeRow` in each, as in `engine.batch.BatchWalk.table`."""
+    n: int
+    """Number of coordinates."""
     p: int
-    """Number of joints."""
+    """Number of joints with a motor."""
 
     @classmethod
     def of(cls, s: Signals) -> Nodes:
         """Take the nodes from the signals of a walk."""
-        p = s.u.shape[1]
-        q, v = s.q[:, :p], s.v[:, :p]
-        reading = StepReading(q - s.q_d, s.u, q, v, s.momentum, s.swing_foot)
+        n, p = s.q.shape[1], s.u.shape[1]
+        reading = StepReading(s.q[:, :p] - s.q_d, s.u, s.q, s.v[:, :p], s.momentum, s.swing_foot)
         parts = np.column_stack((s.t, s.step, s.outside, *reading))
-        return cls(np.ascontiguousarray(parts), p)
+        return cls(np.ascontiguousarray(parts), n, p)
+
+    def before_fall(self, h: VirtualConstraint, phase: Array) -> Nodes:
+        """The nodes of a fall that have a tracking error (`signals.nodes_before_fall`); phase (n,) [1]."""
+        count = nodes_before_fall(self.at.step, self.at.reading.q @ phase, h)
+        return Nodes(self.rows[:count], self.n, self.p)
 
     @cached_property
     def at(self) -> NodeRow:
         """The columns by name, with a leading axis of K; a repeated time is a jump."""
-        return node_layout(self.p).tree(self.rows)
+        return node_layout(self.n, self.p).tree(self.rows)
 
     @cached_property
     def _starts(self) -> Indices:
         """Where in a row each column begins."""
-        return np.array(node_layout(self.p).starts())
+        return np.array(node_layout(self.n, self.p).starts())
 
     @property
     def pointers(self) -> tuple[int, int, int, int]:

@@ -159,19 +159,21 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
         found = readings(walker, trajectory, tracked)
     result = signals_of(walker, trajectory, found)
     if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
-        return replace(result, error=error_before_fall(result, reference))
+        error = result.error.copy()
+        error[nodes_before_fall(result.step, result.theta, reference) :] = np.nan
+        return replace(result, error=error)
     return result
 
 
-def error_before_fall(s: Signals, h: VirtualConstraint) -> Array:
-    """The tracking error of a fall (K, p) [rad], NaN behind the last node of the last single support at which
-    Theta is between both ends of the curve; the first node of it keeps its error.
+def nodes_before_fall(step: Array, theta: Array, h: VirtualConstraint) -> int:
+    """How many nodes of a fall have a tracking error: those up to the last one of the last single support at
+    which Theta is between both ends of the curve, or up to the first one of it.
+
+    step (K,): numbers of the single supports at the nodes. theta (K,) [rad]: Theta there.
     """
-    first = int(np.searchsorted(s.step, s.step[-1]))
-    ends, theta, error = sorted((h.theta_plus, h.theta_minus)), s.theta[first:], s.error.copy()
-    on_curve = np.flatnonzero((ends[0] <= theta) & (theta <= ends[1]))
-    error[first + np.max(on_curve, initial=0) + 1 :] = np.nan
-    return error
+    first, ends = int(np.searchsorted(step, step[-1])), sorted((h.theta_plus, h.theta_minus))
+    on_curve = np.flatnonzero((ends[0] <= theta[first:]) & (theta[first:] <= ends[1]))
+    return first + int(np.max(on_curve, initial=0)) + 1
 
 
 def readings(

@@ -113,8 +113,8 @@ class StepReading(NamedTuple):
     """q_b - q_d (p,) [rad]."""
     u: Array
     """Torque applied (p,) [N m]."""
-    q_b: Array
-    """Angles of the joints (p,) [rad]."""
+    q: Array
+    """Coordinates (n,) [rad], those of the joints first."""
     v_b: Array
     """Their rates (p,) [rad/s]."""
     momentum: Array
@@ -136,9 +136,9 @@ class NodeRow(NamedTuple):
     """Signals of the closed loop."""
 
 
-def node_layout(p: int) -> Layout:
-    """The layout of a `NodeRow` of p joints."""
-    reading = StepReading(*(np.zeros(size) for size in (p, p, p, p, 2, 2)))
+def node_layout(n: int, p: int) -> Layout:
+    """The layout of a `NodeRow` of n coordinates, p of them with a motor."""
+    reading = StepReading(*(np.zeros(size) for size in (p, p, n, p, 2, 2)))
     return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 
 
@@ -149,7 +149,7 @@ def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     return StepReading(
         m.q[:p] - reference(i.s, m).q_d,
         i.u,
-        m.q[:p],
+        m.q,
         m.v[:p],
         plant.momentum(m.q, m.v),
         plant.swing_foot(m.q),

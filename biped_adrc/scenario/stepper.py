@@ -233,7 +233,7 @@ class Stepper:
             walk, impacts, ended = self.walks[i], int(self._impacts[i]), self.codes[i] != 0
             assert isinstance(walk, CompiledWalk)
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
-            n = Nodes(walk.run.rows(), plant.p)
+            n = Nodes(walk.run.rows(), plant.n, plant.p)
             q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
             after = plant.momentum(q, v) if len(n.steps) == impacts else None
             judged = supports(walker, n, within.of(plant.description), impacts, after)

@@ -26,6 +26,7 @@ import numpy as np
 from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes, totals
+from biped_adrc.analysis.signals import FALLS
 from biped_adrc.analysis.soft_steps import contact_errors
 from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.semantics import parts
@@ -34,6 +35,7 @@ from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.registry import FOLDERS
 from biped_adrc.engine.batch import BatchWalk, left_by, run_case
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
@@ -157,11 +159,14 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
-        n, k, after = Nodes(walked.table, plant.p), limits(s).of(plant.description), None
+        n, k, after = Nodes(walked.table, plant.n, plant.p), limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
-        result = counted(n, Feasibility(walked.status, judged, walked.impacts))
+        tracked, h = n, t.case.curve
+        if walked.status in FALLS and isinstance(h, VirtualConstraint):
+            tracked = n.before_fall(h, plant.phase)
+        result = counted(n, tracked, Feasibility(walked.status, judged, walked.impacts))
     else:
         return row
     weighed = plant.weight * float(row.get("distance") or 0.0)
@@ -169,11 +174,14 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     return row | result | {"cost_of_transport": cost}
 
 
-def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
-    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground."""
+def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
+    """Errors, torques, work and feasibility of a walk.
+
+    tracked: the nodes that have a tracking error. soft: whether the walk was made on soft ground.
+    """
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
-        **dict(zip(OF_TOTALS, totals(n), strict=True)),
+        **dict(zip(OF_TOTALS, (*totals(tracked)[:2], *totals(n)[2:]), strict=True)),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
@@ -188,7 +196,12 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
     touchdowns where the walk has them.
     """
     return {
-        **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),
+        **counted(
+            Nodes.of(walk.signals),
+            Nodes.of(walk.signals.before_fall),
+            walk.feasible_within(limits),
+            walk.soft,
+        ),
         **(_on_the_ground(walk) if walk.soft else {}),
         **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
     }

@@ -8,6 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.scenario.build import limits
+from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.page import _figures
 from biped_adrc.studies.run import counted_in, run_trials
 
@@ -66,3 +67,14 @@ def test_a_study_that_asks_for_rounding_has_it(tmp_path):
     s = s.replace({"hardware.encoders.counts": 8192.0})
     assert counted["rounding"] == ba.walk_scenario(s).rounding()
     assert run_trials([base])[0]["rounding"] is None
+
+
+def test_errors_of_a_fall_are_those_of_the_walk_and_end_where_it_leaves_the_gait():
+    values = {"controller.name": "NPD", "gait.name": "v0.8", "run.impacts": 9}
+    values |= {"hardware.torque_limit": 150.0, "hardware.period": 1e-3}
+    values |= {"pushes": "q1,q2=-150@4:0.3-0.5"}
+    (row,), walk = run_trials([values]), ba.walk_scenario(scenario_of(values))
+    assert row["status"] == walk.trajectory.status.name == "FELL"
+    assert row["peak_error"] == pytest.approx(walk.signals.peak_error, rel=1e-4)
+    assert row["rms_error"] == pytest.approx(walk.outcome.rms_error, rel=1e-3)
+    assert row["peak_error"] < 0.1 * np.nanmax(np.abs(walk.signals.q[:, :4] - walk.signals.q_d))
