@@ -7,6 +7,7 @@ quantities.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -136,6 +137,7 @@ class NodeRow(NamedTuple):
     """Signals of the closed loop."""
 
 
+@cache
 def node_layout(n: int, p: int) -> Layout:
     """The layout of a `NodeRow` of n coordinates, p of them with a motor."""
     reading = StepReading(*(np.zeros(size) for size in (p, p, n, p, 2, 2)))

@@ -31,7 +31,14 @@ class ByValue:
         return is_dataclass(self) and value_of(self) == value_of(other)
 
     def __hash__(self) -> int:
-        return hash(value_of(self)) if is_dataclass(self) else object.__hash__(self)
+        if not is_dataclass(self):
+            return object.__hash__(self)
+        known = vars(self).get("_hash")
+        if known is None:
+            known = hash(value_of(self))
+            if "_constant" in vars(self):  # as `core.once` found: nothing in it can change
+                vars(self)["_hash"] = known
+        return known
 
 
 def value_of(x: Any) -> Hashable:

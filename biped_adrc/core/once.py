@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.part import is_part
 
 _T = TypeVar("_T")
@@ -22,22 +23,26 @@ _REMEMBERED = 64
 """Results that a function of `once` keeps of a part, and parts that `shared` keeps."""
 
 
-class _Memory(dict[Hashable, Any]):
+class Memory(dict[Hashable, Any]):
     """The last results by what they were computed of; empty in another process, and in a copy by pickle."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        """The result for a key, made where it is not there."""
         if key not in self:
-            result = make()
-            while len(self) >= _REMEMBERED:
-                self.pop(next(iter(self)), None)
-            self[key] = result
+            self.keep(key, make())
         return self[key]
 
+    def keep(self, key: Hashable, result: Any) -> None:
+        """Keep a result; the oldest one goes where there are too many."""
+        while len(self) >= _REMEMBERED and key not in self:
+            self.pop(next(iter(self)), None)
+        self[key] = result
+
     def __reduce__(self) -> tuple[type, tuple[()]]:
-        return _Memory, ()
+        return Memory, ()
 
 
-_SHARED = _Memory()
+_SHARED = Memory()
 
 
 def constant(x: object) -> bool:
@@ -68,16 +73,25 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
     def found(x: Any, *more: Hashable) -> _T:
         if not (is_part(x) and all(constant(part) for part in (x, *more) if is_part(part))):
             return make(x, *more)
-        memory = vars(x).setdefault("_once", _Memory())
+        memory = vars(x).setdefault("_once", Memory())
         return memory.found((make, *more), lambda: make(x, *more))
 
     return found
 
 
 def shared(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields; the same object for the very same fields, so that it remembers."""
+    """A copy of a part with other fields; the same object for equal fields, so that it remembers."""
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
     # kept with the fields: while they live nothing else has their identities
     made = lambda: (items, part if same else type(part)(**items))  # noqa: E731
-    return _SHARED.found((type(part), *map(id, items.values())), made)[1]
+    return _SHARED.found((type(part), *map(_known_by, items.values())), made)[1]
+
+
+def _known_by(x: object) -> Hashable:
+    """A number or a constant part by class and value; all else, and a robot, by its identity."""
+    if is_part(x):
+        by_value = constant(x) and isinstance(x, ByValue) and "_constant" in vars(x)
+    else:
+        by_value = isinstance(x, (*_PLAIN, tuple)) and constant(x)
+    return (type(x), x) if by_value else id(x)

@@ -62,8 +62,8 @@ class Setup:
     """Placeholder for a field of `setup` where methods run on symbols."""
 
 
-MEMORY = ("_constant", "_once")
-"""Names under which `core.once` keeps in a part what it computed of it."""
+MEMORY = ("_constant", "_hash", "_once")
+"""Names under which a part keeps what was computed of it (`core.once`)."""
 SETUP = {"setup": True}
 """Metadata of a field that no method reads on symbols."""
 

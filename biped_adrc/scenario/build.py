@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, cast
 
@@ -21,8 +21,9 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import Passive
+from biped_adrc.control.base import Controller, Passive
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.once import Memory, constant
 from biped_adrc.core.registry import construct, find, part_of_user, takes
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
@@ -67,6 +68,8 @@ class RobotAndGait:
     """None for a robot without motors."""
     cycle: PassiveCycle | None = None
     """None for a robot with motors."""
+    laws: Memory = field(default_factory=Memory, repr=False)
+    """Controllers by what they were made of."""
 
     @classmethod
     def of(cls, s: Scenario) -> RobotAndGait:
@@ -123,6 +126,14 @@ class RobotAndGait:
         own = s.ground.slope
         return (self.cycle or self.walked).slope if own is None else own
 
+    def controller(self, s: Scenario, stones: tuple[float, ...] = ()) -> Controller:
+        """The controller of a scenario; walks of equal records share it, where nothing in it can change."""
+        key = s.controller.model_dump_json(), s.hardware.torque_limit, stones
+        law = self.laws.get(key) or controller(s, self.walked, self.biped, stones)
+        if constant(law):
+            self.laws.keep(key, law)
+        return law
+
     @property
     def walked(self) -> Gait:
         """The gait, where there has to be one. Raises InputError for a robot without motors."""
@@ -161,7 +172,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     moved = hardware.rate_limit or hardware.lag
     return Walker(
         plant,
-        controller(s, gait, biped, course.lengths if course else ()),
+        scene.controller(s, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
         timing,
         model=None if plant is biped else biped,

@@ -11,7 +11,7 @@ from biped_adrc.analysis.return_map import ReturnMap
 
 def has_compiled_form(P):
     q = np.zeros(P.walker.plant.n)
-    return P._compiled(P.walker.initial_state(q, q)) is not None
+    return P.compiled(P.walker.initial_state(q, q)) is not None
 
 
 def maps(walker, method, **more):
