@@ -147,7 +147,8 @@ def first_violation(
     """Find the first node, impact, or end of a window of the mean force, at which a walk
     violates a limit; or None.
 
-    impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
+    n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
+    [N s]: momentum after the last impact, where the walk ends with it.
     """
     result = []
     numbers, joint = limit_series(walker, n, k, impacts, after)

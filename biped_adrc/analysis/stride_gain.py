@@ -1,7 +1,7 @@
 """Gains of the PI from step to step, from the zero dynamics.
 
-With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k
-of
+beta_k [rad] is the amplitude by which the PI bends the curves in walking step k (`control.stride`). With exact
+tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta

@@ -35,8 +35,8 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
     """The tick of a walker whose states have this layout, with its derivative.
 
-    Raises InputError for a walker in continuous time; the function that is given, NotFiniteError where
-    x+ or J is not finite.
+    Raises InputError for a walker in continuous time; the returned function raises NotFiniteError where x+ or J
+    is not finite.
     """
     if walker.held is None:
         raise InputError(
@@ -70,7 +70,10 @@ _FUNCTIONS: dict[Hashable, ca.Function] = {}
 
 
 def _function(program: Program) -> ca.Function:
-    """(K, inp) -> (x+, J); the values of the program's numbers do not matter."""
+    """CasADi's function (K, inp) -> (x+, J), K the walker's numbers, inp = (t, step, t_start, x, ..).
+
+    It depends on the structure of the program alone, since the values of its numbers are the input K.
+    """
     key, nx = program.key, program.nx
     if key not in _FUNCTIONS:
         tick = program.equations.tick()

@@ -63,6 +63,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
 @once
 def _of_part(part: Any, exact: bool) -> Hashable:
+    """The structure of a part: its class, and the structures of its fields by name."""
     return type(part), *((name, structure(x, exact)) for name, x in content(part).items())
 
 

@@ -164,7 +164,7 @@ def linear_twin(walker: Walker) -> Walker:
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
 
-    Raises NotFiniteError as `tick_derivative`.
+    Raises NotFiniteError where a method has no finite derivative there.
     """
     assert isinstance(twin.timing, SampledTime)
     assert twin.held is not None
@@ -175,6 +175,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         J = np.zeros((0, 0))
         layout = twin.layout_of(x)
         ticked = ticked or tick_derivative(twin, layout)
+        # the earlier ticks only fill the memory of the sensors; J of the last one is kept
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
