@@ -37,7 +37,9 @@ from biped_adrc.hybrid.trajectory import Event
 
 MOST_ITERATIONS = 12
 """Largest number of iterations of Newton's method on P(s) - s."""
-_CHORD = 0.1  # where an iteration leaves more than this share of the residual, dP/ds is computed anew
+_CHORD = 0.1
+"""An iteration that leaves more than this share of the residual has dP/ds computed anew for the one after
+it."""
 
 
 @dataclass(frozen=True)

@@ -294,9 +294,10 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     walked in place of the rigid model's.
 
     On the rigid plant they stay as they are. The ground force of `InstantSignals` includes the external force,
-    so it is added here too. The momentum in `found` is relative to the stance foot, whose velocity is added.
+    so it is added here too. The momentum in `found` is that relative to the stance foot, whose velocity (the
+    first two columns of `speed`) is added.
     """
-    force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)  # x, z of the stance foot first
+    force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
     if force is None or speed is None:
         return found
     n, p, arcs = walker.plant.n, walker.plant.p, trajectory.arcs

@@ -241,9 +241,9 @@ def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
 
 
 def slow(r: Run, t: float, x: Array) -> bool:
-    """Check that x (nx,) at t [s] is within the bounds of the system: True, or RanAwayError is raised.
+    """Check that x (nx,) at t [s] is within the bounds of the system: returns True, or raises RanAwayError.
 
-    The compiled twin cannot raise: it returns False for rates beyond the bound, hence the name.
+    The name is that of its compiled twin, which cannot raise: it returns False for a rate or angle too large.
     """
     r.system.check_state(t, x)
     return True

@@ -5,8 +5,9 @@ the names of their numbers.
     step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
     touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
 
-x_c = (s, w, queue, waiting, u): the controller's state, and the numbers kept between sample instants. lost is
-not positive where a matrix is singular or a torque beyond the walker's bound.
+x_c = (s, w, queue, waiting, u) is what the computer keeps between sample instants: the states of controller and
+sensors, torques on their way and the one that acts, as in `hardware.sample_hold`. lost is not positive where a
+matrix is singular or a torque beyond the walker's bound.
 
 In C the numbers x_c are fields of a struct. Numbers that no function reads, such as a torque that
 nothing depends on, have no field.
@@ -64,7 +65,8 @@ class Inputs:
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
-        return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
+        return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type:
+        ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:

@@ -5,9 +5,9 @@
     observation, reward, terminated, truncated, info = env.step(action)
     envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
-A step of the environment is one sample of the walk, from one sample instant to the next (1 ms by default); a
-sample in which the foot strikes ends at the impact, where the clock restarts. `stage` defines the observation,
-`task` the reward.
+A step of the environment is one sample of the walk (not a walking step), from one sample instant to the next
+(1 ms by default); a sample in which the foot strikes ends at the impact, where the clock restarts. `stage`
+defines the observation, `task` the reward.
 
 The vector environment moves all walks by one call of machine code; each walk is that of `WalkEnv`, bit for bit.
 A walk that has ended begins anew at the next step (`AutoresetMode.NEXT_STEP`): its action of that step has no

@@ -22,9 +22,11 @@ from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.model.biped import Biped
 
 HALF, WINDOW = 0.01, 0.04
-"""Half of the interval of differences, in which encoder steps are small, and the length of a window [s]."""
+"""Half of the interval over which angles are differenced, so long that encoder counts do not matter, and the
+length of a window [s]."""
 FITS, POOR = 1.25, 0.8
-"""Ratio of r from which on another reading is meant; r above which none is trusted."""
+"""Another reading is meant where r of the log is so many times as large as its r; above the second number no
+reading is trusted."""
 
 
 def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
@@ -49,8 +51,8 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
 def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     """Iterate over the readings, the log as it stands first; none where no window fits into a support.
 
-    Each is whether the swing foot lands behind the stance foot, r, and words for it. Before a touchdown a walk
-    and its mirror image are not told apart.
+    Each has three values: whether the swing foot lands behind the stance foot, r, and words for the reading. In
+    a log without a touchdown a walk and its mirror image are not told apart.
     """
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
@@ -78,8 +80,8 @@ def _impulses(
 ) -> tuple[Array, Array]:
     """Delta(D q') - integral of (C' q' - G) dt, and the integral of B u dt, (M, n) each [N m s].
 
-    Of windows of `rows` rows from those in `begins` (M,) on; q' is the difference over `half` rows on each
-    side.
+    begins (M,): index of the first row of each window. rows: number of rows of a window. q' is the difference
+    of q over `half` rows on each side.
     """
     free, driven = np.zeros((2, len(begins), biped.n))
     for i, k in enumerate(begins):

@@ -2,9 +2,10 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`extras.play.webassembly`); its scripts compute samples, pushes
-and springs, steps back, and a ghost. It walks the scenarios it was made with, on the rigid plant: the one
-given, OTHERS, and the stations of the tour. A walk that is chosen begins anew from the start.
+The page has controllers, robot and integration as WebAssembly (`extras.play.webassembly`); its scripts compute
+samples, pushes and springs, going back in time, and a ghost (a second walk, for comparison). It can walk the
+scenarios that it was made with, on the rigid plant: the scenario of `play`, OTHERS, and the stations of the
+tour. A walk that is chosen begins anew from the start.
 
 The walk has no end and its ground is not known beforehand: the page moves the ground and a
 few footprints along with it.
