@@ -54,6 +54,7 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     )
     assert slippery.violations(but=("friction", "impulse")) == ()
     assert "torque" in weak.violations()[0]
+    # the step of x*, and the signals of one of its two steps
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
     assert len(made.signals.of_step(2).t) < len(made.signals.t)
 

@@ -189,7 +189,8 @@ def test_figure_5_depends_on_one_choice_alone():
 @pytest.mark.parametrize(
     ("rate", "word"), [(1e-9, "replicated"), (1.1e-5, "depends"), (math.inf, "depends")]
 )
-def test_the_cycle_after_the_push(rate, word):
+def test_the_claim_that_the_cycle_is_unaffected_needs_a_return_to_it_in_rates(rate, word):
+    """The rates may differ by 1e-5 rad/s from those of the cycle before the push."""
     odd = with_member(member(adrc=walk(1e-6, rate=rate)))
     assert judge("unaffected", **odd).word == word
 

@@ -14,7 +14,7 @@ from biped_adrc.disturbances.force import OnLink
 pytestmark = pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
 STEP = 0.4164
-"""[s], of the undisturbed gait."""
+"""Duration of a walking step of the undisturbed gait [s]."""
 
 
 @pytest.fixture(scope="module")

@@ -257,7 +257,7 @@ class ByForce(Gated):
 
     ahead [m]: least distance of the swing foot in front of the stance foot. after [s]: least time between two
     detections. slope [rad]: of the ground as the controller assumes it, positive downhill. off [N]: the foot
-    was free before, with less force than this. on [N]: it is loaded from more force than this on. debounce [s]:
+    was free before, with less force than this. on [N]: force above which it is then loaded. debounce [s]:
     time for which it then carries at least `off`. delay [s]: it fires so much later. A foot switch is such a
     detector with its threshold and delay.
     Raises InputError unless 0 <= off <= on.

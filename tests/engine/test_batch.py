@@ -152,6 +152,7 @@ def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
     walked = list(simulate_many(cases, threads=2))
     assert [w.status for w in walked[1::2]] == [*ends.values()]
     assert all("what the controller says" in w.detail for w in walked[1::2])
+    # the third of the errors, ZeroDivisionError, is no error of the package, so its place is named
     assert walked[5].detail.startswith("Raising.output (test_batch.py:")
     assert walked[5].detail.endswith("raised ZeroDivisionError: what the controller says")
     assert all(w.status is ba.Status.COMPLETED for w in walked[::2])

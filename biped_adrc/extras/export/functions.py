@@ -65,8 +65,7 @@ class Inputs:
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
-        return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type:
-        ignore[arg-type]
+        return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:
