@@ -172,6 +172,8 @@ def test_what_is_not_finite_ends_a_run_and_is_not_kept(system, method):
 
 
 def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait):
+    """The step is 1 over the fastest pole of the delay's approximant; 1 ms, the usual one, is unstable
+    there."""
     observer = ba.GPIObserver.from_bandwidth(300.0)
     walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
     line = np.abs(np.roots(walker.controller.pade[1][::-1])).max() / 2e-4

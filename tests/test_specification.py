@@ -105,6 +105,7 @@ LOOP = {
 
 
 def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven():
+    """The largest |multiplier| of the return map passes 1 between 0.9 and 1.1 of the margin."""
     walker, gait = candidate({"run.impacts": 2, "controller.observer.bandwidth": 300.0, **LOOP})
     spec = specified(walker, gait)
     found = []

@@ -115,6 +115,8 @@ def test_ticks_come_at_exact_times_and_the_torque_is_held():
 
 
 def test_a_contact_is_reported_and_passed_on():
+    """At each bounce the rate is -0.5 times that before, the controller jumps once, and a single support
+    ends."""
     walked = run(loop(), t_end=2.0, stop_after=("wall", 3))
     assert walked.status is ba.Status.COMPLETED
     assert [arc.mode.step for arc in walked.arcs] == [1, 2, 3]

@@ -172,7 +172,8 @@ def until_infeasible(
     it is where there is none.
 
     slipped: on soft ground, the time [s] in each single support when a foot has slipped by SLIP, infinite for
-    never. Everything before the violation is unchanged; the arc ends at the last node that is not after it.
+    never; it counts in place of the friction cone. Everything before the violation is unchanged; the arc ends
+    at the last node that is not after it.
     """
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:

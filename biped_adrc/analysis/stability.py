@@ -225,6 +225,7 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
 
     Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
     """
+    # pitch: q_N of these robots is the angle of a leg, pi where it is vertical; the search for q_N begins there
     known = passive_cycle(biped)
     angle = known.slope if slope is None else slope
     walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)

@@ -75,7 +75,7 @@ class StrideResponse(Shown):
 
         Raises InputError where the pole is not inside the unit circle.
         """
-        zero = self.c * self.b - self.d * self.a
+        zero = self.c * self.b - self.d * self.a  # d mu of the module
         mu = zero / self.d if self.d else math.inf
         r = float(np.cbrt(mu * (mu + 1.0) * (mu + self.a))) - mu
         if not abs(r) < 1.0 or zero == 0.0:

@@ -51,7 +51,9 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
         return partial(_differenced, walker)
     inputs = K, np.zeros(function.size1_in(1))
     after, columns = np.zeros(nx), np.zeros((nx, nx))
-    buffer, evaluate = function.buffer()  # CasADi knows the arrays by address
+    # CasADi reads and writes the arrays by address, so `ticked` keeps the buffer; its matrices are column by
+    # column
+    buffer, evaluate = function.buffer()
     for i, array in enumerate(inputs):
         buffer.set_arg(i, array.data)  # type: ignore[call-arg]
     for i, array in enumerate((after, columns)):

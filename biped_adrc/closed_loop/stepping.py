@@ -115,6 +115,7 @@ class SteppingLoop(ClosedLoop[Any]):
             numbers(x0, "the initial state"),
         )
         options.check(x)
+        # the layout follows from q and v alone, so an x that is too short is replaced to find the expected size
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
         if len(x) != expected:
@@ -167,7 +168,7 @@ class SteppingLoop(ClosedLoop[Any]):
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, mode)
         row, q = after, after[:n]
-        if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
+        if not (q.dot(q) < near and row.dot(row) < slow):  # tests all angles and rates at once
             if not np.all(np.isfinite(row)):
                 raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
             self.bounds.check(end, q, row[n : 2 * n])

@@ -401,7 +401,7 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
-    """Raise InputError for a reference or gains of a robot with other joints than p motors, len(m.q) in all."""
+    """Raise InputError for a reference or gains that do not fit p motors and the coordinates of m, len(m.q)."""
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):
         gains.check(p)

@@ -131,7 +131,7 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
     - cases: may be a generator, of which a few are taken ahead.
-    - threads: the number of cores without.
+    - threads: number of threads; None: the number of cores.
 
     A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
     for a case whose parts do not fit together.

@@ -248,7 +248,8 @@ class Equations:
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
-        if len(x) != self.nx:  # all other methods are called once at the start of a run
+        # jump alone is not tried at the start of a run, so the size of its result is checked here
+        if len(x) != self.nx:
             name = type(self.numbers.controller).__name__
             raise Located(f"{name}.jump gives a state of another size than initial_state")
         return self.function(inp, x, loop.lost)
@@ -305,8 +306,8 @@ def matvec_function(k: int, p: int) -> SymbolicFunction:
 def push_function(term: Disturbance, n: int) -> SymbolicFunction:
     """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
 
-    Not computed where the term does not act, since most pushes act for a small part of a walk. Raises
-    NotCompiled.
+    The code computes nothing where the term does not act, since most pushes act for a small part of a walk.
+    Raises NotCompiled for a term that cannot be traced or returns other shapes.
     """
     (K, symbols), inp, trace = symbols_of(term), Vector("inp", 3 + 2 * n), Tracer()
     when, state = (inp.take(), inp.take(), inp.take()), (inp.take(n), inp.take(n))

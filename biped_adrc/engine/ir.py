@@ -134,7 +134,10 @@ def module_text(functions: dict[str, SymbolicFunction]) -> str:
 
 
 def function_text(name: str, function: SymbolicFunction) -> str:
-    """The text of one function with arguments K, inp, out, which do not overlap."""
+    """The text of one function with arguments K, inp, out, which do not overlap.
+
+    With `acts` it computes that number first, into out, and where it is not above 0 writes zeros and returns.
+    """
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
     lines = [*_lines("v", function, function.out), "ret void"]
     if function.acts is not None:

@@ -191,6 +191,7 @@ class CompiledWalker:
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         codes = [push_code(x, n).addresses["push"] for x in push.terms]
+        # of each term the address of its code and how many numbers it has, whole numbers in cells of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),

@@ -65,9 +65,9 @@ def simulate_by(
 ) -> Trajectory:
     """Run a walker from x0 (nx,) by an engine of ENGINES; options are the fields of `RunOptions`.
 
-    impacts: the run ends after so many. A robot that is no planar tree is simulated with Pinocchio
-    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was
-    asked for. Raises InputError.
+    impacts: the run ends after so many. A robot that is no planar tree is simulated with Pinocchio by any
+    engine. settings["engine"] says what ran, and settings["why"] why it is not the `engine` of the call. Raises
+    InputError for an unknown engine, a start that is not finite, and parts that do not fit together.
     """
     check_engine(engine)
     if impacts is not None:
@@ -180,7 +180,8 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
     Python.
 
-    Machine code gives NaN without a name; the methods in Python name the class that gave it.
+    Machine code gives NaN without a name; the methods in Python name the class that gave it. So Python repeats
+    the last ONWARD seconds; where it ends otherwise, its error is not that of the run, and the text stays.
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail

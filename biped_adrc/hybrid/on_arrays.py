@@ -311,8 +311,9 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 # -- a solver's steps ------------------------------------------------------------------------------
 def solve(r: Run, t_next: float) -> float:
-    """x1, dx1 (nx,) after the solver's next step towards t_next [s]; its end [s]. A new t_next starts it at x0.
+    """Take the solver's next step towards t_next [s] into x1, dx1 (nx,); returns the time [s] of its end.
 
+    A new t_next starts the solver at x0. The flow is asked no later than r.limit, just before the next break.
     Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
     """
     if r.t_next != t_next:

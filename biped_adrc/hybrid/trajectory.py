@@ -60,8 +60,8 @@ class Arc(Shown):
 
     @property
     def seen(self) -> Array:
-        """Node times (K,) [s] for left limits: at a jump the first of the two equal times moves
-        back by one ulp.
+        """Node times (K,) [s] for left limits: the first of the two equal times of a jump, and the end of the
+        arc, move back by one unit in the last place.
 
         A signal evaluated there is what acted until the jump, such as the torque before a sample
         instant.

@@ -64,6 +64,7 @@ def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
 
 
 def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
+    """150 N m times the action, over 1 ms: the state after it is that of another integration, within 1e-6."""
     env = made(start={"speed_spread": 0.0})
     q, v = env.unwrapped.stage.scene.on_orbit
     action = np.array([0.2, -0.1, 0.3, 0.05])

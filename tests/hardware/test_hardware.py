@@ -86,6 +86,8 @@ def test_at_impact_differences_start_anew():
 
 
 def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
+    """The rate is off by the drift d, the angle at the k-th tick by b + k d T; an impact changes the rate
+    alone."""
     bias, drift, sensor = 0.02, -0.3, PitchSensor(0.02, -0.3).sampled(3, 2, T)
     q, v, hit = np.random.default_rng(5).normal(size=(3, 3))
     off = np.array([0.0, 0.0, 1.0])
@@ -107,6 +109,7 @@ def line(j, waiting):
 @pytest.mark.parametrize("j", [0, 1, 3])
 @pytest.mark.parametrize("f", [0.0, 0.4])
 def test_a_torque_acts_when_its_delay_is_over(j, f):
+    """A delay of (j + f) periods: torque i acts from tick i + j on, after a fraction f of that period."""
     k, _ = Motors().sampled(2, (j + f) * T, T)
     at = line(j, int(f > 0))
     asked = RANDOM.normal(size=(10, 2))

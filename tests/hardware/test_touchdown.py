@@ -166,6 +166,7 @@ def test_missed_ones_come_with_their_probability():
 
 
 def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
+    """Up to one tick of 1 ms; the speed of the foot is taken at the touchdown, which leaves 0.1 to 0.2 ms."""
     height = 4e-3
     system = walker(biped, gait, ByKinematics(height=height))
     walked = run(system, gait, 0.43)
@@ -214,6 +215,9 @@ def notices(leaf, forces, foot=(0.3, 0.0), other=0.0, t_step=0.5):
 
 
 def test_by_force_has_hysteresis_debounce_and_a_gate():
+    """Thresholds 20 and 50 N: free below the first, loaded above the second; times in ms. The last two rows
+    have the foot too near, 0.05 m ahead, and the last detection too recent, 0.05 s ago.
+    """
     up = [0.0, 60.0, 60.0, 60.0, 60.0]
     assert notices(ByForce(), up) == [1]
     assert notices(ByForce(debounce=2e-3), up) == [3]

@@ -174,6 +174,8 @@ def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controll
 
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
+    """20 N m within 1 N m, away from the touchdown, where contact makes more than 100 N m on soft ground
+    alone."""
     soft, rigid = (
         walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
         for x in ("mujoco", "rigid")
@@ -213,6 +215,7 @@ def test_without_an_observer_nothing_is_estimated(log):
 
 
 def test_another_period_is_resampled_and_said(log):
+    """From 1 ms to 2 ms each second row stays, and a torque is the mean of two."""
     half = replace(log, t=log.t, remarks=())
     found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1

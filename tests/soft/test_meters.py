@@ -74,6 +74,7 @@ def test_the_point_that_touches_moves_as_the_places_say(walk):
 
 
 def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
+    """A sphere of 5 cm whose centre moves at its radius times the shin's rate has a contact point at rest."""
     plant = MuJoCoPlant(biped, SoftGround(friction=1.0, foot_radius=0.05))
     q, v = gait.start(biped)
     state = plant.start(0.0, q, v)

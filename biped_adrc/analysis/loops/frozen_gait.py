@@ -150,7 +150,8 @@ class TickMatrices(NamedTuple):
 def linear_twin(walker: Walker) -> Walker:
     """The walker without its parts that have no derivative: limits, counts, noise, pushes.
 
-    Raises InputError for a walker in continuous time, or one that detects touchdowns.
+    Its motors are left out too, since `walker_loop` adds their lag to the robot. Raises InputError for a walker
+    in continuous time, or one that detects touchdowns.
     """
     if not isinstance(walker.timing, SampledTime) or walker.touchdown is not None:
         raise InputError(
@@ -189,10 +190,10 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     """Drop the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
 
     Two numbers that act on everything in the same ratio become one, their weighted sum: as the old angle of an
-    encoder and the rate of its filter do.
+    encoder and the rate of its filter do. Without the dropped numbers others may have no effect, so it repeats.
     """
     Z, Y, C, E = tick
-    columns = np.concatenate((*Z, *C)).T
+    columns = np.concatenate((*Z, *C)).T  # row i: all effects of number i of z
     k = len(columns)
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]

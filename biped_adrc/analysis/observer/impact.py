@@ -82,6 +82,8 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
     def chain(time: float, q: Array, v: Array) -> Array:
+        """States (order, p) at a time [s] of the orbit: q_b, q_b', xi, its derivatives by the fits, then
+        zeros."""
         rows = [q[: biped.p], v[: biped.p], biped.reduction(q, v).xi]
         rows += [np.array([fit.deriv(j)(time) for fit in fits]) for j in range(1, DERIVATIVES + 1)]
         return np.array([*rows, *[np.zeros(biped.p)] * order][:order])

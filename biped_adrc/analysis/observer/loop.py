@@ -238,6 +238,7 @@ class SampledLoop:
         size = 2 + k + queue + late
         rows = np.eye(size + 2)
         e, rate, xi, n = rows[[0, 1, size, size + 1]]
+        # line: the torques on their way, the oldest first
         Z, line = rows[2 : 2 + k], rows[2 + k : size]
         o = self.observer.sampled(T)
         correction = np.outer(o.L, e + n - Z[0])
@@ -318,8 +319,9 @@ def largest_delay(loop: SampledLoop) -> float:
 
 
 def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
-    """Find where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
+    """The largest number for which `holds` and below which it holds too, by bisection to 1e-6 of it.
 
+    tried: increasing numbers; bisection goes on between the first at which it does not hold and the one before.
     NaN when it does not hold at the first, infinite when it holds at all of them.
     """
     low = math.nan

@@ -191,6 +191,7 @@ class ObserverReport(OnHardware):
             (f"delay margin, period {period}", *map(microseconds, self.sampled_margins)),
         ]
         for name, late in (("no delay", 0.0), ("a delay of one period", 1.0)):
+            # without a delay there is nothing to know, and both columns have the same loop
             known = (replace(loop, known=k and late > 0.0) for k in (False, True))
             periods = (microseconds(largest_period(one, late)) for one in known)
             rows.append((f"largest period, {name}", *periods))

@@ -190,6 +190,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         Returns observations (N, ..), rewards (N,), whether each has fallen (N,), whether its time or impacts
         are over (N,), and the infos. Raises InputError for actions of another shape or not finite.
         """
+        # `again`: walks that ended at the last step; in place of this step they begin anew, with the reward 0
         stage, again = self.stage, self.over
         stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         for i in np.flatnonzero(again):
@@ -240,7 +241,7 @@ class Picture:
         return list(zip(ends, roles_of(self.bones, self.biped, step), strict=True))
 
     def drawn(self, i: int) -> NDArray[np.uint8]:
-        """Draw walk i as pixels (HEIGHT, WIDTH, 3)."""
+        """Draw walk i as pixels (HEIGHT, WIDTH, 3), with the hip in the middle and tiles along the ground."""
         row, foot, first = self.stage.view[i], self.stage.feet[i], self.stage.first
         q, t, step = row[: self.biped.n], float(row[first]), int(row[first + 1])
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")

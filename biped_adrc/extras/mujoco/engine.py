@@ -126,9 +126,10 @@ class MuJoCoEngine:
         return self.read(row)
 
     def followed(self, u: Array, u_m: Array, steps: int) -> Array:
-        """Advance by this many steps with lagging motors, from their torque u_m to the command u (p,) [N m].
+        """Take this many integration steps with lagging motors, whose torque goes from u_m to the command u
+        (p,).
 
-        Returns their torque (p,) [N m] at the end.
+        Returns their torque (p,) [N m] at the end. Over each step MuJoCo gets the exact mean of the torque.
         """
         ratio = self.options.timestep / self.lag
         left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio

@@ -96,7 +96,7 @@ def page(
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
     scenarios[first] = scenario
-    chosen = set(scenarios)
+    chosen = set(scenarios)  # walks of the tour are added below, and have no slider of the delay
     stations = guided(scenario, scenarios)
     walks = {first: variants(first, scenario, samples)}
     for name, s in scenarios.items():
@@ -153,7 +153,11 @@ def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str,
 
 
 def laid_out(walk: PageWalk) -> WalkScene:
-    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once."""
+    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once.
+
+    Its trajectory is made up: each of its arcs stands for a footprint, which the page moves along with the
+    walk.
+    """
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
