@@ -306,8 +306,8 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 
 def test_what_gait_b_needs_of_ground_and_motors():
-    """Gait (b) needs a friction of 0.57 and 315 N m, which breaks limits that gait (a) keeps; its impact leaves
-    the constraint by more than 1, that of gait (a) by less than 1e-9.
+    """Gait (b) needs a friction of 0.57 and 315 N m, which breaks limits that gait (a) keeps; after its
+    impact the rates of the joints are off those of the references by more than 1 rad/s, by 1e-9 on gait (a).
     """
     a, b = (
         runs.walk_scenario(by_rk4("NPD", "identified", gait=gait, run={"impacts": 2})).outcome

@@ -2,9 +2,9 @@
 
     footing(row, u, load) -> Feet     what a plant gives, for instance `MuJoCoPlant`
 
-Forces of the ground follow from state, torque and load, so nothing is added to a run, nor to what it costs:
-`with_readings` asks the plant at every node of a finished run, and puts the answers into it, from where files
-carry them.
+Forces of the ground follow from state, torque and load, so a run does not compute them: `with_readings` asks
+the plant at every node of a finished run and adds the answers to the arcs (`Arc.read`), with which they are
+stored.
 """
 
 from __future__ import annotations

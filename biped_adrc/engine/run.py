@@ -180,8 +180,8 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
     Python.
 
-    Machine code gives NaN without a name; the methods in Python name the class that gave it. So Python repeats
-    the last ONWARD seconds; where it ends otherwise, its error is not that of the run, and the text stays.
+    Machine code gives NaN without a name; the methods in Python name the class that gave it. So Python goes
+    on from the last good state for ONWARD seconds; where it ends otherwise, the text stays as it is.
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail

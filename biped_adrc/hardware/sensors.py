@@ -4,8 +4,8 @@
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
 or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump,
-and a difference across it is useless: v^ goes through the nominal model's impact (7), and the first
-tick after it keeps that value.
+and a difference across it is no rate: v^ is mapped by the nominal model's impact, (7) of the paper, and the
+first tick after it keeps that value.
 
 The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 

@@ -319,7 +319,7 @@ def largest_delay(loop: SampledLoop) -> float:
 
 
 def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
-    """The largest number for which `holds` and below which it holds too, by bisection to 1e-6 of it.
+    """The number up to which `holds` is true, by bisection to 1e-6 of it.
 
     tried: increasing numbers; bisection goes on between the first at which it does not hold and the one before.
     NaN when it does not hold at the first, infinite when it holds at all of them.

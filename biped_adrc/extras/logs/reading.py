@@ -2,11 +2,12 @@
 
 On windows of single support the momentum D q' of the pinned robot changes by the impulses that act on it:
 
-    Delta(D q') = integral of (C' q' - G + B u) dt,     r = |left - right| / |D q', C' q' - G, B u|
+    a = Delta(D q') - integral of (C' q' - G) dt,   b = integral of B u dt,   r = |a - b| / sqrt(|a|^2 + |b|^2)
 
-with q' from differences of the angles. r is about 0.1 for the right reading on exact sensors, 0.5 with
-encoders, friction and masses that are 30 % off, and 0.9 or more for a wrong one. The mirror image of a walk,
-angles and torques with the other sign, fits as well, but its swing foot lands behind the stance foot.
+with q' from differences of the angles, a = b on exact data, and norms over all windows. r is about 0.1 for the
+right reading on exact sensors, 0.5 with encoders, friction and masses that are 30 % off, and 0.9 or more for a
+wrong one. The mirror image of a walk, angles and torques with the other sign, fits as well, but its swing foot
+lands behind the stance foot.
 """
 
 from __future__ import annotations
