@@ -86,7 +86,7 @@ class TorqueLine:
         if len(queue) > 0:
             next_one = queue[0]
             queue = np.concatenate((queue[1:], u[np.newaxis]))
-        if line.waiting is not None:
+        if line.waiting is not None:  # it replaces u later in the period, by `semantics.release`
             return Line(queue, line.u_m, next_one, line.u)
         return Line(queue, line.u_m, None, next_one)
 
