@@ -26,6 +26,7 @@ def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
 
 
 def test_regression_finds_a_linear_map_and_warns_when_it_cannot():
+    """Seven random points give the multipliers of a 3 x 3 map; points on one line leave two of them open."""
     random = np.random.default_rng(0)
     Phi = np.diag([0.9, -0.5, 0.2])
     x = [random.normal(size=3)]
@@ -54,6 +55,7 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     )
     assert slippery.violations(but=("friction", "impulse")) == ()
     assert "torque" in weak.violations()[0]
+    # the step of x*, and the signals of one of its two steps
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
     assert len(made.signals.of_step(2).t) < len(made.signals.t)
 

@@ -52,6 +52,8 @@ def with_member(odd):
 
 # -- the set -------------------------------------------------------------------------------------
 def test_the_set_is_balanced():
+    """Of any two factors each pair of values is in equally many of the 36 members, and no member is there
+    twice."""
     found, factors = members(), declared()["factors"]
     assert len(found) == len(set(found)) == 36
     for one, other in itertools.combinations(factors, 2):
@@ -189,7 +191,8 @@ def test_figure_5_depends_on_one_choice_alone():
 @pytest.mark.parametrize(
     ("rate", "word"), [(1e-9, "replicated"), (1.1e-5, "depends"), (math.inf, "depends")]
 )
-def test_the_cycle_after_the_push(rate, word):
+def test_the_claim_that_the_cycle_is_unaffected_needs_its_rate_after_the_push(rate, word):
+    """Theta' at the impact after the push may differ by 1e-5 rad/s from that of the walk without it."""
     odd = with_member(member(adrc=walk(1e-6, rate=rate)))
     assert judge("unaffected", **odd).word == word
 
@@ -303,6 +306,9 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 
 def test_what_gait_b_needs_of_ground_and_motors():
+    """Gait (b) needs a friction of 0.57 and 315 N m, which breaks limits that gait (a) keeps; after its
+    impact the rates of the joints are off those of the references by more than 1 rad/s, by 1e-9 on gait (a).
+    """
     a, b = (
         runs.walk_scenario(by_rk4("NPD", "identified", gait=gait, run={"impacts": 2})).outcome
         for gait in GAITS

@@ -51,7 +51,7 @@ def test_the_peak_and_the_integral_of_a_signal_with_nan_are_infinite():
 
 
 def walked(**values):
-    """Two steps of nobody's, with these values."""
+    """The outcome of a made-up walk of two steps, with these values."""
     return outcome("ADRC", 1e-3, **{"impacts": 2, "asked": 2, "half": False} | values)
 
 

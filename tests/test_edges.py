@@ -14,7 +14,7 @@ from biped_adrc.disturbances.force import OnLink
 pytestmark = pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
 STEP = 0.4164
-"""[s], of the undisturbed gait."""
+"""Duration of a walking step of the undisturbed gait [s]."""
 
 
 @pytest.fixture(scope="module")
@@ -87,6 +87,8 @@ def observed(biped, gait):
 
 
 def test_a_step_too_long_for_the_observer_is_named_where_it_spoils_the_errors(observed):
+    """An integration step longer than 1 / bandwidth makes the peak error wrong by `share`; a shorter one has no
+    remark."""
     for bandwidth, h, share in ((5000.0, 5e-4, 3.0), (2000.0, 1e-3, 0.1)):
         exact, silent = observed(bandwidth, 5e-5)
         assert silent == ()

@@ -38,7 +38,8 @@ def handmade(walker, t, F_N, F_T=None, height=None, u=None):
 
 
 def judged(walker, t, F_N, finished=True, **more):
-    """What `supports` says of it, with an impulse along the normal at its end."""
+    """The `Support` of a handmade single support, with an impulse along the normal at its end if it is
+    finished."""
     n = handmade(walker, t, F_N, **more)
     after = n.rows[-1, -4:-2] + ground_axes(walker.ground_slope)[1]
     (found,) = supports(walker, n, KNOWN, int(finished), after)
@@ -86,6 +87,8 @@ def test_a_foot_that_is_lifted_needs_no_friction_and_is_infeasible(walker):
 
 
 def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
+    """70 N along 100 N need 0.7, forwards and backwards; 90 N that change their sign at 1 kHz cancel in 5
+    ms."""
     t = grid()
     for sign in (-1.0, 1.0):
         s = judged(walker, t, np.full(len(t), 100.0), F_T=np.full(len(t), 70.0 * sign))
@@ -112,6 +115,7 @@ def test_friction_is_along_the_ground(walker, slope):
 
 
 def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
+    """The ends are 3 % of 0.4 s, 12 ms; the end counts where no touchdown follows (finished=False)."""
     t = grid()
     F_N = np.full(len(t), WEIGHT)
     ends = np.where((t < 0.011) | (t > 0.389), -1e-3, 0.02)
@@ -165,7 +169,10 @@ def test_a_force_that_is_no_number_is_not_feasible(walker):
 
 
 def test_the_mean_over_a_window_is_that_of_the_force_in_it(walker):
-    """Of a force that is constant between nodes, so that the momentum is linear, windows begin anywhere."""
+    """The force is constant between nodes, so that the momentum is linear and windows may begin anywhere.
+
+    The 0.2 s before 0.25 s have 0.05 s of 100 N and 0.15 s of 400 N, which is 65 N s; the whole has 0.
+    """
     t = np.array([0.0, 0.1, 0.1, 0.25, 0.25, 0.6])
     n = handmade(walker, t, np.array([1.0, 1.0, 4.0, 4.0, -2.0, -2.0]) * 100.0)
     found = demands(walker, n, 0.2, 1)[0]
@@ -268,7 +275,8 @@ def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
 
 
 def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact(bare, published):
-    """By the impulse of (7) at x-, against a friction a little below and above what it asks for."""
+    """The limit of friction is 0.1 % below and above the ratio of the impulse, which (7) of the paper gives at
+    x-."""
     walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, impacts=2)
     asks = abs(np.divide(*bare.impact(published.q_minus, published.v_minus).impulse))
     assert asks > 0.6
@@ -517,7 +525,7 @@ def test_the_first_window_after_a_touchdown_counts_at_every_touchdown(biped, gai
 
 
 def test_clearance_is_that_of_the_middle_of_the_step(biped, gait):
-    """Of a foot that is lower in the first and the last 3 % than anywhere between them."""
+    """A foot that is lowest in the first or the last 3 % of the step has the clearance of the rest, 0.05 m."""
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=1)
     s = walk.signals
     share = (s.t - s.t[0]) / (s.t[-1] - s.t[0])

@@ -22,7 +22,7 @@ WRITES = "writes into an array that it was handed"
 
 
 def said(walker, gait, **more):
-    """What a walk is refused with at its start, or raised later on."""
+    """The sentence with which a walk is refused at its start, or ends as RAISED later on."""
     try:
         run = ba.walk(walker, gait, 1, **more).trajectory
     except InputError as error:
@@ -99,7 +99,7 @@ def test_a_controller_that_writes_into_what_it_is_given(engine, timing, does, af
 
 
 class LowPass:
-    """y follows what it is called with, and is kept."""
+    """A low-pass that keeps its last result y in itself, and not in the controller's state."""
 
     y = None
 
@@ -194,7 +194,7 @@ def still(s, m):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_other_parts_that_write(engine, biped, gait):
+def test_a_jump_and_a_disturbance_that_write_into_their_arguments_are_named(engine, biped, gait):
     sampled = TIMINGS["ticks"]
     relabels = ba.Walker(biped, Relabels(gait.constraint, still), timing=sampled)
     assert re.search(r"swap\[::-1\].*" + WRITES, said(relabels, gait, engine=engine))
@@ -353,7 +353,9 @@ SPOILT = [
 
 @pytest.mark.parametrize(("what", "method", "bad"), SPOILT)
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_method_that_gives_something_else(engine, what, method, bad, biped, gait):
+def test_a_method_that_gives_something_else_is_refused_by_its_name(
+    engine, what, method, bad, biped, gait
+):
     npd = NPD(gait.constraint, still)
     if what == "observer":
         parts = {"controller": ba.ADRCController(gait.constraint, spoilt(Watching(), method, bad))}

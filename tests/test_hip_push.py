@@ -14,9 +14,9 @@ from validation.forced_steps import forced_walk, stopping_force
 from validation.hip_push import STANCE_KNEE, HipCase, PushedWalk
 
 STEPS = 3
-"""Of the tests."""
+"""Number of walking steps in these tests."""
 RESOLUTION = 0.1
-"""[N] between the forces that are walked."""
+"""Distance of the two forces of walks around the predicted one [N]."""
 
 
 class Alone(NamedTuple):

@@ -20,7 +20,7 @@ def state(biped):
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_the_laws_of_the_impact_hold_to_round_off(preset):
     found = model_laws(preset, samples=300)
-    assert len(found) == 9
+    assert len(found) == 9  # the laws of `paper.physical_laws`, none left out
     assert [name for name, x in found.items() if not x <= 1e-12] == []
 
 

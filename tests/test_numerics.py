@@ -52,6 +52,7 @@ def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
     ("timing", "plain"), [(ba.ContinuousTime(), False), (ba.SampledTime(1e-3), True)]
 )
 def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
+    """At 0.7 of a walk's peak torque or rate they end it alike in both engines; at 1.01 they do not."""
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, Undecorated(law) if plain else law, timing=timing)
     peak = np.max(np.abs(ba.walk(walker, gait, impacts=1).signals.u)) / 150.0
@@ -171,6 +172,8 @@ def test_what_is_not_finite_ends_a_run_and_is_not_kept(system, method):
 
 
 def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait):
+    """The step is 1 over the fastest pole of the delay's approximant; 1 ms, the usual one, is unstable
+    there."""
     observer = ba.GPIObserver.from_bandwidth(300.0)
     walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
     line = np.abs(np.roots(walker.controller.pade[1][::-1])).max() / 2e-4

@@ -26,7 +26,7 @@ WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", 
 
 @pytest.fixture(scope="session")
 def walked(gait, biped):
-    """One step."""
+    """The trajectory of a walk of one step."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     return ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
 

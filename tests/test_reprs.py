@@ -15,6 +15,7 @@ TICKS = ba.SampledTime(1e-3)
 
 
 def test_parts_and_walks_fit_a_line(biped, gait):
+    """The repr of each has no line break and at most 120 characters."""
     npd, adrc = ba.NPDController(gait.constraint), ba.ADRCController(gait.constraint)
     pulse = ba.TorquePulse([30, 30, 30, 30, 0], step=1, start=0.1, stop=0.3)
     walker = ba.Walker(biped, adrc, pulse, timing=ba.SampledTime(1e-3), sensors=ba.Sensors())

@@ -29,7 +29,7 @@ TICK = ba.SampledTime(5e-3)
 
 @dataclass(frozen=True)
 class Ball:
-    """own = (number of bounces,)."""
+    """The ball, with own = (number of bounces,); a bounce later than `sticks_at` [s] ends the run."""
 
     restitution: float = 0.5
     sticks_at: float = np.inf
@@ -115,6 +115,8 @@ def test_ticks_come_at_exact_times_and_the_torque_is_held():
 
 
 def test_a_contact_is_reported_and_passed_on():
+    """At each bounce the rate is -0.5 times that before, the controller jumps once, and a single support
+    ends."""
     walked = run(loop(), t_end=2.0, stop_after=("wall", 3))
     assert walked.status is ba.Status.COMPLETED
     assert [arc.mode.step for arc in walked.arcs] == [1, 2, 3]
@@ -150,6 +152,7 @@ def xi_of(system, t, x):
 
 
 def test_what_acted_is_recorded_and_stored(tmp_path):
+    """zeta at the nodes is the push; the observer finds xi of a ball lighter than the model within 10 %."""
     push = ba.TorqueSine((3.0,), frequency=2.0)
     reference = TimeReference(lambda t: (np.full(1, 0.5), np.zeros(1), np.zeros(1)))
     adrc = ba.ADRCController(reference, ba.GPIObserver.from_bandwidth(60.0), ba.Gains(80.0, 15.0))
@@ -180,6 +183,7 @@ def test_a_plant_without_feet_has_no_readings_of_them():
 
 
 def test_sensors_and_motors_lie_in_between():
+    """Torques change by at most 400 N m/s times the period, 0.4 of a period after each sample instant."""
     hardware = {"sensors": Sensors(counts=2000), "motors": Motors(rate_limit=400.0)}
     system = loop(timing=replace(TICK, delay=0.4 * TICK.period), **hardware)
     walked = run(system, t_end=0.3)
@@ -225,7 +229,8 @@ def test_plants_that_break_the_contract_are_refused():
 
 
 def at_contact(**change):
-    """What is told of a contact, changed: each value is made from what is told."""
+    """A function that changes fields of a `Moved` with contacts; each new value is a function of the old
+    `Moved`."""
 
     def told(moved):
         if not moved.contacts:
@@ -240,7 +245,7 @@ def contact(**change):
 
 
 def telling(change):
-    """A ball that tells something else of how it moved."""
+    """A ball whose `advance` returns change(moved) in place of its `Moved`."""
 
     class Liar(Ball):
         def advance(self, *given):

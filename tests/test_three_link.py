@@ -34,6 +34,7 @@ def test_model_is_the_published_one() -> None:
 
 
 def test_outputs_are_the_published_ones() -> None:
+    """The torso and the swing leg as the published polynomials of the angle of the stance leg."""
     rng = np.random.default_rng(6)
     for th in rng.uniform(-1.0, 1.0, (5, 3)):
         o = outputs()(0.0, TO_Q @ th + ZERO, np.zeros(3))

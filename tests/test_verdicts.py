@@ -1,5 +1,5 @@
-"""Checks of the reproduction at their limits and on made-up results; what breaks one reaches summary and
-exit code; what is planned."""
+"""The checks of the reproduction hold up to their limits, on made-up results; a check that does not hold
+reaches summary and exit code; and a plan has the runs that it says."""
 
 import json
 import math
@@ -26,7 +26,7 @@ from .made_up_results import CERTIFICATE, cycle, head, outcome, results
 
 
 def away(off):
-    """States before the impacts of a walk that misses x* by so much."""
+    """States before nine impacts of a walk, all off x* by `off` [rad] in one angle."""
     return np.tile(X_STAR + np.eye(10)[3] * off, (9, 1))
 
 
@@ -100,6 +100,7 @@ def test_a_step_that_is_no_step_of_the_gait(odd):
     ],
 )
 def test_what_is_off_breaks_its_check(odd, count):
+    """Each row has a number a little beyond the limit of `count` checks, or within it, where count is 0."""
     assert len(broken(**odd)) == count
 
 

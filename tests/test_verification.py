@@ -60,7 +60,7 @@ def is_stored(row: Row, shown: dict[str, str]) -> bool:
 
 
 def check(rows: tuple[Row, ...]) -> None:
-    """They hold, and docs/verification.csv has these numbers."""
+    """All rows with a target hold, and docs/verification.csv has their numbers."""
     targets = [row for row in rows if row.has_target]
     assert targets
     for row in targets:
@@ -135,7 +135,7 @@ def test_the_verdict_of_a_row_follows_from_its_numbers(one: Row, verdict: str) -
     assert len(one.cells()) == len(COLUMNS)
 
 
-def test_rows_that_make_no_sense() -> None:
+def test_a_row_with_a_negative_tolerance_or_one_relative_to_zero_is_refused() -> None:
     with pytest.raises(InputError, match="tolerance of 'q' is -1"):
         row(2.0, -1.0)
     with pytest.raises(InputError, match=r"take Measure\.ABSOLUTE"):

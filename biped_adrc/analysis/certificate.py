@@ -85,7 +85,7 @@ class Support(Shown):
     """|F_T| / F_N of the impulse of its impact: infinite where the ground would have had to pull, 0 without
     one."""
     limits: KnownLimits
-    """The limits; on soft ground, where friction is the simulator's, its mu is infinite."""
+    """The limits; mu is infinite on soft ground, where the simulator limits the friction itself."""
 
     def infeasible(self) -> dict[str, str]:
         """The numbers that are not within their limits: name in `REASONS` -> text; empty for a
@@ -173,9 +173,10 @@ def limit_series(
     """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
     at the end of each single support. And joint(name, i), the joint of a number in OF_JOINTS at node i.
 
-    Slips are not among them. Normal forces are inf and friction ratios -inf where no mean force ends or, the
-    latter, it does not push. impacts, after: as for `impulse_ratios`; where friction is not limited, on soft
-    ground, impulses are 0.
+    Slips are not among them. Where no window of the mean force ends at a node, its normal force is inf and its
+    friction ratio -inf; the ratio is -inf too where the mean force does not push. impacts: number of single
+    supports that ended in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with
+    it. Where friction is not limited, on soft ground, impulses are 0.
     """
     at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
     if k.friction < math.inf:
@@ -203,8 +204,8 @@ def supports(
 ) -> tuple[Support, ...]:
     """Extremes of each of the S single supports of a walk, of which the first `impacts` ended in an impact.
 
-    k: limits. after: as for `impulse_ratios`. slips: slip of each single support on soft ground [m], in place
-    of the friction cone; None on the rigid plant.
+    k: limits. after (2,) [N s]: momentum after the last impact, where the walk ends with it. slips: slip of
+    each single support on soft ground [m], in place of the friction cone; None on the rigid plant.
     """
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
@@ -216,7 +217,8 @@ def supports(
     for name in AT_NODES:
         extreme = np.minimum if name == "normal_force" else np.maximum
         worst[name] = extreme.reduceat(worst[name], first)
-    never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)  # has a mean force pushed
+    # the largest ratio is -inf where no mean force pushed: 0 if there was no mean at all, else infinite
+    never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
     worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
     numbers = (t[n.last] - t[first], *(worst[name] for name in REASONS))

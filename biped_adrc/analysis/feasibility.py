@@ -147,7 +147,8 @@ def first_violation(
     """Find the first node, impact, or end of a window of the mean force, at which a walk
     violates a limit; or None.
 
-    impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
+    n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
+    [N s]: momentum after the last impact, where the walk ends with it.
     """
     result = []
     numbers, joint = limit_series(walker, n, k, impacts, after)
@@ -171,7 +172,8 @@ def until_infeasible(
     it is where there is none.
 
     slipped: on soft ground, the time [s] in each single support when a foot has slipped by SLIP, infinite for
-    never. Everything before the violation is unchanged; the arc ends at the last node that is not after it.
+    never; it counts in place of the friction cone. Everything before the violation is unchanged; the arc ends
+    at the last node that is not after it.
     """
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:

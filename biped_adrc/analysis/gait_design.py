@@ -154,6 +154,8 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
     allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
     certificate = certificates(walker, run, signals(walker, run, gait.constraint), allowed)[0]
+    # reasons that do not count: scuffing where the request sets no clearance, and an impulse that the request
+    # allows more friction than the certificate, which has one mu for both
     free = ["scuffing"] if limits.clearance is None else []
     free += [IMPULSE] if limits.impulse_friction > limits.friction else []
     missed = certificate.violations(free)
@@ -179,11 +181,11 @@ down steeply, so that uneven ground changes the end of a step little."""
 CURVE_DEGREE, STEP_DEGREE = 4, 3
 """Degrees of the polynomials."""
 OF_LIBRARY = ("method", "curves", "minimised", "limits")
-"""What the provenance of a gait says of all gaits of the library."""
+"""Entries of a gait's provenance that are the same for all gaits of the library."""
 _SAMPLES = 1200
-"""Random steps to which `StepMap` is fitted."""
+"""Number of random walking steps to which `StepMap` is fitted."""
 _NODES = 16
-"""Gauss nodes of each part of a step."""
+"""Number of Gauss nodes of each part of a step, before and after the decision (`control.footstep`)."""
 
 
 def library(
@@ -195,7 +197,8 @@ def library(
 ) -> list[tuple[float, float, Gait]]:
     """Speed [m/s], step length [m] and the gait of least torque, for each pair that has one.
 
-    done: is called with each pair in words. Raises GaitError where fewer pairs have a gait than the fit needs.
+    done: is called after each pair with a line of text about it. Raises GaitError where fewer pairs have a gait
+    than the fit needs.
     """
     least, gaits = (CURVE_DEGREE + 1) * (CURVE_DEGREE + 2) // 2, []
     if min(len(set(speeds)), len(set(lengths))) <= CURVE_DEGREE:
@@ -264,7 +267,8 @@ def step_integrals(
     """delta^2 after a step, 2 W', J' up to the next decision, dq_b/dTheta (p,) there, 2 W, J after it (p + 5,).
 
     The first step is L [m] long, follows one of length `before` [m], and ends on the member (v [m/s], L). The
-    next one begins there and ends on the member (end [m/s], ahead [m]).
+    second step begins there and ends on the member (end [m/s], ahead [m]). W [kg^2 m^4/s^2] and J [kg m^2] are
+    those of `_integrals`: with ' from the second step's start to its decision, without from there to its end.
     """
     c, p, mu = family.phase, biped.p, np.array((v, L))
     earlier = family.member(v, before)
@@ -287,7 +291,10 @@ def step_integrals(
 def _integrals(
     biped: Biped, c: Array, curve: JointCurve, start: float, end: float
 ) -> tuple[float, float]:
-    """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2] from start to end [rad]."""
+    """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2], Theta from start to end [rad].
+
+    G_N is gravity's torque on the unactuated row, and sigma = I(Theta) Theta' on the curve.
+    """
     s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):

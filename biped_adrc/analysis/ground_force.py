@@ -72,7 +72,7 @@ class Nodes:
 
     @cached_property
     def edges(self) -> Indices:
-        """First node of each single support, and K: (S + 1,)."""
+        """Index of the first node of each single support, and K behind them: (S + 1,)."""
         return np.searchsorted(self.at.step, [*self.steps, self.steps.stop])
 
     @property
@@ -127,8 +127,8 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     Where no window ends at a node, F_N is inf and the ratio -inf; the ratio is -inf too where the ground does
     not push. A single support shorter than the window is averaged as a whole. The ground has the height of the
     lower of the two footholds. Depth counts from the first node with the foot above it, since the foot may
-    come from lower ground, and not near the ends of a single support. The end counts where no impact follows:
-    behind the first `impacts` supports.
+    come from lower ground, and not near the ends of a single support. Only the first `impacts` single supports
+    ended in an impact; of the others the end counts too.
     """
     slope, plant = walker.ground_slope, walker.plant
     along, normal = np.array(ground_axes(slope))
@@ -159,8 +159,8 @@ def totals(n: Nodes) -> list[float]:
 def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) -> Array:
     """|F_T| / F_N of the impulse of the impact that ends each of the S single supports (S,).
 
-    Infinite where the ground would have had to pull, 0 for those behind the first `impacts`, which end in
-    none. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
+    Infinite where the ground would have had to pull; 0 for the single supports after the first `impacts`, which
+    did not end in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
     """
     result, P = np.zeros(len(n.steps)), n.at.reading.momentum
     plus = P[n.edges[1:-1]]

@@ -1,4 +1,4 @@
-"""The Poincare return map (24) on the impact section, its fixed point (25) and its multipliers.
+"""The Poincare return map on the impact section, (24) of the paper, its fixed point (25) and its multipliers.
 
     P: x-(k) -> x-(k + 1),   P(x*) = x*
 
@@ -37,7 +37,9 @@ from biped_adrc.hybrid.trajectory import Event
 
 MOST_ITERATIONS = 12
 """Largest number of iterations of Newton's method on P(s) - s."""
-_CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
+_CHORD = 0.1
+"""An iteration that leaves more than this share of the residual has dP/ds computed anew for the one after
+it."""
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,9 @@ On another plant motion and forces of the ground are recorded and not computed:
 
     q'' by differences from tick to tick,   F of the ground as recorded,   xi = q_b'' - kappa u
 
-What the controller is given and does follows from the states as on the rigid plant. xi~ = D q'' + Omega - B_s u
-then holds all that the pinned model does not know: the touchdown's force, a foot that gives way.
+What the controller measures and computes follows from the states as on the rigid plant.
+xi~ = D q'' + Omega - B_s u then holds all that the pinned model does not know: the touchdown's force, a foot
+that gives way. Equation numbers such as (11) are those of the paper.
 
 `integrate` and `largest` are integrals and peaks of signals. Nodes are unevenly spaced, and a repeated time
 marks a jump, at an impact or a sample instant: the signal has a left and a right value there. So they work
@@ -193,7 +194,7 @@ def compiled_readings(
 ) -> InstantSignals | None:
     """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
 
-    reference: the curve that is looked at, which need not be the one the controller tracked. Nodes
+    reference: the curve from which errors are taken, which need not be the one the controller tracked. Nodes
     at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
     left.
     """
@@ -291,11 +292,12 @@ def footholds(walker: Walker, trajectory: Trajectory) -> Array:
 
 
 def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
-    """The signals found from the closed loop, with q'', ground force, momentum and xi of the plant that
+    """The signals `found` by the closed loop, with q'', ground force, momentum and xi of the plant that
     walked in place of the rigid model's.
 
-    On the rigid plant they stay as they are. External forces are added to that of the
-    ground, as `InstantSignals` has it.
+    On the rigid plant they stay as they are. The ground force of `InstantSignals` includes the external force,
+    so it is added here too. The momentum in `found` is that relative to the stance foot, whose velocity (the
+    first two columns of `speed`) is added.
     """
     force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
     if force is None or speed is None:
@@ -305,6 +307,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
     rows = []
     for x_k, a_k, u in zip(x, a, found.u, strict=True):
+        # xi is defined by the controller's model: xi = q_b'' - kappa u with its kappa, whatever moved
         terms = walker.nominal.reduction(x_k[:n], x_k[n : 2 * n])
         matched, unmatched = disturbance_parts(terms, unknown_force(terms, a_k, u))
         rows.append((a_k[:p] - terms.kappa @ u, matched + unmatched, matched, terms.xi))
@@ -321,7 +324,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
 
 
 def accelerations(arc: Arc, n: int) -> Array:
-    """q'' (K, n) [rad/s^2] at the nodes of an arc, by differences of rates.
+    """q'' (K, n) [rad/s^2] at the nodes of an arc, as recorded there by differences of rates.
 
     Over less than SAME_INSTANT, as where a push ends at a sample instant up to round-off, a difference is
     round-off too: there q'' is that of the interval before, or after it at the start.

@@ -10,7 +10,7 @@ that single support, double support and flight add up to the duration.
 `contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
     settling   t - start of the single support <= SETTLING
-    pushed     t - last time at which zeta != 0 <= AFTER, and not settling
+    pushed     t - (last time at which zeta != 0) <= AFTER, and not settling
 
 Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
 step is then often this transient, and hides the effect of a push.
@@ -76,8 +76,8 @@ def recorded_steps(
     """Measure every single support of a run on soft ground, the unfinished last one included.
 
     run: with the readings of the feet at its nodes (`feet.with_readings`); a slip is off by up to the time
-    between two nodes times the speed at which it begins. friction: mu [1]. axes: unit vectors (x,
-    z) (2,) along and out of the ground.
+    between two nodes times the speed at which it begins. friction: mu of the ground [1]. axes: two unit
+    vectors, along the ground and out of it, each (x, z) (2,).
     """
     return tuple(step_of(arc, friction, axes) for arc in run.arcs)
 
@@ -85,13 +85,17 @@ def recorded_steps(
 def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
     """Time [s] in each single support at which a foot has slipped by more than SLIP, infinite for never.
 
-    Arguments and accuracy as for `recorded_steps`.
+    run: with the readings of the feet at its nodes. friction: mu of the ground [1]. axes: two unit vectors
+    (2,), along the ground and out of it. A time is that of the first node beyond SLIP.
     """
     return tuple(_slip_time(arc, friction, axes) for arc in run.arcs)
 
 
 def _slip_time(arc: Arc, friction: float, axes: tuple[Array, Array]) -> float:
-    """Time [s] at which a foot has slipped by more than SLIP in one single support; or infinite."""
+    """Time [s] at which a foot has slipped by more than SLIP in one single support; infinite for never.
+
+    friction: mu of the ground [1]. axes: unit vectors (2,) along the ground and out of it.
+    """
     force, _, speed = feet_of(arc)
     slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
     slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
@@ -105,7 +109,10 @@ def feet_of(arc: Arc) -> list[Array]:
 
 
 def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
-    """Measure one single support; arguments as for `recorded_steps`."""
+    """Measure one single support, from the readings of the feet in its arc.
+
+    friction: mu of the ground [1]. axes: two unit vectors (2,), along the ground and out of it.
+    """
     along, out = axes
     force, place, velocity = feet_of(arc)
     w, normal, tangential = spans(arc.t), force @ out, np.abs(force @ along)
@@ -129,7 +136,7 @@ def slipping(
 ) -> NDArray[np.bool_]:
     """Whether each foot slips (...,), from its force [N] and speed [m/s], each (..., 2).
 
-    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
+    friction: mu of the ground [1]. axes: two unit vectors (2,), along the ground and out of it.
     """
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)

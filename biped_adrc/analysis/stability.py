@@ -190,6 +190,8 @@ def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
     """Compute multipliers by both methods at the fixed point of `step`, as
     `variational.periodic_orbit` finds it.
 
+    step: dP/ds by the variational equation along one walking step.
+
     The variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
     `StepDerivative.flow_residual`. Central differences of P cost 4 steps of walking per coordinate.
     """
@@ -223,6 +225,7 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
 
     Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
     """
+    # pitch: q_N of these robots is the angle of a leg, pi where it is vertical; the search for q_N begins there
     known = passive_cycle(biped)
     angle = known.slope if slope is None else slope
     walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
@@ -288,7 +291,8 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     """
     P, walker = cycle.P, cycle.P.walker
     start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
-    method = P.method  # means over 5 ms take the momentum as linear between nodes
+    # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
+    method = P.method
     if isinstance(method, Adaptive | Stiff):
         method = replace(method, max_step=APART)
     stop = FOOT_STRIKE, 1

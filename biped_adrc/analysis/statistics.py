@@ -44,7 +44,10 @@ def median(values: Sequence[float]) -> Interval:
 
 
 def rms(t: Array, x: Array) -> float:
-    """Root of the mean over time t (K,) [s] and columns of x (K, k)^2, by quadrature between the nodes."""
+    """Root of the mean of x^2 over time t (K,) [s] and over the columns of x (K, k), in the unit of x.
+
+    The mean over time is an integral by splines; for a single instant it is the value there.
+    """
     squares, duration = np.sum(x**2, axis=1) / max(x.shape[1], 1), float(t[-1] - t[0])
     mean = integrate(t, squares) / duration if duration > 0.0 else float(squares[0])
     return float(np.sqrt(max(mean, 0.0)))

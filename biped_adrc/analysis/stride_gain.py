@@ -1,7 +1,7 @@
 """Gains of the PI from step to step, from the zero dynamics.
 
-With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k
-of
+beta_k [rad] is the amplitude by which the PI bends the curves in walking step k (`control.stride`). With exact
+tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
@@ -75,7 +75,7 @@ class StrideResponse(Shown):
 
         Raises InputError where the pole is not inside the unit circle.
         """
-        zero = self.c * self.b - self.d * self.a
+        zero = self.c * self.b - self.d * self.a  # d mu of the module
         mu = zero / self.d if self.d else math.inf
         r = float(np.cbrt(mu * (mu + 1.0) * (mu + self.a))) - mu
         if not abs(r) < 1.0 or zero == 0.0:

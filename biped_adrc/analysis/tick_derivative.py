@@ -35,8 +35,8 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
     """The tick of a walker whose states have this layout, with its derivative.
 
-    Raises InputError for a walker in continuous time; the function that is given, NotFiniteError where
-    x+ or J is not finite.
+    Raises InputError for a walker in continuous time; the returned function raises NotFiniteError where x+ or J
+    is not finite.
     """
     if walker.held is None:
         raise InputError(
@@ -51,7 +51,9 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
         return partial(_differenced, walker)
     inputs = K, np.zeros(function.size1_in(1))
     after, columns = np.zeros(nx), np.zeros((nx, nx))
-    buffer, evaluate = function.buffer()  # CasADi knows the arrays by address
+    # CasADi reads and writes the arrays by address, so `ticked` keeps the buffer; its matrices are column by
+    # column
+    buffer, evaluate = function.buffer()
     for i, array in enumerate(inputs):
         buffer.set_arg(i, array.data)  # type: ignore[call-arg]
     for i, array in enumerate((after, columns)):
@@ -70,7 +72,10 @@ _FUNCTIONS: dict[Hashable, ca.Function] = {}
 
 
 def _function(program: Program) -> ca.Function:
-    """(K, inp) -> (x+, J); the values of the program's numbers do not matter."""
+    """CasADi's function (K, inp) -> (x+, J), K the walker's numbers, inp = (t, step, t_start, x, ..).
+
+    It depends on the structure of the program alone, since the values of its numbers are the input K.
+    """
     key, nx = program.key, program.nx
     if key not in _FUNCTIONS:
         tick = program.equations.tick()

@@ -98,7 +98,10 @@ def matched(impacts: Array, found: Array) -> Detections:
 
 
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
-    """Times [s] at which a controller detected a touchdown, right or wrong. Raises as `touchdowns`."""
+    """Times [s] at which a controller detected a touchdown, right or wrong, from the states of a run.
+
+    Raises InputError for a loop without a touchdown part.
+    """
     k = loop.held
     if k is None or k.touchdown is None:
         raise InputError(
@@ -108,5 +111,6 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     x = np.vstack([arc.x for arc in run.arcs])
     began = loop.layout_of(x[0]).tree(x).tail.belief
     step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
+    # the first tick may detect a touchdown at once; its number is then above that of the single support
     at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
     return start[np.append(at_once, np.diff(step) > 0.0)]

@@ -49,14 +49,16 @@ TorqueDerivative = Callable[[Instant], Array]
 
 
 def torque_derivative(walker: Walker) -> TorqueDerivative:
-    """Make the derivative of the torque of a law without states, a function of an instant of a walk.
+    """Make the function du/dx (p, 2 n) of an instant of a walk, for a law without states, x = (q, q').
 
-    It is exact for every law that compiles, by differences for any other, and zero for saturated motors.
+    du/dx [N m/rad, N m s/rad] is exact for a law that compiles, by central differences for another one; rows of
+    saturated motors are zero.
     """
     n, p = walker.plant.n, walker.plant.p
     if p == 0:
         return lambda i: np.zeros((0, 2 * n))
     limit = math.inf if walker.torque_limit is None else walker.torque_limit
+    # a tick of the same law in sampled time: u at a sample instant depends on x there alone, so any period does
     twin = replace(walker, timing=SampledTime(1e-3), torque_limit=None)
     ticked = tick_derivative(twin, twin.layout_of(np.zeros(2 * n)))
 
@@ -129,7 +131,11 @@ class VariationalSystem(HybridSystem):
 
 
 def _on_x(guard: Guard) -> Guard:
-    """Apply an event function of the walker to x of y = (x, Phi); its reset leaves y as it is."""
+    """Make a guard for y = (x, Phi), with Phi (2 n, 2 n) row by row, from a guard of the walker, for x alone.
+
+    Its witness reads x of y. Its reset leaves y as it is before the impact, from where `differentiate_step`
+    takes it, and exchanges only the mode.
+    """
     reset = guard.reset
 
     def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
@@ -220,9 +226,9 @@ def periodic_orbit(
 ) -> tuple[PeriodicOrbit, StepDerivative]:
     """Find P(s) = s by Newton's method with the exact dP/ds, from a state before impact (2 n,) [rad, rad/s].
 
-    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically; it begins at the fixed point of the compiled
-    map where there is one. Raises SimulationError when it does not converge or the walker does not come back,
-    SingularError when a multiplier is 1.
+    tolerance: bound on max |P(s) - s| [rad, rad/s]. Newton converges quadratically; it begins at the fixed
+    point of the compiled map where there is one. Raises SimulationError when it does not converge or the walker
+    does not come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
     if P.compiled(x := P.lift(s)) is not None:

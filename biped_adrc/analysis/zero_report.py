@@ -1,8 +1,10 @@
 """Properties of a gait by its zero dynamics, before any simulation: whether it walks, from where, how fast.
 
-The numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units, as text. They hold for the closed
-loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave (hybrid
-invariant), tracked without error. Where that is in doubt the report says so.
+zeta = sigma-^2 / 2 [kg^2 m^4/s^2] is the coordinate of a walking step, with sigma- the angular momentum about
+the stance foot just before impact; zeta* is that of the periodic orbit. The report lists the numbers of
+`gait.zero_dynamics` and `gait.zero_orbits` with their units. They hold for the closed loop as far as it keeps
+to the constraint: exactly for a constraint that the impact does not leave (hybrid invariant), tracked without
+error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations
@@ -26,9 +28,9 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 
 CLOSENESS = 1e-3
-"""Distance from zeta*, relative to it, within which a walk counts as settled."""
+"""Distance of zeta from zeta*, as a share of zeta* [1], within which a walk counts as settled."""
 UNIT = "kg^2 m^4/s^2"
-"""Unit of zeta and V_zero."""
+"""Unit of zeta and of V_zero, the potential of the zero dynamics."""
 _Rows = Iterator[tuple[str, ...]]
 """Rows of the report, as texts in columns."""
 
@@ -106,7 +108,7 @@ class ZeroDynamicsReport(Shown):
         yield "speeds in it", f"{v_0:.4f} to {v_1:.4f} m/s, of the first step"
         yield "energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"
         if self.walkable:
-            inside = low.zeta + 1e-9 * self.zeta_star  # rho itself excludes the end
+            inside = low.zeta + 1e-9 * self.zeta_star  # at the end itself a step fails
             first, last = (
                 self.orbits.steps_to(zeta, CLOSENESS) if math.isfinite(zeta) else "any number of"
                 for zeta in (inside, high.zeta)

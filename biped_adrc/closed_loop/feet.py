@@ -2,9 +2,9 @@
 
     footing(row, u, load) -> Feet     what a plant gives, for instance `MuJoCoPlant`
 
-Forces of the ground follow from state, torque and load, so nothing is added to a run, nor to what it costs:
-`with_readings` asks the plant at every node of a finished run, and puts the answers into it, from where files
-carry them.
+Forces of the ground follow from state, torque and load, so a run does not compute them: `with_readings` asks
+the plant at every node of a finished run and adds the answers to the arcs (`Arc.read`), with which they are
+stored.
 """
 
 from __future__ import annotations
@@ -48,8 +48,10 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
 
 
 def _passed(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[Array, Load]]:
-    """The state x (nx,) at each node, with what acts on the plant in the piece between two of them; last that
-    where the plant was lost."""
+    """Yield the state x (nx,) at each node with the load on the plant, which is constant from node to node.
+
+    A stretch has two nodes, at its start and its end; a last node alone is where the plant was lost.
+    """
     times, pieces = arc.t.tolist(), np.flatnonzero(np.diff(arc.t) > 0.0)
     for k in pieces:
         load = loop.load(0.5 * (times[k] + times[k + 1]), loop.row(arc.x[k]), arc.mode)

@@ -40,27 +40,28 @@ class InstantSignals(NamedTuple):
     xi: Array
     """Total disturbance q_b'' - kappa u (p,) [rad/s^2], from the plant's own q''."""
     xi_estimate: Array
-    """What the observer says of it (p,) [rad/s^2]; NaN without an observer."""
+    """The observer's estimate of xi (p,) [rad/s^2]; NaN without an observer."""
     xi_external: Array
     """The part of xi that the nominal model does not know (p,) [rad/s^2]: matched + unmatched."""
     xi_matched: Array
-    """Of that, what enters where the motors act (p,) [rad/s^2]."""
+    """The part of xi_external that enters where the motors act, kappa xi~_b (p,) [rad/s^2]."""
     xi_nominal: Array
-    """The part of xi that the nominal model knows, (14) with xi~ = 0 (p,) [rad/s^2]."""
+    """The part of xi that the nominal model knows, (14) of the paper with xi~ = 0 (p,) [rad/s^2]."""
     zeta_estimate: Array
     """The disturbance torque that explains the estimate, kappa^-1 (xi^ - xi_nominal) (p,) [N m]."""
     ground_reaction: Array
-    """On the stance foot (2,) [N], forces from outside not yet taken off."""
+    """Force of the ground plus the resultant from outside (2,) [N]: the ground's own share follows by
+    subtracting the latter (`analysis.signals`)."""
     momentum: Array
     """m v_com of the plant (2,) [N s]."""
     kinetic: Array
-    """Energy [J]."""
+    """Kinetic energy [J]."""
     potential: Array
-    """Energy [J], zero at the height of this stance foot."""
+    """Potential energy [J], zero at the height of this stance foot."""
     swing_foot: Array
-    """(x, z) from the stance foot (2,) [m]."""
+    """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
     hip: Array
-    """(x, z) from the stance foot (2,) [m]."""
+    """Place (x, z) of the hip relative to the stance foot (2,) [m]."""
 
 
 def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> InstantSignals:
@@ -145,7 +146,8 @@ def node_layout(n: int, p: int) -> Layout:
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """Compute the `StepReading` at (t, x); arguments as in `signals_at`."""
+    """Compute the `StepReading` at (t, x), t in [s], x (nx,); errors are taken from the point reference(s,
+    m)."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p
     return StepReading(

@@ -2,9 +2,9 @@
 
     walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
 
-What the plant keeps for itself is taken out of the states, so that whatever reads a walk reads this one. At the
-nodes is recorded, since it cannot be computed again: forces of the ground, places and velocities of both feet,
-where the plant has feet (`closed_loop.feet`).
+The numbers that the plant keeps for itself are taken out of the states, so that whatever reads a walk reads
+this one. Forces of the ground, places and velocities of both feet are recorded at the nodes, where the plant
+has feet (`closed_loop.feet`), since they cannot be computed again.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ def walk_on(
     """
     assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)
-    longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
+    # a single support that takes too long is noticed at a tick, so up to one period late
+    longest = walker.max_step_time + loop.timing.period
     end, last = mode.start + impacts * longest, (FOOT_STRIKE, impacts)
     options = RunOptions(end, mode.start, stop_after=last, progress=progress)
     return as_walked(loop, loop.run(x0, options, mode))
@@ -122,7 +123,7 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
     own, at = layout.place("tail", "own"), layout.place("tail", "line", "queue").stop
 
     def without(x: Array) -> Array:
-        """The plant's own out, and u_m where the rigid plant's walker has it."""
+        """x without the plant's own numbers; the torque u_m of lagging motors goes where a walker keeps it."""
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
         return np.concatenate((np.delete(x[..., :at], own, axis=-1), u_m, x[..., at:]), axis=-1)
 

@@ -89,7 +89,7 @@ class ControlLaw(NamedTuple):
     predict: Callable[[Any, Measurement, Array], Any]
     """predict(s, m, u) -> s at the next sample instant, u (p,) [N m] the torque that will act."""
     estimate: Callable[[Any, Measurement], Estimate | None]
-    """estimate(s, m) -> what an observer inside says, None without one."""
+    """estimate(s, m) -> the `Estimate` of the controller's observer, None without one."""
 
 
 class Loop(Protocol):
@@ -168,7 +168,7 @@ class Contact(NamedTuple):
     name: str
     """Name of the event in the trajectory."""
     impulse: Array = np.zeros(2)
-    """Of the ground (2,) [N s]."""
+    """Impulse of the ground on the robot (2,) [N s]."""
     ends: Status | None = None
     """Status with which the run ends; None for a touchdown."""
 
@@ -179,9 +179,9 @@ class Moved(NamedTuple):
     t: float
     """`until`, or the time of the contacts [s]."""
     row: Array
-    """State (2 n + k,) there, just before the contacts."""
+    """State (2 n + k,) at t, just before the contacts."""
     contacts: tuple[Contact, ...] = ()
-    """All at that time. They are one event: names joined by +, impulses added. Where some of them end the run,
+    """All contacts at t. They are one event: names joined by +, impulses added. Where some of them end the run,
     only those count: a fall with a touchdown is a fall."""
     after: Array | None = None
     """State (2 n + k,) just after a touchdown."""
@@ -191,11 +191,11 @@ class Feet(NamedTuple):
     """Both feet at one time, the stance foot first; (x, z) of each."""
 
     force: Array
-    """Of the ground on the feet (2, 2) [N]."""
+    """Forces of the ground on the feet (2, 2) [N]."""
     place: Array
-    """Of the foot points (2, 2) [m]."""
+    """Places of the foot points (2, 2) [m]."""
     speed: Array
-    """Of the points that touch the ground, or would (2, 2) [m/s]."""
+    """Velocities of the points that touch the ground, or would touch it (2, 2) [m/s]."""
     level: Array
     """Heights of the ground under the feet (2,) [m]; 0 on ground without steps."""
 
@@ -220,7 +220,7 @@ class SteppingPlant(Protocol):
         """The row at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
-        """On from a row at t [s] to `until` [s] or to the next contact, with u (p,) [N m] and a load held;
+        """Move from a row at t [s] to `until` [s] or to the next contact, under constant u (p,) [N m] and load;
         None for no load.
 
         Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
@@ -233,12 +233,12 @@ class OnFeet(Protocol):
     """A plant that can say what its feet do."""
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
-        """In a row under u (p,) [N m] and what acts from outside."""
+        """The `Feet` in the state `row`, under the torques u (p,) [N m] and the load from outside."""
 
 
 @runtime_checkable
 class LaggingPlant(SteppingPlant, Protocol):
-    """One whose motors may have a lag, so that its torque is not the one that is asked of them."""
+    """A plant whose motors may have a lag, so that the torque on its joints is not the commanded one."""
 
     @property
     def lag(self) -> float:
@@ -253,11 +253,11 @@ class LaggingPlant(SteppingPlant, Protocol):
 
 @runtime_checkable
 class UnevenPlant(SteppingPlant, Protocol):
-    """One whose ground may have steps, counted in single supports."""
+    """A plant whose ground may have steps up and down, each placed by the number of a single support."""
 
     @property
     def ground_steps(self) -> tuple[StepDown | StepUp, ...]:
-        """The steps of the ground, up and down."""
+        """The steps up and down of the ground."""
 
     def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> SteppingPlant:
         """A copy of the plant on these steps of the ground; its first single support is number `first_step`."""

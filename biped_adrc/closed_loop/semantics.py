@@ -1,6 +1,6 @@
 """The closed loop, written once: flow, sample instant, impact, and the quantities read at one instant.
 
-    q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10)
+    q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10) of the paper
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
@@ -214,8 +214,8 @@ def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tup
 
 
 def release(loop: Loop, x: Array) -> Array:
-    """x once the torque that waited for a fraction of the period acts: `waiting` replaces u, both
-    (p,) [N m].
+    """x (nx,) at the instant from which the torque acts that waited for a fraction of the period: `waiting`
+    replaces u, both (p,) [N m].
 
     For a computation delay that is no whole number of periods.
     """
@@ -253,8 +253,8 @@ def after_contact(
     Shared by plants with an impact map and by those that compute their own contacts. Controller
     state and held tail are relabelled. A rate that the sensors derive from differences is reset to
     what the nominal model's impact predicts, since no difference across an impact is a rate.
-    A controller that has to notice touchdowns, and its sensors, are told nothing here; its labels are
-    then those of the other foot.
+    A controller that has to notice touchdowns, and its sensors, learn nothing here: its labels of the legs are
+    then wrong until its detector fires.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     reading = q_plus, v_plus

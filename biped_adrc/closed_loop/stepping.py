@@ -3,10 +3,11 @@
     x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
 There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
-or edge of a disturbance and reports its touchdowns (`closed_loop.protocols` defines what it has to give).
-What acts from outside is taken in the middle of such a stretch. Sample instants, sensors, motors and controller
-are those of every closed loop, so a controller is tested unchanged on a plant of another kind. Torque and
-disturbance are recorded at both ends of every stretch, since they cannot be computed again from the states.
+or switching time of a disturbance, and reports its touchdowns (`closed_loop.protocols` defines its methods).
+The time between two such instants is called a stretch; over it the load is constant, with its value in the
+middle. Sample instants, sensors, motors and controller are those of every closed loop, so a controller is
+tested unchanged on a plant of another kind. Torque and disturbance are recorded at both ends of every stretch,
+since they cannot be computed again from the states.
 """
 
 from __future__ import annotations
@@ -114,6 +115,7 @@ class SteppingLoop(ClosedLoop[Any]):
             numbers(x0, "the initial state"),
         )
         options.check(x)
+        # the layout follows from q and v alone, so an x that is too short is replaced to find the expected size
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
         if len(x) != expected:
@@ -166,7 +168,7 @@ class SteppingLoop(ClosedLoop[Any]):
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, mode)
         row, q = after, after[:n]
-        if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
+        if not (q.dot(q) < near and row.dot(row) < slow):  # tests all angles and rates at once
             if not np.all(np.isfinite(row)):
                 raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
             self.bounds.check(end, q, row[n : 2 * n])
@@ -182,11 +184,15 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @cached_property
     def pushed_in_python(self) -> bool:
-        """Whether zeta is computed point by point, so that what it raises ends the run there."""
+        """Whether Python computes zeta at each node while the run goes on, so that an exception ends it
+        there."""
         return self.disturbance is not None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times [s], in the plant's rows, where it is not computed point by point."""
+        """zeta (K, n) [N m] at K times [s], in the plant's rows: zero, as without a disturbance.
+
+        Called where `pushed_in_python` is false; a loop with compiled pushes overrides it.
+        """
         return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:
@@ -288,28 +294,28 @@ def _together(contacts: tuple[Contact, ...]) -> Contact:
 
 @dataclass
 class Stretches(Recorder):
-    """The record of one arc, stretch after stretch: from a sample instant or an edge of a disturbance to the
-    next.
+    """The record of one arc, stretch after stretch: from a sample instant or a switching time of a disturbance
+    to the next.
 
     What is recorded at both ends is put together once per arc, since a stretch costs microseconds.
     """
 
     loop: SteppingLoop = field(kw_only=True)
     rows: list[Array] = field(default_factory=list)
-    """The plant's (2 n + k,) where the arc begins, and at the end of every stretch."""
+    """The plant's row (2 n + k,) where the arc begins, and at the end of every stretch."""
     zeta: list[Array] = field(default_factory=list)
-    """(n,) [N m] there, where Python computes it."""
+    """The disturbance (n,) [N m] at these instants, where Python computes it."""
     held: list[Array] = field(default_factory=list)
-    """x (nx,) at the start of every stretch."""
+    """The loop's state x (nx,) at the start of every stretch."""
 
     def begin(self, t: float, row: Array, x: Array, mode: Mode) -> None:
-        """A stretch begins at t [s]."""
+        """Record that a stretch begins at t [s], in the plant's row (2 n + k,) and the state x (nx,)."""
         if not self.rows:
             self.point(t, row, mode)
         self.held.append(x)
 
     def point(self, t: float, row: Array, mode: Mode) -> None:
-        """The plant is in a row at t [s]."""
+        """Record that the plant is in the row (2 n + k,) at t [s]."""
         if self.loop.pushed_in_python:
             self.zeta.append(self.loop.load(t, row, mode).zeta)
         self.t.append(t)

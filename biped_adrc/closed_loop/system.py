@@ -73,12 +73,13 @@ _P = TypeVar("_P", bound=Plant)
 
 
 MADE_AGAIN = ("held", "calls", "layout", "undisturbed", "_once")
-"""What a loop keeps besides its fields, and makes again where it is needed."""
+"""Names of values that a loop remembers besides its fields; a copy in another process computes them again."""
 
 
 @dataclass(frozen=True)
 class ClosedLoop(HybridSystem, Generic[_P]):
-    """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
+    """`semantics` on NumPy arrays: a plant, a controller with its timing, and the model that the controller
+    knows.
 
     - plant: what moves. model: what the controller knows of it, the plant itself when None.
     - controller, timing: in continuous time, or sampled with a period, a delay and restart at
@@ -149,7 +150,10 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def calls(self) -> ControlLaw:
-        """The methods of `law`; the states that they give are checked, as `saturate` checks the torque."""
+        """The methods of `law`, wrapped so that the states which they return are checked for class and shape.
+
+        `output` is not wrapped, since `saturate` checks the torque.
+        """
         law = self.law
 
         def kept(name: str, finite: bool = True) -> Callable[..., Any]:
@@ -176,8 +180,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def held(self) -> HeldParts | None:
-        """Parameters of what is held between sample instants (`hardware.sample_hold`); None in
-        continuous time.
+        """Sensors, motors and detector at sample instants, which hold numbers between these
+        (`hardware.sample_hold`); None in continuous time.
         """
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
@@ -322,11 +326,11 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return after if self.sensors is None else returned(after, x.shape, self.sensors, "sense")
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
-        """x once the torque that waited for a fraction of the period acts."""
+        """x (nx,) at the instant from which the torque acts that waited for a fraction of the period."""
         return semantics.release(self, x)
 
     def relaxing(self) -> Relaxing | None:
-        """Torques of motors with lag, which go to those asked of them."""
+        """Torques of motors with lag, which go exponentially to the commanded ones; None without lag."""
         k, p = self.held, self.plant.p
         if k is None or k.motors.speed == 0.0:
             return None
@@ -334,8 +338,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return Relaxing(slice(at, at + p), slice(-p, None), k.motors.speed)
 
     def clocks(self) -> tuple[Clock, ...]:
-        """None in continuous time; the control clock, and with a fractional delay a second one that
-        releases the waiting torque.
+        """The control clock, and for a delay of a fraction of the period a second one that releases the waiting
+        torque; empty in continuous time.
         """
         time, k = self.timing, self.held
         if not isinstance(time, SampledTime) or k is None:
@@ -379,7 +383,10 @@ def _held(
 
 @once
 def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layout]:
-    """As `initial_state`, with the layout; start: shape and bytes of q and of v."""
+    """Compute the x (nx,) of `ClosedLoop.initial_state`, and its layout.
+
+    start: shape and bytes of q and then of v, since the results are remembered by arguments that can be hashed.
+    """
     shapes, data = start[::2], start[1::2]
     q, v = (np.frombuffer(x).reshape(shape) for shape, x in zip(shapes, data, strict=True))
     # what overflows is refused, or ends the walk
@@ -394,7 +401,7 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
-    """Raise InputError for a reference or gains of a robot with other joints than p motors, len(m.q) in all."""
+    """Raise InputError for a reference or gains that do not fit p motors and the coordinates of m, len(m.q)."""
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):
         gains.check(p)

@@ -1,9 +1,9 @@
 """The walker: plant, controller, disturbance and timing as one hybrid system.
 
-A single support is a flow; it ends at the impact of the swing foot, which maps the state by (7),
-(8) and begins the next. This module holds what is particular to walking: the ground (slope, steps
-up and down), the disturbance, and the event functions that end a single support or the run. The
-flow, the sample instants and the impact are those of `closed_loop.semantics`.
+A single support is a flow; it ends at the impact of the swing foot, which maps the state by (7), (8) of the
+paper and begins the next single support. This module holds what is particular to walking: the ground (slope,
+steps up and down), the disturbance, and the event functions that end a single support or the run. The flow, the
+sample instants and the impact are those of `closed_loop.semantics`.
 
 For the exponential method a walker has coordinates x -> (w, E) in which what is stiff is linear:
 
@@ -52,11 +52,11 @@ class ErrorForm:
     """The coordinates of a robot under a controller with a linear observer."""
 
     n: int
-    """Coordinates."""
+    """Number of coordinates."""
     p: int
-    """Actuated joints."""
+    """Number of actuated joints."""
     order: int
-    """Observer states per joint."""
+    """Number of observer states per joint, k."""
     scale: float
     """Factor of velocities in the observer's scaled states [s]."""
     A: Array
@@ -175,7 +175,7 @@ class Walker(ClosedLoop[Biped]):
 
     @cached_property
     def gain(self) -> Array:
-        """Relative errors of v+ (n,) [1], or empty (0,)."""
+        """Relative errors of the impact model in v+ (n,) [1]; empty (0,) for none."""
         return read_only(self.impact_gain)
 
     # -- from outside ------------------------------------------------------------------------------
@@ -258,7 +258,9 @@ class Walker(ClosedLoop[Biped]):
         return ErrorForm(self.plant.n, self.plant.p, len(error.A), scale, error.A)
 
     def split(self, mode: Mode) -> Split | None:
-        """As `split_form`, with the remainder of the closed loop in `mode`."""
+        """The coordinates of the exponential method with the remainder of the closed loop in `mode`; None in
+        sampled time or without a linear observer.
+        """
         if (form := self.split_form()) is None:
             return None
 

@@ -1,4 +1,4 @@
-"""A disturbance: the generalised force zeta of (1), and the times at which it is not smooth.
+"""A disturbance: the generalised force zeta of (1) of the paper, and the times at which it is not smooth.
 
     D(q) q'' + Omega(q, q') = B u + zeta(t, step, t_start, q, q')
 
@@ -28,7 +28,7 @@ from biped_adrc.core.types import Array, read_only
 
 
 class Disturbance(Part):
-    """A pure function of time, step and state: write `torque`. `a + b` adds two of them up.
+    """A pure function of time, single support and state: write `torque`. `a + b` is the sum of two.
 
     A class may also write `acts`, the times where it jumps in `switches`, and `resultant` for a force from
     outside.
@@ -191,7 +191,8 @@ class Windowed(Disturbance):
 
         A product of comparisons in place of `if`, so that it runs on symbols too.
         """
-        counted = 1.0 * (self.support > 0)  # from the start of its step; else from that of the run
+        # 1 where times count from the start of its single support, 0 where from the start of the run
+        counted = 1.0 * (self.support > 0)
         here = 1.0 - counted + counted * (step == self.support)
         return here * (t >= self.onset(t_start)) * (t < counted * t_start + self.end)
 

@@ -9,9 +9,9 @@ plant with model errors has other geometry than the nominal robot, and the push 
 The wave is a function of time that knows nothing of links: its `torque` gives three numbers in place of n
 torques, which are multiplied by J(q)'. So every wave of the package, and one of the user's own, pushes a link.
 
-`HipForce` is constant on the hip; F_x < 0 pulls backwards. `AddedForce` comes from elsewhere, such as a hand
-or a learner: F is a parameter, as the torque of `control.around.AddedTorque`, its maker writes another one
-before each sample, and nothing is compiled.
+`HipForce` is constant on the hip; F_x < 0 pulls backwards. `AddedForce` is set from outside, by a hand or a
+learner: F is a parameter, as the torque of `control.around.AddedTorque`. Its owner writes another F before each
+sample, and nothing is compiled anew.
 """
 
 from __future__ import annotations

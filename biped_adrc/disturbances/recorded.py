@@ -14,7 +14,7 @@ walking robot (`extras.play`) records them, one row for each sample in which the
 each row, so each is a switching time.
 
 Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms of
-`PIECES` rows each, which share one machine code; of a recording one acts at a time.
+`PIECES` rows each, which share one machine code; only one term of a recording acts at a time.
 """
 
 from __future__ import annotations
@@ -189,7 +189,11 @@ def by_hand(
 def _terms(
     what: str, rows: ArrayLike, t: Array, step: int, size: int, moment: int = 0
 ) -> list[HeldRows]:
-    """Cut rows (K, size) at times t (K,) [s] into terms of PIECES rows, each row padded with `moment` zeros."""
+    """Cut rows (K, size) at times t (K,) [s] into terms of PIECES rows.
+
+    moment: number of zeros behind each row, 1 for forces (F_x, F_z) that become (F_x, F_z, M). what: name of
+    the rows for messages.
+    """
     y = numbers(rows, f"the {what} of the hand")
     if not y.size:
         return []

@@ -1,6 +1,6 @@
 """Torques over a window: a pulse, a step, a sine, band-limited noise.
 
-`TorquePulse` is constant over a window, with vertical edges or edges of finite slope:
+`TorquePulse` is constant over a window; it rises and falls at once (vertical edges) or with a finite slope:
 
     zeta = amplitude (r(t - start) - r(t - stop)),   r(s) = s / rise between 0 and 1
 
@@ -61,7 +61,7 @@ class TorquePulse(Windowed):
 
     @derived
     def width(self) -> float:
-        """Time from edge to edge [s]."""
+        """Time from the beginning of the rise to that of the fall [s]."""
         return float(self.stop) - float(self.start)
 
     @derived

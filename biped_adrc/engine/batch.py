@@ -38,9 +38,9 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 
 _AHEAD = 4
-"""Cases prepared beforehand for each thread, so that none of them waits for Python."""
+"""Number of cases that are prepared beforehand for each thread, so that no thread waits for Python."""
 _AT_ONCE = 25
-"""Impacts for whose nodes there is room at the same time."""
+"""Number of impacts for whose nodes memory is taken at the same time."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,9 @@ class Case(Shown):
 
     @property
     def options(self) -> RunOptions:
-        """Of its run: single supports as long as they may be; without a curve the ends of arcs alone."""
+        """Options of its run, which ends after `impacts` single supports of the longest duration at the latest;
+        without a curve nodes are kept at the ends of arcs alone.
+        """
         t_end = self.mode.start + self.impacts * self.walker.max_step_time
         strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
         return RunOptions(t_end, self.mode.start, strikes, store_every=every)
@@ -97,9 +99,9 @@ class BatchWalk(Shown):
     detail: str
     """The error's own text, where one ended it."""
     times: Array
-    """Of the impacts (M,) [s]."""
+    """Times of the impacts (M,) [s]."""
     x_minus: Array
-    """States just before them (M, nx)."""
+    """States just before the impacts (M, nx)."""
     final_state: Array
     """State at the end (nx,); x+ where the last of the impacts asked for was made."""
     t_end: float
@@ -109,19 +111,19 @@ class BatchWalk(Shown):
     t_start: float = 0.0
     """Start of the walk [s]."""
     table: Array | None = None
-    """Of the compiled walk of a case with a curve: rows (K, width), a `NodeRow` in each;
-    one at each step of integration, after the sample instant there, and at the end of each single support."""
+    """Nodes of the compiled walk of a case with a curve: rows (K, width), a `NodeRow` in each; one at each
+    integration step, after the sample instant there, and at the end of each single support."""
     trajectory: Trajectory | None = None
-    """All nodes, of a case with a curve whose walk has no table."""
+    """The whole run of a case with a curve whose walk has no table, as one in continuous time; else None."""
 
     @property
     def impacts(self) -> int:
-        """Their number M."""
+        """Number M of impacts."""
         return len(self.times)
 
     @property
     def durations(self) -> Array:
-        """Of the single supports that ended in an impact (M,) [s]."""
+        """Durations of the single supports that ended in an impact (M,) [s]."""
         return np.diff(self.times, prepend=self.t_start)
 
 
@@ -129,7 +131,7 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
     - cases: may be a generator, of which a few are taken ahead.
-    - threads: the number of cores without.
+    - threads: number of threads; None: the number of cores.
 
     A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
     for a case whose parts do not fit together.
@@ -147,10 +149,10 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
 
 
 def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
-    """As `simulate_many`: a queue of futures, whose first is handed over when it is done or the
-    queue is full.
+    """Yield the walks of the cases in order, from a queue of futures whose first one is yielded when it is done
+    or the queue is full.
 
-    Whoever stops asking (closes the generator) cancels what has not begun.
+    Closing the generator cancels the walks that have not begun.
     """
     waiting: deque[Future[BatchWalk]] = deque()
     with ThreadPoolExecutor(threads) as pool:
@@ -167,10 +169,10 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
 
 
 def run_case(case: Case) -> Callable[[], BatchWalk]:
-    """Prepare a case; the function that comes back carries it out, in any thread.
+    """Prepare a case and return the function that simulates it, which may run in any thread.
 
-    Parts of Python's and Pinocchio's are touched here only. An error of theirs becomes the status
-    of this walk; InputError, a mistake of the caller's, is raised.
+    Python's and Pinocchio's parts are called here only, in the caller's thread. What they raise becomes the
+    status of this walk; an InputError, which is a mistake of the caller, is raised.
     """
     try:
         return _prepared(case)
@@ -185,7 +187,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
-    """As `run_case`. What has no compiled form is run here and now, in Python."""
+    """Prepare a case for `run_case`; a walk without a compiled form is simulated here at once, in Python."""
     walker, options = case.walker, case.options
     x = walker.initial_state(case.q, case.v, case.mode)
     options.check(x)
@@ -215,7 +217,8 @@ def _strides(
     """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s] at the
     latest.
 
-    read: address of what the table holds, 0 for none.
+    impacts: the walk ends after so many. read: address of the function that computes a row of the table, 0 for
+    no table.
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
@@ -245,8 +248,8 @@ def strides(
     """Single supports of one walker from many (x, mode), for return maps, in parallel threads: up to the next
     impact, or a status.
 
-    x (nx,) is the state right after the impact that began the single support `mode`; t_end [s]: longest time
-    for one of them.
+    x (nx,) is the state right after the impact that began the single support `mode`. t_end [s]: longest
+    duration of one single support.
     """
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         runs = [pool.submit(_strides, compiled, x, m, m.start + t_end, 1) for x, m in starts]

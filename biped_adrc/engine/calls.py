@@ -44,7 +44,8 @@ Shape = tuple[int, ...]
 """Shape of an array."""
 
 FUNCTION = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-"""f(K, inp, out), called with the lock of Python held: to let go of it would cost as much as a call."""
+"""Type of f(K, inp, out) with three addresses, called with Python's lock held: releasing it would cost as much
+as the call."""
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -90,7 +91,7 @@ class Call:
 def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
     """The functions of a disturbance's terms, (t, step, t_start, q, v) -> (zeta, force), for n coordinates.
 
-    Raises NotCompiled.
+    Raises NotCompiled for a term without machine code.
     """
     terms = () if disturbance is None else disturbance.terms
     sizes = 3 + 2 * n, n + 2
@@ -105,7 +106,8 @@ def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) 
 
 
 def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:
-    """A method of a part in machine code, for arguments of the shapes of these: it gives what the method gives.
+    """A function that computes in machine code what a method of a part returns, for arguments with the shapes
+    of `examples`.
 
     Raises NotCompiled, also where the method raises at the examples.
     """
@@ -145,10 +147,11 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
 
-    Make it with `compiled_biped`; robot: what the code is made from and called with.
+    Make it with `compiled_biped`. Numbers such as (11) are equations of the paper.
     """
 
     robot: PlanarRobot | None = None
+    """The same robot in closed form, from which the code is made."""
 
     @cached_property
     def _made(self) -> dict[str, Callable[..., Any]]:
@@ -192,7 +195,8 @@ def compiled_biped(biped: Biped) -> CompiledBiped:
 class CompiledReference:
     """A reference for n coordinates in machine code. Raises NotCompiled.
 
-    `twin` is of its class and calls the code; a copy of it with other numbers is called in Python.
+    `twin` is an object of the reference's own class whose call runs the code; a copy of the twin with other
+    numbers, such as `replace` makes, runs in Python.
     """
 
     def __init__(self, reference: Reference, n: int):
@@ -219,8 +223,8 @@ class CompiledReference:
 def compiled_references(part: object, n: int, references: list[CompiledReference]) -> Any:
     """A controller, or a part of one, with the references in its fields compiled, for n coordinates.
 
-    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. `references` is extended by
-    them. What cannot be compiled stays as it is.
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. The compiled ones are
+    appended to `references`. What cannot be compiled stays as it is.
     """
     if isinstance(part, Reference):
         with suppress(NotCompiled):

@@ -13,10 +13,10 @@ input, so that another disturbance does not compile the walker again.
 flow, tick, impact and remainder add, after their result, the least pivot of the matrices that the controller
 inverts; flow, tick and remainder -1 in its place where a torque is beyond the walker's bound.
 
-`SymbolicLoop` is what `closed_loop.semantics` is given so that its lines become generated code. The structure
-of `WalkerNumbers` decides the code, their floats are given at run time as the vector K. `engine.program` asks
+The functions of `closed_loop.semantics` run on a `SymbolicLoop`, so their lines become generated code. The
+structure of `WalkerNumbers` decides the code; their floats are the vector K at run time. `engine.program` asks
 for these functions and compiles them; the loops in `engine.kernels` call them by address. A tick is a sample
-instant.
+instant. Numbers such as (10) are equations of the paper.
 """
 
 from __future__ import annotations
@@ -76,12 +76,13 @@ class SymbolicLoop(NamedTuple):
     held: HeldParts | None
     """Parameters of what is held between sample instants, None in continuous time."""
     layout: Layout
-    """Of a state x."""
+    """Layout of a state x."""
     torques: list[Scalar]
-    """All torques so far; none may be beyond `numbers.strongest`."""
+    """All torques computed so far; none may be beyond `numbers.strongest`."""
     zeta: Array
+    """Disturbance (n,) [N m]."""
     force: Array
-    """From outside on the robot as a whole."""
+    """Force from outside on the robot as a whole (2,) [N]; on the two feet for a plant that moves by itself."""
 
     @property
     def exact(self) -> bool:
@@ -175,7 +176,8 @@ class SymbolicFunction(NamedTuple):
     out: ca.SX
     """Expressions of the outputs."""
     acts: ca.SX | None = None
-    """Where it is not above 0 out is zero, and not computed; None for always."""
+    """Expression of K and inp: where it is not above 0, out is zero and not computed. None: out is always
+    computed."""
 
 
 @dataclass(frozen=True)
@@ -183,9 +185,9 @@ class Equations:
     """The functions of one structure, each traced when it is asked for."""
 
     layout: Layout
-    """Of a state x."""
+    """Layout of a state x."""
     numbers: WalkerNumbers
-    """The numbers by name."""
+    """The walker's numbers by name; their structure decides the code."""
 
     @cached_property
     def symbols(self) -> tuple[ca.SX, WalkerNumbers]:
@@ -246,7 +248,8 @@ class Equations:
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
-        if len(x) != self.nx:  # all other methods are called once at the start of a run
+        # jump alone is not tried at the start of a run, so the size of its result is checked here
+        if len(x) != self.nx:
             name = type(self.numbers.controller).__name__
             raise Located(f"{name}.jump gives a state of another size than initial_state")
         return self.function(inp, x, loop.lost)
@@ -303,8 +306,8 @@ def matvec_function(k: int, p: int) -> SymbolicFunction:
 def push_function(term: Disturbance, n: int) -> SymbolicFunction:
     """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
 
-    Not computed where the term does not act, since most pushes act for a small part of a walk. Raises
-    NotCompiled.
+    The code computes nothing where the term does not act, since most pushes act for a small part of a walk.
+    Raises NotCompiled for a term that cannot be traced or returns other shapes.
     """
     (K, symbols), inp, trace = symbols_of(term), Vector("inp", 3 + 2 * n), Tracer()
     when, state = (inp.take(), inp.take(), inp.take()), (inp.take(n), inp.take(n))

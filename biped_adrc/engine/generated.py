@@ -13,18 +13,18 @@ if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
 _Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
-"""By name, each to be called for its expression."""
+"""Functions by name; each value is called, where its code is not there, to trace the expression."""
 _IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
 """Code by structure, or why there is none; a function is a value, so this is no state."""
 
 
 def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> LoadedCode:
-    """These functions in memory, by name; traced once per structure.
+    """Machine code of these functions in memory; they are traced once per structure.
 
     - key: the structure of what they are made from (`engine.structure`).
-    - vectors: as of `machine.object_code`.
+    - vectors: whether LLVM joins like operations into vector instructions (`machine.object_code`).
 
-    Raises NotCompiled, each time without tracing anew.
+    Raises NotCompiled for functions that cannot be traced; a second call raises it without tracing anew.
     """
     names = list(functions)
     key = key, *names
@@ -41,7 +41,7 @@ def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> Lo
 
 
 def _text(key: Hashable, functions: _Functions) -> str:
-    """The text of these functions; from the disk where another process has made it for the same structure."""
+    """LLVM's text of these functions; from the disk where another process has traced the same structure."""
     link = lasting(key)
     there = fetch(link) if link else None
     if there is not None:

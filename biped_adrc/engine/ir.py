@@ -39,12 +39,12 @@ class Operation(NamedTuple):
     """One value of a function, or one of its outputs."""
 
     code: int
-    """CasADi's, or CHOICE."""
+    """CasADi's code of the operation, or CHOICE."""
     of: tuple[int, ...]
-    """Places of its operands, operations before it. Of an input: 0 for K or 1 for inp, and the index there; of
-    an output: the place of its value, and its index."""
+    """Places of its operands, which are operations before it. An input has here 0 for K or 1 for inp, and its
+    index there; an output has the place of its value, and its own index."""
     number: float = 0.0
-    """Of a constant."""
+    """Value of a constant."""
 
 
 def straight_line(function: SymbolicFunction) -> list[Operation]:
@@ -94,7 +94,7 @@ CALLED = {ca.OP_FABS: "llvm.fabs.f64", ca.OP_SQRT: "llvm.sqrt.f64", ca.OP_FLOOR:
 CALLED |= {ca.OP_FMIN: "llvm.minimum.f64", ca.OP_FMAX: "llvm.maximum.f64", **OF_C}
 """LLVM's intrinsics and the C library's functions; minimum and maximum pass NaN on."""
 _OF_TWO = (ca.OP_FMIN, ca.OP_FMAX, ca.OP_POW, ca.OP_CONSTPOW)
-"""Those of two numbers."""
+"""Functions in CALLED that take two numbers; all others take one."""
 _PATTERNS: Patterns = {
     ca.OP_ADD: "fadd double {a}, {b}",
     ca.OP_SUB: "fsub double {a}, {b}",
@@ -134,7 +134,10 @@ def module_text(functions: dict[str, SymbolicFunction]) -> str:
 
 
 def function_text(name: str, function: SymbolicFunction) -> str:
-    """The text of one function with arguments K, inp, out, which do not overlap."""
+    """The text of one function with arguments K, inp, out, which do not overlap.
+
+    With `acts` it computes that number first, into out, and where it is not above 0 writes zeros and returns.
+    """
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
     lines = [*_lines("v", function, function.out), "ret void"]
     if function.acts is not None:
@@ -153,7 +156,7 @@ def function_text(name: str, function: SymbolicFunction) -> str:
 
 
 def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
-    """The lines that compute and store `out`.
+    """The lines of LLVM that compute and store the expressions `out` of a function's K and inp.
 
     Names of values begin with this letter and are numbered, since LLVM wants each of them to be assigned once.
     Outputs are stored last, since they may lie where an input is.

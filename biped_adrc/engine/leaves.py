@@ -31,14 +31,16 @@ def floats(tree: object) -> list[float]:
 
 
 def _floats_inside(tree: object) -> list[float]:
+    """The numbers of a tuple, list or part, of its members one after the other."""
     return [number for _, x in _inside(tree) for number in floats(x)]
 
 
 _floats = once(_floats_inside)
+"""`_floats_inside` of a part, which never changes, so it is computed once for each."""
 
 
 def paths(tree: object) -> list[str]:
-    """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
+    """Name of each number in `floats`, in the same order, such as k.tracking.K_p[0]."""
     places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
     return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
 

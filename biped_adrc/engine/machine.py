@@ -32,17 +32,17 @@ class LoadedCode:
     """Functions in memory, where they stay until the process ends."""
 
     addresses: dict[str, int]
-    """By name."""
+    """Address of each function, by its name."""
     text: str
     """The module in LLVM's language."""
 
 
 def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> LoadedCode:
-    """The functions `names` of a module in LLVM's language, from the disk where its object code is, or compiled
-    and stored.
+    """The functions `names` of a module in LLVM's language: loaded from the disk if its object code is there,
+    else compiled and stored.
 
-    One thread at a time, so that no two of them compile the same; other processes may, and write
-    the same file.
+    vectors: as in `object_code`. One thread at a time does it, so no two compile the same module; another
+    process may do so, and then writes the same file.
     """
     key = hash_of(text, str(vectors))
     with LOCK:
@@ -55,7 +55,8 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
 
 
 def hash_of(*made_from: str) -> str:
-    """Name of what is made from these texts for this processor and its instructions by this version of LLVM."""
+    """Hash of these texts, of this processor with its instructions, and of the version of LLVM: a file's
+    name."""
     host = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
     parts = (*made_from, *host, str(binding.llvm_version_info))
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
@@ -85,8 +86,8 @@ def object_code(
 ) -> bytes:
     """Object code of a module, optimised for this target machine at level 3.
 
-    No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
-    which helps `matvec` and takes its time elsewhere.
+    There are no fast-math flags, so sums keep their order. vectors: whether LLVM joins like operations into
+    vector instructions (SLP), which makes `matvec` faster and elsewhere only compiling slower.
     """
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)

@@ -19,7 +19,7 @@ class NotCompiled(InputError):
 
 
 class Located(NotCompiled):
-    """One whose text says where."""
+    """A NotCompiled whose text names class, file and line already, so that no outer call adds another place."""
 
 
 @contextmanager

@@ -22,6 +22,7 @@ Reading = Callable[..., tuple[Array, ...]]
 
 
 NONE = np.zeros(0)
+"""An empty array, for what a walker does not have."""
 
 
 class WalkerNumbers(NamedTuple):
@@ -32,7 +33,7 @@ class WalkerNumbers(NamedTuple):
     model: PlanarRobot | None
     """The controller's model, None where it is the plant."""
     controller: Controller
-    """In the time base of the walker."""
+    """The controller in its form for the time base of the walker."""
     torque_limit: float
     """[N m], infinite without one."""
     tan_slope: float = 0.0
@@ -50,9 +51,9 @@ class WalkerNumbers(NamedTuple):
     split: ErrorForm | None = None
     """Coordinates of the exponential method."""
     curve: Reference | OuterLoop | None = None
-    """What readings refer to; no other function has it."""
+    """Reference from which readings take errors; no other function uses it."""
     moves: bool = False
-    """Whether the plant moves by itself, and has sample instants alone."""
+    """Whether the plant moves by itself, so that sample instants are all that is compiled."""
 
 
 def numbers_of(
@@ -60,8 +61,8 @@ def numbers_of(
 ) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
-    split: coordinates of the exponential method. curve: what readings refer to. Raises ModelError for a robot
-    that is no planar tree.
+    split: coordinates of the exponential method. curve: reference from which readings take errors. Raises
+    ModelError for a robot that is no planar tree.
     """
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),

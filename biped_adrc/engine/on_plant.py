@@ -61,13 +61,13 @@ class CompiledLoop(SteppingLoop):
     """A `SteppingLoop` in machine code, with the same fields: its walk is the same to round-off, and much
     faster.
 
-    What there is of it in machine code is made for each run, by `prepared`.
+    `prepared` makes the machine code at the start of each run.
     """
 
     program: Program | None = None
-    """Of its sample instants; None where a part of it cannot be compiled."""
+    """Program of its sample instants; None where a part of it cannot be compiled."""
     pushes: list[Call] | None = None
-    """Terms of its disturbance; None for Python."""
+    """Terms of its disturbance in machine code; None where Python computes them."""
 
     def prepared(self, x: Array) -> tuple[CompiledLoop, dict[str, str]]:
         """The loop for one run from x, with work space of its own, and the settings that say which engine runs.

@@ -56,9 +56,9 @@ class Program:
     """
 
     layout: Layout
-    """Of a state x."""
+    """Layout of a state x."""
     numbers: WalkerNumbers
-    """The numbers by name."""
+    """The walker's numbers by name; as a vector they are K."""
 
     @cached_property
     def equations(self) -> Equations:
@@ -153,6 +153,7 @@ def at_rest(layout: Layout) -> Layout:
 
 
 NO_PUSH = Sum()
+"""A disturbance without terms, for a walker that has none."""
 
 
 @dataclass(frozen=True)
@@ -166,7 +167,7 @@ class CompiledWalker:
     plan: CompiledRun
     """A run that has not begun: sizes, addresses and settings."""
     label: str
-    """Of the method of integration, for records."""
+    """Name and step of the method of integration, for records."""
 
     @classmethod
     def of(
@@ -181,14 +182,16 @@ class CompiledWalker:
         """Make the tables of a run that begins at t_first [s], for states of this layout
         (`ClosedLoop.layout_of`).
 
-        reference: what readings of the program refer to. in_python: sample instants and impacts are those of
-        `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor on disk. Raises
-        NotCompiled where a part or the method cannot be compiled, InputError for a method without coordinates.
+        reference: the curve from which readings of the program take errors. in_python: sample instants and
+        impacts are those of `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor
+        on disk. Raises NotCompiled where a part or the method cannot be compiled, InputError for a method
+        without coordinates.
         """
         still = _still(walker.undisturbed, method, layout, reference, in_python)
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         codes = [push_code(x, n).addresses["push"] for x in push.terms]
+        # of each term the address of its code and how many numbers it has, whole numbers in cells of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
@@ -201,13 +204,15 @@ class CompiledWalker:
 
 
 class _Still(NamedTuple):
-    """What walkers share that differ in their disturbance alone."""
+    """The parts of a `CompiledWalker` that walkers share which differ in their disturbance alone."""
 
     program: Program
     tables: dict[str, Array]
+    """Vectors of `kernels.record.Run` by name, without those of the disturbance."""
     fields: dict[str, float]
+    """Fields of `kernels.record.Run` by name."""
     plans: dict[tuple[int, ...], CompiledRun]
-    """By the sizes of the disturbance's tables."""
+    """Plans by the sizes of the disturbance's tables, since these decide where everything lies."""
 
     def plan(self, tables: dict[str, Array]) -> CompiledRun:
         """A plan with these tables of a disturbance."""
@@ -225,7 +230,8 @@ def _still(
     reference: Reference | None,
     in_python: bool,
 ) -> _Still:
-    """As `CompiledWalker.of`, of a walker without disturbance."""
+    """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next
+    call."""
     if not isinstance(method, RK4 | Exponential):
         raise NotCompiled(
             f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
@@ -242,7 +248,8 @@ def _still(
     n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
     relaxing = walker.relaxing()
     k = 0 if split is None else len(split.A)
-    # the torque of the motors, then all does; q'' at a sample instant comes from machine code alone
+    # in sampled time only q and q' flow, and so do torques of lagging motors; all of x is integrated too where
+    # sample instants are in Python, since then no machine code gives q'' there
     flows = walker.held is None or relaxing or in_python
     tables = {
         "K": program.K,

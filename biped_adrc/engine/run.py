@@ -39,11 +39,12 @@ PINOCCHIO = "pinocchio"
 COMPILED_PLANT = "compiled plant"
 """Names of the engines in settings and records; the second one is what ran where a part does not compile."""
 ENGINES = (PINOCCHIO, COMPILED)
-"""Those that can be asked for."""
+"""Engines that a caller may choose."""
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
 ONWARD, STORE = 0.005, 1_000_000
-"""How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
+"""`detail_of` repeats so much of a lost run in Python, from its last good state on [s]; `store_every` there and
+in batches, so large that nodes are kept at the ends of arcs alone."""
 
 
 def check_engine(engine: str) -> None:
@@ -62,11 +63,11 @@ def simulate_by(
     impacts: int | None = None,
     **options: Any,
 ) -> Trajectory:
-    """A run of a walker from x0 (nx,) with Pinocchio's dynamics, or compiled; options as of `RunOptions`.
+    """Run a walker from x0 (nx,) by an engine of ENGINES; options are the fields of `RunOptions`.
 
-    impacts: end after that many. A robot that is no planar tree is simulated with Pinocchio
-    whatever was asked for. settings["engine"] says what ran, settings["why"] why it is not what was
-    asked for. Raises InputError.
+    impacts: the run ends after so many. A robot that is no planar tree is simulated with Pinocchio by any
+    engine. settings["engine"] says what ran, and settings["why"] why it is not the `engine` of the call. Raises
+    InputError for an unknown engine, a start that is not finite, and parts that do not fit together.
     """
     check_engine(engine)
     if impacts is not None:
@@ -110,6 +111,7 @@ def run_compiled(
         why = f"{reason}; it runs in Python on the compiled plant"
     (walker, references), result = compiled_plant(walker), None
     if walker.sampled:
+        # where this fails too, for instance by the method, the loop of `hybrid.simulator` follows below
         with suppress(NotCompiled):
             compiled = CompiledWalker.of(walker, method, layout, options.t0, in_python=True)
             ticks = PythonTicks(compiled, walker, references)
@@ -128,15 +130,20 @@ def simulate_compiled(
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread.
 
-    ticks: its sample instants and impacts in Python; None where machine code has them.
+    compiled: its program, method and plan. mode: the single support in which it starts. ticks: its sample
+    instants and impacts in Python; None where machine code has them.
     """
     run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
     longest, left = compiled.walker.max_step_time, options.t_end - options.t0
+    # room for the nodes of one arc: to t_end where the step is too long already, else to its latest end
     run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
     run["every"] = options.store_every
 
     def flown(t: float, x: Array, mode: Mode, fired: Event | None) -> FlownArc:
-        """Move one arc to the end of the run or to its first event, and make the impact there."""
+        """Move one arc to the end of the run or to its first event, and make the impact there.
+
+        Its arguments are not read: the run in memory is already where the last arc ended.
+        """
         nx, event, outcome = run.nx, None, None
         status, strikes = run.stride(1)
         for t, *x in strikes:
@@ -157,8 +164,9 @@ def simulate_compiled(
 
 
 def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
-    """The arc that ends with what Python raised at a sample instant or an impact; raises it where a mistake is
-    seen at once, at the first sample instant.
+    """The arc that ends with the error that Python raised at a sample instant or an impact.
+
+    An error at the first sample instant is a mistake in the user's class, so it is raised here, as is Ctrl-C.
     """
     if not isinstance(error, Exception):
         raise error
@@ -172,7 +180,8 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
     Python.
 
-    Machine code gives NaN without a name; the methods in Python name the class that gave it.
+    Machine code gives NaN without a name; the methods in Python name the class that gave it. So Python goes
+    on from the last good state for ONWARD seconds; where it ends otherwise, the text stays as it is.
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail

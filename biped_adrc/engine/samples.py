@@ -63,6 +63,7 @@ _trunk = once(lambda biped: link_point(biped, biped.description.trunk))
 
 def torque_place(program: Program) -> int:
     """Index in K at which the torque from outside (p,) begins: the last numbers of a controller with inputs."""
+    # K ends with one unused number (`Program.K`), before it stand the numbers behind the controller
     behind = program.numbers[program.numbers._fields.index("controller") + 1 :]
     return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
 
@@ -73,8 +74,8 @@ class CompiledWalk:
 
     compiled: CompiledWalker
     run: CompiledRun
-    """Where it is; moved by the kernel `samples`. Its nodes are those of this single support, as
-    `engine.batch.BatchWalk.table`; none where it is not judged."""
+    """The walk's present state in memory, moved on by the kernel `samples`. Its nodes are those of this single
+    support, rows as in `engine.batch.BatchWalk.table`; none where it is not judged."""
 
     @classmethod
     def of(
@@ -86,9 +87,10 @@ class CompiledWalk:
         curve: Reference | None,
         judged: bool,
     ) -> Self:
-        """From x (nx,). curve: what `law` refers to. judged: whether nodes are kept.
+        """Make the walk that starts at x (nx,) in the single support `mode`.
 
-        Raises NotCompiled for a part without machine code.
+        curve: reference from which errors are measured. judged: whether nodes are kept, for verdicts. Raises
+        NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.layout_of(x), mode.start, curve)
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
@@ -96,6 +98,8 @@ class CompiledWalk:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look)
         assert walker.disturbance is not None
+        # where the kernel writes torque and force; the last term, `AddedForce`, is added by it and not as a
+        # part
         run["torque"] = run["K"] + 8 * torque_place(compiled.program)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
         run["pulled"] = any(term.pulls for term in walker.disturbance.terms[:-1])
@@ -119,28 +123,33 @@ class CompiledWalk:
 
 @dataclass(frozen=True)
 class PythonWalk:
-    """One walk by `flow_arc`. Sample instants of a clock that does not restart are counted from 0 s."""
+    """One walk in Python, by `flow_arc`; the sample instants of a clock without restart are counted from 0
+    s."""
 
     loop: ClosedLoop[Any]
     method: OneStepMethod
-    """For a system that does not move by itself."""
+    """Method of integration; not used by a plant that moves by itself."""
     places: tuple[tuple[Array, slice], ...]
     """Arrays in which inputs are read, each with its part of (torque, force)."""
     t: float
-    """Where it is [s]."""
+    """Time that the walk has reached [s]."""
     x: Array
     """State (nx,) before the sample instant at t."""
     mode: Mode
     fired: Event | None = None
     """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
-    """Of this single support so far."""
+    """Arcs of the present single support so far."""
 
     @classmethod
     def of(
         cls, loop: ClosedLoop[Any], outside: Array, method: OneStepMethod, x: Array, mode: Mode
     ) -> Self:
-        """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
+        """Make the walk that starts at x (nx,) in the single support `mode`.
+
+        loop: a walker of `with_inputs`, or its parts around another plant. outside (p + 2,): the array in which
+        these read torque and force.
+        """
         p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
             loop, _ = compiled_plant(loop)
@@ -155,18 +164,18 @@ class PythonWalk:
 
     @property
     def at(self) -> At:
-        """Where it is."""
+        """Loop, time [s], state and mode of the walk now."""
         return self.loop, self.t, self.x, self.mode
 
     def copy(self) -> Self:
-        """Itself: `sample` gives another walk."""
+        """The walk itself: it never changes, since `sample` returns another one."""
         return self
 
     def sample(self, inputs: Array) -> tuple[Self, Status, list[Arc]]:
-        """The walk at its next sample instant, with COMPLETED, or at its end; and single supports that are
-        over.
+        """Move on by one sample: the walk at its next sample instant, with the status COMPLETED, or at its end;
+        and the arcs of single supports that ended on the way.
 
-        inputs: torque and force (p + 2,). Raises RaisedError where a class of the user's raises.
+        inputs (p + 2,): torque [N m] and force [N]. Raises RaisedError where a class of the user's raises.
         """
         for place, part in self.places:
             place[:] = inputs[part]

@@ -48,7 +48,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
         return tree
     if isinstance(tree, LISTS):
         return type(tree), *(structure(x, exact) for x in tree)
-    if isinstance(tree, dict):
+    if isinstance(tree, dict):  # its numbers are constants in the code, so they count by value
         return dict, *((name, structure(x, True)) for name, x in tree.items())
     try:
         hash(tree)
@@ -63,6 +63,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
 @once
 def _of_part(part: Any, exact: bool) -> Hashable:
+    """The structure of a part: its class, and the structures of its fields by name."""
     return type(part), *((name, structure(x, exact)) for name, x in content(part).items())
 
 

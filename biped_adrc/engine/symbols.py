@@ -1,10 +1,9 @@
 """Functions on symbols: run once on CasADi's scalars in NumPy's object arrays, a function leaves an expression.
 
 This is the first stage of the compiler: method -> expression (here) -> LLVM text (`engine.ir`) ->
-machine code (`engine.machine`). It is an ordinary method or function on NumPy arrays. `engine.tracer`
-makes a copy of it, and of every function that it reaches, in which `np`, `math` and `linear.solve`
-are replaced by twins that make no float arrays and decide nothing by the numbers. Its own
-lines are not rewritten.
+machine code (`engine.machine`). The method is an ordinary one on NumPy arrays. `engine.tracer` makes a copy of
+it, and of every function that it reaches, in which `np`, `math` and `linear.solve` are replaced by twins that
+make no float arrays and decide nothing by the numbers. The method's own lines are not rewritten.
 
 Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
 symbols, to be given at run time, so that one compilation serves all values. What branches on

@@ -31,7 +31,7 @@ from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import Reduction
 
 BLOCK, TERMS = 256, len(Reduction._fields)
-"""Sample instants whose inputs lie in one array; arrays in the terms."""
+"""Number of sample instants whose inputs share one array; number of arrays in the model's terms."""
 
 
 @lru_cache(maxsize=64)
@@ -41,15 +41,18 @@ def _numbers_at(address: int, size: int) -> Array:
 
 
 class PythonTicks:
-    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker's own methods; without q''.
+    """`tick` and `impact` as `kernels.record.Run` describes them, computed by a walker's own methods, without
+    q''.
 
-    What a method raises is kept as `error`; the march ends as NOT_FINITE.
+    An exception of a method is kept as `error` and the result is NaN, by which the march ends as NOT_FINITE.
     """
 
     def __init__(
         self, compiled: CompiledWalker, walker: Walker, references: Sequence[CompiledReference]
     ):
-        """walker: whose methods are called, with its references compiled."""
+        """compiled: the plan of the run, into which the two addresses are written. walker: the one whose
+        methods are called; `references` are its compiled references.
+        """
         self.walker, self.nx = walker, compiled.program.nx
         self.error: BaseException | None = None
         tail = compiled.program.layout.parts[State._fields.index("tail")]
@@ -61,9 +64,10 @@ class PythonTicks:
 
     @contextmanager
     def interrupted(self) -> Iterator[None]:
-        """Within it Ctrl-C just before a method is kept as `error` too; ctypes alone would print it.
+        """Context in which Ctrl-C just before a method is kept as `error` too; ctypes alone would only print
+        it.
 
-        Python raises Ctrl-C in its main thread alone.
+        Python raises KeyboardInterrupt in its main thread alone, so other threads keep their hook.
         """
         before = sys.unraisablehook
 
@@ -92,18 +96,20 @@ class PythonTicks:
             self.error, result[:] = error, math.nan
 
     def _tick(self, inp: int, result: Array) -> None:
+        """Write x after the sample instant, from (t, step, t_start, x) at the address `inp`."""
         t, step, start, *x = _numbers_at(inp, 3 + self.nx).tolist()
         result[:-1] = self.walker.tick(t, np.array(x), Mode(int(step), start))
 
     def _impact(self, inp: int, result: Array) -> None:
+        """Write x+ after the impact, from (t, step, x) at `inp`; step is that of the new single support."""
         t, step, *x = _numbers_at(inp, 2 + self.nx).tolist()
         result[:-1] = self.walker.impact(t, np.array(x), Mode(int(step) - 1))[0]
 
     def _measured(
         self, program: Program, references: Sequence[CompiledReference]
     ) -> Callable[[int, Array], None]:
-        """A function as `_tick` for a walker that holds the torque alone, with the controller's inputs from
-        machine code; the point of `references`, one at most, is among them.
+        """Make the function that replaces `_tick` for a walker that holds the torque alone: machine code
+        computes the controller's inputs, with the point of `references`, of which there is at most one.
         """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         s_layout = walker.layout_of(np.zeros(nx)).parts[State._fields.index("s")]
@@ -122,6 +128,7 @@ class PythonTicks:
             t, step, start = _numbers_at(inp, 3).tolist()
             x = _numbers_at(inp, 3 + nx)[3:]
             mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
+            # the controller evaluates its reference at these q and v, and gets this point without a second call
             for r in references:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
             m = semantics.measurement(walker, t, q, v, mode, body, terms)
@@ -133,8 +140,8 @@ class PythonTicks:
 
 
 def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
-    """Memory for the inputs of one sample instant after the other, arrays of these shapes: its address, and the
-    arrays there, read-only.
+    """Yield memory for the inputs of each sample instant: its address, and read-only arrays of these shapes
+    there.
 
     No memory is given out twice, since a controller may keep its inputs.
     """

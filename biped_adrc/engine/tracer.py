@@ -172,7 +172,7 @@ class Tracer:
         """
         if id(value) in self._substitutes:
             return self._substitutes[id(value)][1]
-        if isinstance(value, tuple | list):
+        if isinstance(value, tuple | list):  # a list that the law changes would be a memory
             inside = [self.on_symbols(part) for part in value]
             return Unchangeable(inside) if type(value) is list else rebuilt(value, inside)
         if isinstance(value, HIDDEN):

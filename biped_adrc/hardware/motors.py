@@ -5,9 +5,9 @@
     tau u_m' = u - u_m                                  torque of the motor
 
 Torques that do not act yet are stored: j of them in a queue, and one more until t_k + f T where f > 0. At
-impact all of them are relabelled with the joints. Where the clock restarts there, a tick comes early: it may
-change the torque by as much as any other, the queue moves up, and the torque that waits for a fraction of a
-period is replaced.
+impact all of them are relabelled with the joints. Where the clock restarts at the impact, a tick comes early,
+and is treated as a full period: the rate limit allows a change of rate T, the queue moves up by one, and a
+torque that still waits for a fraction of a period is replaced.
 
 The delay is the clock's, `SampledTime(period, delay)`; rate limit and lag are `Motors`. A saturation,
 `Walker.torque_limit`, comes before all of this. An observer's input is the torque after the rate limit, and
@@ -86,7 +86,7 @@ class TorqueLine:
         if len(queue) > 0:
             next_one = queue[0]
             queue = np.concatenate((queue[1:], u[np.newaxis]))
-        if line.waiting is not None:
+        if line.waiting is not None:  # it replaces u later in the period, by `semantics.release`
             return Line(queue, line.u_m, next_one, line.u)
         return Line(queue, line.u_m, None, next_one)
 

@@ -4,7 +4,8 @@
 
 own are the numbers of a plant that integrates itself, belief the single support that the controller assumes,
 sensors the state w of the sensors, and line the torques on their way to the motors (`hardware.motors`). A part
-is empty, or None, where the walker has none. Between ticks the torque of lagging motors alone changes.
+is empty, or None, where the walker has none. Between ticks only the torque of lagging motors changes, and u
+where a delay ends within the period.
 
 `HeldParts` initialises the tail; `closed_loop.semantics` moves it at a tick and an impact, where the controller
 acts.
@@ -40,15 +41,17 @@ class HeldParts(NamedTuple):
     """Sensors, motors and touchdown detector of a walker at its ticks; None where it has none."""
 
     sensors: Sensor | None
-    """The sensors, sampled for the robot and period."""
+    """The sensors in their form for this robot and period."""
     motors: TorqueLine
+    """Rate limit, lag and fractional delay of the motors."""
     touchdown: Touchdown | None
+    """The detector; None where the controller knows touchdowns at once."""
     known: bool
     """Whether the controller knows the delay."""
     own: int
-    """How many numbers a plant that integrates itself keeps."""
+    """How many numbers a plant that integrates itself keeps for its own use."""
     line: Layout
-    """Of the torques on their way."""
+    """Layout of the torques on their way."""
 
     def sense(self, w: Any, q: Array, v: Array) -> Any:
         """State w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""

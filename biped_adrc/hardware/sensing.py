@@ -33,7 +33,10 @@ class Sensor(Checked):
         return w
 
     def impact(self, w: Any, q: Array, v: Array, v_model: Array) -> Any:
-        """State w after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
+        """State w after an impact that led to q (n,) [rad], v (n,) [rad/s].
+
+        v_model (n,) [rad/s]: the last measured rates mapped by the nominal model's impact.
+        """
         return w
 
     def reading(self, w: Any, q: Array, v: Array) -> tuple[Array, Array]:

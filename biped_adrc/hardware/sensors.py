@@ -4,8 +4,8 @@
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
 or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump,
-and a difference across it is useless: v^ goes through the nominal model's impact (7), and the first
-tick after it keeps that value.
+and a difference across it is no rate: v^ is mapped by the nominal model's impact, (7) of the paper, and the
+first tick after it keeps that value.
 
 The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 
@@ -23,8 +23,8 @@ An inertial sensor on the torso measures the unactuated pitch and its rate, with
 d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] the mounting error of the
 sensor. It is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
 
-After an impact the rate is read anew, the angle is that of the last
-tick: at an impact the rate jumps and the angle does not.
+After an impact the rate is read anew, and the angle is that of the last tick: at an impact the pitch rate jumps
+and the pitch does not.
 
 No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
 the whole step in phase, and a drift of the angle does so more and more from step to step.
@@ -116,9 +116,9 @@ class Sensed(NamedTuple):
     """State of `Sensors`."""
 
     angle: Array
-    """Angles of the last tick, as read (n,) [rad]."""
+    """Measured angles of the last tick (n,) [rad]."""
     rate: Array
-    """Rates as read (n,) [rad/s]."""
+    """Measured rates (n,) [rad/s]."""
     fresh: float
     """1 at a start and after an impact, where no difference of angles can be taken yet; else 0."""
     r: Array
@@ -129,9 +129,9 @@ class Pitch(NamedTuple):
     """State of a `PitchSensor`."""
 
     angle: float
-    """As read [rad]."""
+    """Measured pitch [rad]."""
     rate: float
-    """As read [rad/s]."""
+    """Measured pitch rate [rad/s]."""
     off: float
     """Bias with the drift so far [rad]."""
     r: Array
@@ -194,6 +194,7 @@ class SampledSensors(Sensor):
 
 
 M_1, M_2 = 4294967087.0, 4294944443.0
+"""Moduli m_1 and m_2 of the random numbers, as floats."""
 
 
 def seeded(seed: int) -> Array:

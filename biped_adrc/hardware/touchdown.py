@@ -9,9 +9,10 @@ belief, is a part of the walker's state:
 
     belief = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
 
-A touchdown and a detection each toggle `other`. So a detection before its touchdown is an early one, and a
-touchdown that is not detected before the next one leaves the labels right again and the belief two steps
-behind. Both engines run these methods, which are pure functions; randomness is a part of d.
+A touchdown and a detection each toggle `other`. So a detection before its touchdown is an early one. A
+touchdown that is not detected before the following touchdown leaves the labels right again, and the controller
+counts two walking steps less than there were. Both engines run these methods, which are pure functions;
+randomness is a part of d.
 
 `FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
 late, with probability 1 - missed; its state d is a `Due`.
@@ -116,9 +117,9 @@ class Due(NamedTuple):
     waits: float
     """1 while a touchdown waits to be detected, else 0."""
     due: float
-    """When that is due [s]."""
+    """Time from which it is detected [s]."""
     done: float
-    """1 once the false detection has been, else 0."""
+    """1 once the false detection has happened, else 0."""
     r: Array
     """State of the random numbers (6,), or (0,)."""
 
@@ -131,11 +132,11 @@ class _Load(NamedTuple):
     loaded: float
     """1 while it is loaded after that, else 0."""
     since: float
-    """Since when [s]."""
+    """Time since which it is loaded [s]."""
     waits: float
     """1 while a touchdown waits for the delay, else 0."""
     due: float
-    """When it is detected [s]."""
+    """Time from which it is detected [s]."""
 
 
 ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
@@ -256,8 +257,9 @@ class ByForce(Gated):
 
     ahead [m]: least distance of the swing foot in front of the stance foot. after [s]: least time between two
     detections. slope [rad]: of the ground as the controller assumes it, positive downhill. off [N]: the foot
-    was free, with less force than this. on [N]: it carries more than this. debounce [s]: and never less than
-    `off` for so long. delay [s]: it fires so much later. A foot switch is one with its threshold and delay.
+    was free before, with less force than this. on [N]: force above which it is then loaded. debounce [s]:
+    time for which it then carries at least `off`. delay [s]: it fires so much later. A foot switch is such a
+    detector with its threshold and delay.
     Raises InputError unless 0 <= off <= on.
 
     >>> detector = ba.ByForce(on=80.0, off=30.0, delay=2e-3)

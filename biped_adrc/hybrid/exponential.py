@@ -41,8 +41,8 @@ Phi = tuple[Array, Array, Array, Array]
 TERMS = 24
 """Terms of the series; |z|^24 / 24! < 1e-30 for |z| < 1/2."""
 LEVELS, STABLE = 13, 0.1
-"""The shortest sub-step is h 2^-(levels - 1), with at least so many levels, and no longer than STABLE over the
-fastest pole: the classical step that ends a landing is stable there."""
+"""The shortest sub-step is h 2^-(levels - 1), with at least LEVELS levels, and no longer than STABLE over the
+fastest pole. One step of RK4 goes the rest of the way to a break or an event, and is stable at that length."""
 
 
 def matrices(half: Phi, phi: Phi, h: float) -> tuple[Array, ...]:

@@ -32,10 +32,10 @@ class StepFailed(Exception):
 
 
 class Step(NamedTuple):
-    """One step of a solver: its end, and the way there."""
+    """One integration step of a solver: its end, and the way there."""
 
     t: float
-    """[s]"""
+    """Time at its end [s]."""
     x: Array
     """State (nx,)."""
     dx: Array
@@ -109,7 +109,8 @@ class _SciPy(Checked, Solver):
         solver rejects the step; the error is raised only where the solver gives up. Raises
         StepFailed with the solver's message otherwise.
         """
-        last: Exception | None = None  # of the last trial; lost: of any in this step
+        # last: the error of the last trial; lost: that of any trial in this step
+        last: Exception | None = None
         lost: Exception | None = None
 
         def tried(t: float, x: Array) -> Array:
@@ -123,7 +124,7 @@ class _SciPy(Checked, Solver):
                 lost = error
             return dx
 
-        if not np.all(np.isfinite(f(t, x))):  # of which SciPy's first step would never end
+        if not np.all(np.isfinite(f(t, x))):  # SciPy would look for its first step without end
             raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
         solver = getattr(import_module("scipy.integrate"), self.solver)(
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
@@ -135,7 +136,7 @@ class _SciPy(Checked, Solver):
                 message = solver.step()
             except ValueError:  # of SciPy's linear algebra, which takes no NaN
                 if lost is None and np.all(np.isfinite(getattr(solver, "J", 0.0))):
-                    raise  # the flow's own
+                    raise  # a ValueError of the flow itself
                 flat = f"the slope has no finite derivative at t = {solver.t:.6g} s"
                 raise lost or NotFiniteError(flat) from None
             if solver.status == "failed":

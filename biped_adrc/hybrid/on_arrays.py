@@ -60,7 +60,7 @@ class Calendar:
 
     @cached_property
     def edges(self) -> list[float]:
-        """Switching times and t_end [s] in order, and infinity."""
+        """Switching times of the inputs and t_end [s] in order, and infinity."""
         return sorted([*self.system.switching_times(self.mode), self.t_end, math.inf])
 
     def due(self, t: float, x: Array) -> Array:
@@ -80,7 +80,7 @@ class Calendar:
 
 
 class Run:
-    """One arc of a system: where it is, what the march knows of it, and its arrays."""
+    """One arc of a system while the march moves it: time and state now, settings, and work arrays."""
 
     if TYPE_CHECKING:
 
@@ -132,6 +132,7 @@ class Run:
             self._set_etd(method)
 
     def _set_etd(self, method: Exponential) -> None:
+        """Make the matrices and arrays of the exponential method, in the coordinates y = (w, E)."""
         form = self.system.split(self.mode)
         if form is None:
             raise no_coordinates()
@@ -198,8 +199,11 @@ def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
 
 # -- the system ------------------------------------------------------------------------------------
 def flow(r: Run, t: float, x: Array, dx: Array) -> None:
-    """dx (nx,) = x'(t, x), t in [s]; no later than r.limit, so that a step that ends at a break sees its left
-    limit."""
+    """dx (nx,) = x'(t, x), t in [s].
+
+    The system is asked at min(t, r.limit), with r.limit just before the next break: a step that ends at the
+    break then takes the input's left limit there, and not its value after the jump.
+    """
     dx[:] = r.system.flow(min(t, r.limit), x.copy(), r.mode)
 
 
@@ -215,7 +219,7 @@ def join(r: Run, y: Array, x: Array) -> None:
 
 
 def remainder(r: Run, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, N_E) at (t, y), t in [s]."""
+    """N = (N_w, N_E) at (t, y), t in [s]; as in `flow` no later than r.limit, just before the next break."""
     N_w, N_E = r.form.remainder(min(t, r.limit), *r.parts(y))
     N[: r.n_slow], r.block(N)[:] = N_w, N_E
 
@@ -237,13 +241,16 @@ def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
 
 
 def slow(r: Run, t: float, x: Array) -> bool:
-    """True. Raises RanAwayError for x (nx,) at t [s] beyond what the system can have."""
+    """Check that x (nx,) at t [s] is within the bounds of the system: returns True, or raises RanAwayError.
+
+    The name is that of its compiled twin, which cannot raise: it returns False for a rate or angle too large.
+    """
     r.system.check_state(t, x)
     return True
 
 
 def broken(r: Run) -> int:
-    """The status of a run whose state or slope is not finite."""
+    """The status of a run whose state or slope is not finite; the compiled twin finds out which of several."""
     return constants.NOT_FINITE
 
 
@@ -255,7 +262,9 @@ def watch(r: Run, t: float, x: Array, out: Array) -> None:
 
 
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
-    """True: a step longer than RESOLUTION is always taken again at its interior points."""
+    """Whether an event may lie inside a step of integration longer than RESOLUTION: True, so it is always taken
+    again at its interior points.
+    """
     # the compiled twin may look at a cubic first: it knows that the events of a walker depend on q and t alone
     return True
 
@@ -279,13 +288,13 @@ def accepts(r: Run, guard: int, te: float) -> bool:
 
 
 def code_of(r: Run, guard: int) -> int:
-    """STRUCK, with the event in r.event."""
+    """The code STRUCK of an arc that ends in an event, which is kept as r.event."""
     r.event = r.accepted[guard]
     return constants.STRUCK
 
 
 def due(r: Run) -> int:
-    """x0 (nx,) after the sample instants that are due; 0."""
+    """Update x0 (nx,) at the sample instants that are due; returns 0, the code for no failure."""
     r.x0[:] = r.calendar.due(r.t, r.x0.copy())
     return 0
 
@@ -302,8 +311,9 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
 
 # -- a solver's steps ------------------------------------------------------------------------------
 def solve(r: Run, t_next: float) -> float:
-    """x1, dx1 (nx,) after the solver's next step towards t_next [s]; its end [s]. A new t_next starts it at x0.
+    """Take the solver's next step towards t_next [s] into x1, dx1 (nx,); returns the time [s] of its end.
 
+    A new t_next starts the solver at x0. The flow is asked no later than r.limit, just before the next break.
     Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
     """
     if r.t_next != t_next:

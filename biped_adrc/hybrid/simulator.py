@@ -50,9 +50,9 @@ class RunOptions:
     max_events: int = 100_000
     """A run with so many events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
     store_every: int = 1
-    """Keep each k-th step for dense output."""
+    """Every so many integration steps one node is kept for dense output; 1 keeps all."""
     progress: Progress | None = None
-    """Told of every event."""
+    """Function that is called after every event; None for none."""
 
     def check(self, x: Array) -> None:
         """Raise InputError for a run from x (nx,) that cannot begin."""
@@ -117,8 +117,9 @@ def run(
     method: OneStepMethod | None,
     options: RunOptions,
 ) -> Trajectory:
-    """Simulate a system from x0 (nx,) with options as a record; a system with a mover of its own needs no
-    method.
+    """Simulate a system from x0 (nx,) in `mode`, with the options as one record.
+
+    method: of integration; None for a system that moves by itself (`HybridSystem.mover`).
     """
     label = "steps of the plant's own" if method is None else method.label
     return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
@@ -133,7 +134,7 @@ def run_arcs(
 ) -> Trajectory:
     """A run from x0 (nx,), arc after arc made by fly(t, x, mode, event that ended the arc before).
 
-    label: of the method, for the settings. Counts events, applies resets and decides when the run
+    label: name of the method, for the settings. Counts events, applies resets and decides when the run
     is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE and
     is not kept, whatever flew the arc.
     """
@@ -214,8 +215,8 @@ def flow_arc(
 ) -> FlownArc:
     """One arc from (t, x) in Python: to an event, t_end, or an error of `FAILURES`.
 
-    fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from the middle
-    of one. An arc that fails before its first node keeps its start.
+    fired: the event that ended the arc before. began [s]: time at which the arc began, where (t, x) is in the
+    middle of one; None: it begins at t. An arc that fails before its first node keeps its start.
     """
     record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""

@@ -107,11 +107,11 @@ class Relaxing(NamedTuple):
     """
 
     at: slice
-    """Those that move."""
+    """Places in x of the numbers that move."""
     to: slice
-    """Those that they go to, as many."""
+    """Places in x of their limits, as many."""
     speed: float
-    """[1/s]"""
+    """Inverse of their time constant [1/s]."""
 
 
 class HybridSystem(Shown):

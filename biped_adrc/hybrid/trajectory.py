@@ -23,9 +23,9 @@ class Event(Shown):
     """An event function that fired."""
 
     guard: str
-    """Its name."""
+    """Name of the event function."""
     t: float
-    """[s]"""
+    """Time of the event [s]."""
     x_minus: Array
     """State before (nx,)."""
     x_plus: Array | None
@@ -42,7 +42,7 @@ class Arc(Shown):
     """
 
     mode: Any
-    """Discrete state in which it ran."""
+    """Discrete state in which the arc ran, for a walker its `Mode`."""
     t: Array
     """Times of the nodes (K,) [s]."""
     x: Array
@@ -50,7 +50,7 @@ class Arc(Shown):
     dx: Array
     """Slopes x' (K, nx)."""
     event: Event | None = None
-    """What ended it; None at the end of a run without one."""
+    """The event that ended the arc; None at the end of a run without one."""
     read: dict[str, Array] = field(default_factory=dict)
     """What was recorded at the nodes because it cannot be computed again from the states, K rows of each."""
 
@@ -60,8 +60,8 @@ class Arc(Shown):
 
     @property
     def seen(self) -> Array:
-        """Node times (K,) [s] for left limits: at a jump the first of the two equal times moves
-        back by one ulp.
+        """Node times (K,) [s] for left limits: the first of the two equal times of a jump, and the end of the
+        arc, move back by one unit in the last place.
 
         A signal evaluated there is what acted until the jump, such as the torque before a sample
         instant.
@@ -98,7 +98,7 @@ class Recorder:
     """
 
     every: int
-    """Each k-th step is kept."""
+    """Each `every`-th integration step is kept."""
     t: list[float | Array] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
@@ -139,7 +139,7 @@ class Trajectory(Shown):
     """
 
     arcs: tuple[Arc, ...]
-    """At least one."""
+    """The arcs in order of time, at least one."""
     status: Status
     """How the run ended."""
     detail: str = ""

@@ -74,10 +74,10 @@ class ResetPolicy(Enum):
 
 
 class ErrorSystem(NamedTuple):
-    """Linear error dynamics of an observer: its error obeys e' = A e + b (q_b'' - kappa u).
+    """Linear error dynamics of an observer: E' = A E + b (q_b'' - kappa u), with one column of E per joint.
 
-    For z (k, p): E = S (q_b, q_b') - z, where S puts q_b in row 0 and q_b' * velocity_scale in row 1.
-    The forcing enters row 1 times velocity_scale.
+    For a state z (k, p) the error is E = S (q_b, q_b') - z (k, p): S puts q_b in row 0, q_b' * velocity_scale
+    in row 1 and zeros below. b is velocity_scale in row 1 and 0 elsewhere.
     """
 
     A: Array
@@ -132,7 +132,7 @@ class Observer(Part):
         self._only("works in continuous time; call sampled(period)")
 
     def sampled(self, period: float) -> Observer:
-        """The discrete form for ticks every `period` [s]. Raises InputError where there is none."""
+        """The observer in discrete form for ticks every `period` [s]. Raises InputError where it has none."""
         self._only(
             "has no discrete form; give it a method sampled(period), or use ContinuousTime()"
         )

@@ -44,9 +44,9 @@ class KalmanObserver(InjectedChain):
     def from_noise(cls, drift: float, measurement: float, m: int = 1) -> KalmanObserver:
         """The observer for noises: drift = sqrt(W) [rad/s^(m + 3/2)], measurement = sqrt(R) [rad s^(1/2)].
 
-        sqrt(W) is the drift of x_(m+2) in the root of a second. An encoder with errors of standard
-        deviation s at ticks of T seconds has the measurement s T^(1/2). Raises InputError for numbers that
-        are not positive, and for m below 1.
+        sqrt(W) is the standard deviation by which x_(m+2) drifts in one second. An encoder whose errors have
+        the standard deviation s [rad] at ticks every T [s] has measurement = s T^(1/2). Raises InputError for
+        numbers that are not positive, and for m below 1.
         """
         check_whole(m, f"the order m of a Kalman observer is {m!r}", 1)
         check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")
@@ -81,10 +81,10 @@ class KalmanObserver(InjectedChain):
 
 
 def accumulated(order: int) -> Array:
-    """Covariance Q (k, k) that white noise of intensity W = 1 adds to k = `order`
-    integrators in a period T = 1.
+    """Covariance Q (k, k) that white noise of intensity W = 1 adds to a chain of k = `order` integrators in a
+    period T = 1.
 
-    It is Q in states scaled by powers of T, without its factor T^(2 k - 1).
+    For another period this is Q in states scaled by powers of T, without its factor T^(2 k - 1).
     """
     left = [order - i for i in range(1, order + 1)]
     rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]

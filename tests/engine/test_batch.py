@@ -104,6 +104,7 @@ def test_the_number_of_threads_changes_no_bit(mixed):
 
 
 def test_every_run_of_a_batch_is_the_single_run(mixed):
+    """Times, states and ends are those of `simulate_by`, bit for bit, whatever ends the run."""
     for case, walked in zip(mixed.values(), simulate_many(mixed.values()), strict=True):
         walker, mode = case.walker, case.mode
         x0 = walker.initial_state(case.q, case.v, mode)
@@ -152,6 +153,7 @@ def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
     walked = list(simulate_many(cases, threads=2))
     assert [w.status for w in walked[1::2]] == [*ends.values()]
     assert all("what the controller says" in w.detail for w in walked[1::2])
+    # the third of the errors, ZeroDivisionError, is no error of the package, so its place is named
     assert walked[5].detail.startswith("Raising.output (test_batch.py:")
     assert walked[5].detail.endswith("raised ZeroDivisionError: what the controller says")
     assert all(w.status is ba.Status.COMPLETED for w in walked[::2])

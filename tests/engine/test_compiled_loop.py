@@ -60,7 +60,9 @@ HARDWARE = {
 
 
 @pytest.mark.parametrize("name", HARDWARE)
-def test_the_same_walk_whatever_is_between(plant, gait, name):
+def test_both_engines_make_the_same_walk_with_hardware_between_controller_and_plant(
+    plant, gait, name
+):
     more = dict(HARDWARE[name])
     if name == "pushed":
         more["disturbance"] = PUSH + ba.HipForce(plant.biped, (20.0, -10.0))

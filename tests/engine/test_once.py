@@ -52,6 +52,9 @@ class Outside(ba.Controller):
 
 
 def test_what_may_change_is_not_remembered(biped, gait):
+    """`once` is asked again for a part with a user's class, and not for one of the package with fixed arrays:
+    two questions of the first, one of the second.
+    """
     array = np.zeros(4)
     view = array.view()
     view.flags.writeable = False

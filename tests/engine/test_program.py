@@ -19,6 +19,7 @@ from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
 
 EXACT = 1e-11
+"""Largest difference, as a share of the largest number."""
 COUNT = 1000
 TUPLES = ("reduction", "body_terms", "impact")
 
@@ -114,7 +115,7 @@ def test_one_compilation_serves_every_number(biped, gait):
     second = program(Walker(light, other, torque_limit=9.0))
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
-    third = program(Walker(bare, other))
+    third = program(Walker(bare, other))  # another preset of the robot has a program too
     assert third.numbers.plant.n == 5
 
 

@@ -58,7 +58,10 @@ def test_value_jacobian_and_fixed_point(gait, npd):
 
 
 def test_an_observer_s_states_are_coordinates(gait, adrc):
-    """RELABEL keeps them over the impact, so P depends on them; without them it starts them anew."""
+    """RELABEL keeps the observer's states over the impact, so P depends on them: 9 + 3 states of 4 joints.
+
+    With controller_states=False the observer is started anew at each impact, and P has 9 coordinates.
+    """
     compiled, python = maps(adrc, ba.Exponential(2e-3))
     assert has_compiled_form(compiled)
     x = section(gait, adrc)

@@ -27,11 +27,12 @@ from tests.plain import Undecorated
 simulate = partial(simulate_by, "compiled")
 
 SHARP = 1e-11
-"""What sums in another order leave, where no step is chosen and nothing is amplified."""
+"""Largest difference of the engines: round-off of sums in another order, which nothing amplifies."""
 TICKS = 1e-10
-"""The same where the observer's or the controller's differences are held over a tick."""
+"""The same in sampled time, where the gains amplify round-off of an angle and a tick holds the torque."""
 LANDED = 1e-6
-"""Methods that land on an event, or choose their steps, in ways of their own."""
+"""The same of methods whose last sub-step before an event, or whose choice of steps, differs in both
+engines."""
 PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
 
 
@@ -46,7 +47,7 @@ def adrc(gait, bandwidth=300.0, **more):
 def runs(
     walker, gait, method, impacts=2, t_end=4.0, mode=None, t0=None, start=None, every=1, x0=None
 ):
-    """The run of either engine."""
+    """The runs of a walker by the Python engine and by the compiled one."""
     mode = Mode() if mode is None else mode
     t0 = mode.start if t0 is None else t0
     if x0 is None:
@@ -59,12 +60,14 @@ def runs(
 
 
 def near(found, expected, tolerance):
+    """Each column within `tolerance` of its largest number, or of 1 where that is smaller."""
     gap = np.abs(found - expected)
     scale = np.maximum(1.0, np.max(np.abs(expected), axis=0, initial=0.0))
     assert np.all(gap <= tolerance * scale), np.max(gap / scale)
 
 
 def same_events(python, compiled, tolerance, engine="compiled"):
+    """The runs have equal ends, engines as expected, and single supports and events within `tolerance`."""
     assert compiled.status is python.status, (compiled.status, compiled.detail, python.detail)
     assert compiled.settings["engine"] == engine
     assert compiled.settings["method"] == python.settings["method"]
@@ -84,6 +87,7 @@ def same_events(python, compiled, tolerance, engine="compiled"):
 
 
 def same(python, compiled, tolerance, engine="compiled"):
+    """The runs agree in events and in all nodes."""
     same_events(python, compiled, tolerance, engine)
     for found, expected in zip(compiled.arcs, python.arcs, strict=True):
         assert found.t.shape == expected.t.shape
@@ -97,7 +101,8 @@ def same(python, compiled, tolerance, engine="compiled"):
 
 @pytest.mark.parametrize("restart", [True, False])
 def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
-    """Sub-steps do not divide the period; a run that starts late has its clock from there."""
+    """Integration steps of 0.4 ms do not divide the period; a clock without restart counts from the late
+    start."""
     time = ba.SampledTime(1e-3, restart)
     walker = ba.Walker(biped, adrc(gait), timing=time, torque_limit=120.0)
     python, compiled = runs(walker, gait, ba.RK4(4e-4), 2, mode=Mode(3, 0.41237))
@@ -108,6 +113,7 @@ def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
 
 
 def test_ticks_with_table_one_and_steps_longer_than_the_period(biped, gait):
+    """The gains of Table I amplify round-off to 1e-7."""
     time = ba.SampledTime(1e-3)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), timing=time)
     same(*runs(walker, gait, ba.RK4(5e-3)), 1e-7)
@@ -130,7 +136,7 @@ SEVERAL = (
     + ba.TorquePulse(PULSE, 1, 0.1003, 0.1007)
     + ba.TorquePulse((0.0, 1.0, 0.0, 0.0, 0.0), None, 0.1005, 0.45)
 )
-"""Inside of one step, over an impact, from the second step on."""
+"""Pushes within one integration step, over an impact, and from the second single support on."""
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
@@ -162,7 +168,7 @@ def test_ground_steps_add_up(biped, gait):
 
 
 @pytest.mark.parametrize("robot", ["rimless_wheel", "simplest"])
-def test_robots_without_motors(robot):
+def test_robots_without_motors_walk_alike_in_both_engines(robot):
     """The rimless wheel has all its mass in one point: inertia matrices of double support are singular."""
     biped = ba.Biped.load(robot)
     known = passive_cycle(biped)
@@ -170,7 +176,8 @@ def test_robots_without_motors(robot):
     start = known.q_plus, known.v_plus
     t_end = 9.0 * known.max_step_time
     python, compiled = runs(walker, None, ba.RK4(2e-3), t_end=t_end, start=start)
-    tolerance = 1e-7 if robot == "simplest" else SHARP  # feet of 1e-7 of the mass
+    # its feet have 1e-7 of the hip's mass, so the matrices are ill-conditioned
+    tolerance = 1e-7 if robot == "simplest" else SHARP
     same_events(python, compiled, tolerance)
     assert len(python.events(FOOT_STRIKE)) == 2
 
@@ -180,7 +187,7 @@ FALLS = (ba.Status.FELL, ba.Status.RAN_AWAY)
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_falls_stalls_and_time_outs(biped, gait, sampled):
+def test_both_engines_end_falls_stalls_and_time_outs_alike(biped, gait, sampled):
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), timing=time)
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
@@ -223,8 +230,8 @@ class Closing(Stateless):
 
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_torques_without_numbers_and_singular_laws_under_a_limit(biped, gait, sampled):
-    """A torque limit must not make a number of what is none."""
+def test_a_torque_limit_hides_neither_nan_nor_a_singular_matrix(biped, gait, sampled):
+    """min and max with the limit may turn NaN into a number, and the walk would go on."""
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     for cls, status in ((Rooted, ba.Status.NOT_FINITE), (Closing, ba.Status.SINGULAR)):
         walker = ba.Walker(biped, cls(npd(gait)), timing=time, torque_limit=100.0)
@@ -253,7 +260,7 @@ class Shaped(Stateless):
 
 
 def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
-    """Closures with other values are other code."""
+    """A law that is compiled with the value of a closure is not found again for another value."""
     ends = []
     for factor in (1.0, 0.9):
         walker = ba.Walker(biped, Shaped(npd(gait), scaled(factor)))
@@ -328,6 +335,7 @@ class Falling(Disturbance):
 
 
 def in_part(python, partly, tolerance, why):
+    """The run on the compiled plant says `why`, and is the run in Python."""
     assert why in partly.settings["why"]
     same(python, partly, tolerance, PLANT)
 
@@ -343,7 +351,10 @@ def ticked(biped, python):
 
 
 def test_a_controller_in_python_is_called_at_the_same_ticks_on_a_compiled_plant(gait, ticked):
-    """With a state of its own, sub-steps that do not divide the period, and a late start."""
+    """With integration steps that do not divide the period, and a late start; the controller counts its ticks.
+
+    Two single supports have more than 800 ticks of 1 ms; its jumps add 1/2 each, which two of them make whole.
+    """
     walker = replace(ticked, timing=ba.SampledTime(1e-3, restart=False))
     late = {"mode": Mode(3, 0.41237), "every": 2}
     runs_ = runs(walker, gait, ba.RK4(4e-4), **late)
@@ -378,6 +389,7 @@ class Keeping(Controller):
 
 
 def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
+    """Its inputs lie in blocks of 256 sample instants, which must not be used again; all are read-only."""
     reference = Drifting(gait.constraint)
     walker = ba.Walker(biped, Keeping(reference), timing=ba.SampledTime(1e-3))
     x0, kept = walker.initial_state(*gait.start(biped)), walker.controller.kept
@@ -412,6 +424,7 @@ def test_an_interrupt_is_not_lost(gait, ticked):
 
 
 def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
+    """A controller in Python walks on the compiled plant as on Pinocchio's, whatever is around it."""
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
     heavy = ba.ModelErrors(mass={"torso": 0.05}).apply(biped)
@@ -436,7 +449,7 @@ def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
     near(partly.before(FOOT_STRIKE), python.before(FOOT_STRIKE), 1e-6)
 
 
-def test_disturbances_without_machine_code(biped, gait):
+def test_a_disturbance_without_machine_code_acts_alike_in_both_engines(biped, gait):
     hip = ba.HipForce(biped, (-2.0, 0.0))
     walker = ba.Walker(biped, npd(gait), Falling() + hip, ba.SampledTime(1e-3))
     in_part(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, "Falling.torque (test_run")
@@ -605,7 +618,8 @@ def test_a_controller_of_the_user_s_is_compiled(biped, gait):
     ],
 )
 def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, ask):
-    """Taken for an expression its symbol would never be equal to a number."""
+    """With Python's own == a symbol would never equal a number, and the law would be compiled with that
+    answer."""
 
     class Asking(Stateless):
         def output(self, s, m):
@@ -615,7 +629,7 @@ def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, a
     in_part(*runs(walker, gait, ba.RK4(2e-3)), TICKS, "branches on the value of a number")
 
 
-def test_progress_and_the_engine_asked_for(gait, ticked):
+def test_progress_is_called_at_each_impact_and_the_settings_name_the_engine(gait, ticked):
     x0 = ticked.initial_state(*gait.start(ticked.plant))
     told = []
     more = {"t_end": 4.0, "impacts": 2, "progress": lambda t, n: told.append((t, n))}
@@ -629,7 +643,9 @@ def test_progress_and_the_engine_asked_for(gait, ticked):
 
 @pytest.mark.parametrize("h", [7e-4, 2.5e-3, 9e-3])
 def test_all_nodes_of_the_longest_single_support_are_kept(biped, gait, h):
-    """With the least time between breaks: sample instants, a torque that waits, switches, short last steps."""
+    """Memory for nodes is taken beforehand: it is enough where sample instants, a waiting torque, switching
+    times of a push and short last steps leave as many nodes as possible.
+    """
     push = ba.TorquePulse(PULSE, step=1, start=0.01, stop=0.0123)
     timing = ba.SampledTime(1e-3, delay=4e-4)
     walker = ba.Walker(biped, npd(gait), push, timing, max_step_time=0.0995)
@@ -685,6 +701,7 @@ class Raising(Controller):
 
 
 def test_a_controller_in_python_that_changes_its_reference(biped, gait):
+    """A copy of the compiled reference with another number runs in Python, and not by the old number."""
     walker = ba.Walker(biped, Raising(Raised(gait.constraint)), timing=ba.SampledTime(1e-3))
     x0 = walker.initial_state(*gait.start(biped))
     python, compiled = (

@@ -40,7 +40,7 @@ def result(code):
 
 @pytest.fixture
 def make(monkeypatch):
-    """Loads or compiles the text; what its function gives, and how often it was compiled."""
+    """A function that loads or compiles TEXT; it returns f(41), which is 42, and how often it was compiled."""
     made = []
 
     def counted(*text):

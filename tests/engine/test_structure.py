@@ -84,6 +84,7 @@ class Slope:
 
 
 def test_a_type_of_another_name_is_the_type():
+    """A field annotated by an alias of float, or by its name as text, is a float though it holds 2."""
     assert structure(Slope(2, 3, 4)) == structure(Slope(5, 6, 4)) != structure(Slope(2, 3, 5))
 
 
@@ -124,7 +125,7 @@ class Random(Wave):
         return np.random.default_rng(1).normal(size=5)
 
 
-def test_two_pairs_in_one_process(biped, gait):
+def test_two_pushes_of_one_structure_act_by_their_own_numbers_in_one_process(biped, gait):
     for pair in ((5.0, 9.0), (9.0, 40.0)):
         walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wave(pair))
         one, two = (

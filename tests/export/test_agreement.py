@@ -70,7 +70,7 @@ def first_things():
 
 
 def cases():
-    """Every thing with one kind of hardware in turn, and ADRC with all."""
+    """Every row of the registry with one kind of hardware in turn, and ADRC with all kinds."""
     things = groupby(first_things(), key=itemgetter(0))
     each = [(*thing, x) for _, some in things for thing, x in zip(some, cycle(HARDWARE))]
     adrc = ("controller", "ADRC", made("controller", "ADRC")[0])
@@ -140,7 +140,7 @@ def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
 def test_c_in_single_precision_walks_as_python_to_single_precision(name):
     walker = walker_of("controller", made("controller", name)[0], "ideal")
     found = difference(walker, source_of(Computer(walker), real="float32"))
-    assert 1e-9 < found <= IN_FLOAT
+    assert 1e-9 < found <= IN_FLOAT  # more than doubles differ, so floats are used
 
 
 @pytest.mark.parametrize("number", ["rotor[2]", "curve.stacked[0, 4, 4]", "gains.K_d"])

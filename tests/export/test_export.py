@@ -28,6 +28,7 @@ SANITIZERS = ("-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad):
+    """The last torque is held for five samples without a measurement, and is zero from the sixth on."""
     loaded, calls = recorded("NPD")
     for entry in ("t", "q", "v"):
         _, x = loaded.init(loaded.measured(*calls[0][1:4]))
@@ -47,6 +48,8 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad)
 
 
 def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
+    """Samples 40 to 42 are lost: the rate of 39 stays until 43; what it is off from a walk without loss then
+    decays."""
     loaded, calls = recorded("on a robot")
     rates = {}
     for bad in (range(40, 43), range(0)):
@@ -84,7 +87,7 @@ def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
 
 
 def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_angles():
-    """q+ = R q- + r, R R = 1, R r = -r: no robot of the package has an r."""
+    """q+ = R q- + r, R R = 1, R r = -r, on a made-up robot: no robot of the package has an r."""
     R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
     inner = ba.Sensors(filter_time=2e-3)
     around = Noticed(inner, R, r).sampled(3, 2, 1e-3)
@@ -152,6 +155,10 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
 
 @pytest.mark.parametrize(("name", "grows"), [("ADRC", True), ("NPD", False)])
 def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, gait, biped):
+    """Two states of a controller on the same motion, each with its own torque, part at the rate `growth`.
+
+    Of ADRC exponentially, measured over 399 periods of 1 ms; a PD law has no state that could grow.
+    """
     computer = Computer(build(ba.Scenario(name, hardware={"period": 1e-3})))
     law, (q, v) = computer.alone.law, gait.start(biped)
     m = computer.alone.measure(0.0, q, v, ba.Mode())

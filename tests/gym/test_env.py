@@ -17,7 +17,7 @@ def made(**values):
 
 
 def walked(env, seed, samples, action=(0.0, 0.0, 0.0, 0.0)):
-    """What a walk of an environment gives at its samples, in columns."""
+    """Columns of what `step` returns at each sample of a walk with one action, until it ends."""
     env.reset(seed=seed)
     rows = [env.step(np.array(action))]
     while len(rows) < samples and not (rows[-1][2] or rows[-1][3]):
@@ -48,6 +48,9 @@ CASES = {
 
 @pytest.mark.parametrize("name", CASES)
 def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
+    """With zeros added the environment is at a node of the scenario's walk: after its first impact (step 2) on
+    the rigid plant, within the first single support in MuJoCo.
+    """
     slow = name == "MuJoCo"
     env = made(action="added", **CASES[name])
     *_, infos = walked(env, 3, 80 if slow else 480)
@@ -61,6 +64,7 @@ def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
 
 
 def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
+    """150 N m times the action, over 1 ms: the state after it is that of another integration, within 1e-6."""
     env = made(start={"speed_spread": 0.0})
     q, v = env.unwrapped.stage.scene.on_orbit
     action = np.array([0.2, -0.1, 0.3, 0.05])
@@ -74,7 +78,7 @@ def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
         return np.concatenate((x[5:], plant.acceleration(x[:5], x[5:], force)))
 
     x, h = np.concatenate((q, v)), 1e-4
-    for _ in range(10):  # another method than that of the environment, at a tenth of its step
+    for _ in range(10):  # the midpoint rule, at a tenth of the environment's step
         middle = x + 0.5 * h * slope(x)
         x = x + h * slope(middle)
     assert np.max(np.abs(observation[:10] - x)) < 1e-6
@@ -132,7 +136,7 @@ def test_a_fall_terminates_and_time_truncates():
 
 @pytest.mark.parametrize("push", [0.0, 60.0])
 def test_feasibility_is_that_of_the_walk(push):
-    """As the certificate of the walk has it, which goes by the same nodes."""
+    """Feasibility and its extremes in the info are those of the scenario's walk, from the same nodes."""
     pushed = {
         "pushes.0.shape": "pulse",
         "pushes.0.joints": "-q5",

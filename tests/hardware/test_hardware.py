@@ -43,6 +43,7 @@ def test_a_count_is_never_further_off_than_half_of_one():
 
 
 def test_differences_of_a_steady_motion_are_its_rate():
+    """With counts each difference is off by at most one count per period, and their mean by far less."""
     exact = ticks(Sensors(), steady(2.0), 50)
     assert np.allclose(exact[:, 2:], 2.0, rtol=0.0, atol=1e-10)
     counted = ticks(Sensors(counts=8192.0), steady(2.0), 500)
@@ -52,6 +53,7 @@ def test_differences_of_a_steady_motion_are_its_rate():
 
 
 def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
+    """The joint rests until 0 and then turns at 1 rad/s."""
     tau = 5e-3
 
     def path(t):
@@ -62,6 +64,8 @@ def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
 
 
 def test_noise_has_its_deviation_and_its_seed():
+    """Of 4000 ticks: deviations within 5 %, correlations of different sensors within four deviations of
+    zero."""
     sensors = Sensors(noise=1e-3, pitch_noise=2e-3, rate_noise=0.1, velocity="measured", seed=4)
     seen = ticks(sensors, steady(0.0), 4000)
     error = seen - np.concatenate(steady(0.0)(0.0))
@@ -82,6 +86,8 @@ def test_at_impact_differences_start_anew():
 
 
 def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
+    """The rate is off by the drift d, the angle at the k-th tick by b + k d T; an impact changes the rate
+    alone."""
     bias, drift, sensor = 0.02, -0.3, PitchSensor(0.02, -0.3).sampled(3, 2, T)
     q, v, hit = np.random.default_rng(5).normal(size=(3, 3))
     off = np.array([0.0, 0.0, 1.0])
@@ -103,6 +109,7 @@ def line(j, waiting):
 @pytest.mark.parametrize("j", [0, 1, 3])
 @pytest.mark.parametrize("f", [0.0, 0.4])
 def test_a_torque_acts_when_its_delay_is_over(j, f):
+    """A delay of (j + f) periods: torque i acts from tick i + j on, after a fraction f of that period."""
     k, _ = Motors().sampled(2, (j + f) * T, T)
     at = line(j, int(f > 0))
     asked = RANDOM.normal(size=(10, 2))
@@ -121,6 +128,7 @@ def test_a_torque_acts_when_its_delay_is_over(j, f):
 
 
 def test_the_rate_limit_follows_what_was_sent_last():
+    """2000 N m/s are 2 N m per tick of 1 ms, from the last torque sent, also where a queue delays it."""
     k, _ = Motors(rate_limit=2000.0).sampled(2, 0.0, T)
     for j in (0, 2):
         at, last = line(j, 0), np.zeros(2)
@@ -139,6 +147,7 @@ class Clocked(ba.Controller):
 
 @pytest.mark.parametrize("delay", [0.4e-3, 2.7e-3])
 def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
+    """The torque that acts at t is that of the last tick before t - delay, and is zero before the first one."""
     walker = ba.Walker(biped, Clocked(), timing=ba.SampledTime(T, delay=delay))
     q, v = gait.start(biped)
     x0 = walker.initial_state(q, v)
@@ -185,6 +194,7 @@ def test_a_lag_shorter_than_the_step_walks_as_at_a_quarter_of_it(biped, gait, ta
 
 
 def test_a_lag_that_goes_to_zero_goes_to_no_lag(biped, gait):
+    """The end of a walk differs from that without lag in proportion to the time constant."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(T))
     ideal = ba.walk(walker, gait, impacts=2).trajectory.final_state[:10]
     off = []

@@ -16,7 +16,7 @@ CLOCK = ba.SampledTime(1e-3, restart=False)
 
 @dataclass(frozen=True)
 class Slow(Sensor):
-    """Angles behind a low-pass, in 1/rate seconds; the rates are true."""
+    """Angles through a low-pass of time constant 1 / rate [s]; the rates are true."""
 
     rate: float = 500.0
 
@@ -36,7 +36,7 @@ class Slow(Sensor):
 
 @dataclass(frozen=True)
 class Tilted(Sensor):
-    """The pitch off by a bias; it has no memory."""
+    """A sensor without memory whose pitch has a bias [rad]."""
 
     bias: float = 1e-3
 
@@ -48,7 +48,8 @@ class Tilted(Sensor):
 
 @dataclass(frozen=True)
 class Twice(ba.Touchdown):
-    """The foot below `height` at two ticks, one after the other, and not shortly after a touchdown."""
+    """A detector that fires when the foot is below `height` [m] at two ticks in a row, 0.1 s after a
+    touchdown."""
 
     height: float = 2e-3
 
@@ -63,7 +64,7 @@ class Twice(ba.Touchdown):
 
 @dataclass(frozen=True)
 class Undecided(Tilted):
-    """Looks at a number."""
+    """A sensor that branches on an angle, so that it has no machine code."""
 
     def reading(self, w, q, v):
         if q[0] > 10.0:
@@ -119,7 +120,7 @@ def test_other_numbers_compile_nothing(biped, gait):
 
 @dataclass(frozen=True)
 class Lost(Tilted):
-    """Without numbers once a joint is quick."""
+    """A sensor whose angles are NaN once a joint turns faster than 1.9 rad/s, as none does at the start."""
 
     def reading(self, w, q, v):
         if np.max(np.abs(v)) > 1.9:

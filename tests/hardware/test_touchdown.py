@@ -61,6 +61,7 @@ def by_hand(system, t, x):
 def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
     biped, gait, controller
 ):
+    """A detection that is 6.5 ms late leaves six ticks of 1 ms at which it is computed by hand."""
     system = walker(biped, gait, FaultyTouchdown(late=0.0065), controller)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
@@ -98,6 +99,9 @@ SENSORS = ba.Sensors(counts=2**18)
 
 
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
+    """The first part of the belief is 0, 1, 0, and the torque is exchanged twice; the walk has one touchdown,
+    so the second is made by hand.
+    """
     system = walker(biped, gait, FaultyTouchdown(missed=1.0))
     walked = run(system, gait, 0.42)
     (event,) = walked.events("foot_strike")
@@ -137,6 +141,7 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
 
 
 def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, gait):
+    # shortly before the touchdown at 0.416 s; the first tick from 0.4105 s on is at 0.411 s
     early = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.4105)))
     found = touchdowns(early, run(early, gait, 0.9))
     assert found.rates.early_share == 0.5
@@ -150,6 +155,7 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
 
 
 def test_missed_ones_come_with_their_probability():
+    """Of 2000 touchdowns 20 % are missed, within four standard deviations; one in right labels never waits."""
     leaf = FaultyTouchdown(missed=0.2, seed=3)
     d, waits = leaf.start(), []
     for k in range(2000):
@@ -160,6 +166,7 @@ def test_missed_ones_come_with_their_probability():
 
 
 def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
+    """Up to one tick of 1 ms; the speed of the foot is taken at the touchdown, which leaves 0.1 to 0.2 ms."""
     height = 4e-3
     system = walker(biped, gait, ByKinematics(height=height))
     walked = run(system, gait, 0.43)
@@ -208,6 +215,9 @@ def notices(leaf, forces, foot=(0.3, 0.0), other=0.0, t_step=0.5):
 
 
 def test_by_force_has_hysteresis_debounce_and_a_gate():
+    """Thresholds 20 and 50 N: free below the first, loaded above the second; times in ms. The last two rows
+    have the foot too near, 0.05 m ahead, and the last detection too recent, 0.05 s ago.
+    """
     up = [0.0, 60.0, 60.0, 60.0, 60.0]
     assert notices(ByForce(), up) == [1]
     assert notices(ByForce(debounce=2e-3), up) == [3]

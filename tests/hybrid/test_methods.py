@@ -70,15 +70,17 @@ class Driven(HybridSystem):
 
 @pytest.mark.parametrize("tau", [1e-9, 1e-5, 2e-3, 0.1])
 def test_what_relaxes_in_a_step_is_exact_and_the_motion_of_order_four(tau):
+    """y of `Driven` is exact to round-off for any time constant, also far below the step."""
     system, steps = Driven(tau), np.array([4e-2, 2e-2, 1e-2])
     x0, end = np.array([0.3, -0.5, system.Y, system.U]), 0.4
     runs = [simulate(system, x0, 0, RK4(float(h)), t_end=end) for h in steps]
     exact = system.exact(end)
     assert all(abs(run.final_state[2] - exact[2]) < 1e-12 for run in runs)
     errors = np.array([np.max(np.abs(run.final_state[:2] - exact[:2])) for run in runs])
+    # order four of the motion, and the error of order tau h^2 that the jump Y - U of the fast part leaves
     gap = abs(system.Y - system.U) * system.W**2
     assert np.all(errors < 0.1 * gap * steps**4 + gap * tau * steps**2 / 20.0)
-    if tau < 1e-7 or tau > 9e-3:
+    if tau < 1e-7 or tau > 9e-3:  # between them the second error hides the order
         assert 3.7 < order(errors, steps) < 4.3
     between = runs[-1](0.3 * steps[-1])[2]
     assert system.Y - 0.4 <= between <= system.U + 0.4  # dense output hardly overshoots
@@ -136,7 +138,7 @@ def test_exponential_method_is_stable_where_rk4_is_not_and_right():
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait, engine):
-    """Table I times 0.05, half a step of walking."""
+    """Of order four with poles of Table I times 0.05, slow beside the steps, over half a walking step."""
     observer = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, observer))
     x0 = walker.initial_state(*gait.start(biped))
@@ -154,7 +156,7 @@ def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait, en
 
 @pytest.mark.parametrize("length", [0.4, 1.96])
 def test_a_step_of_another_length_has_its_own_phi_functions(length):
-    """On E' = a E + c, p' = 1 the method is exact whatever the step."""
+    """On E' = a E + c, p' = 1 the method is exact, also for 0.4 h and 1.96 h, which are made of sub-steps."""
     h, a, c = 1e-3, -700.0, 3.0
 
     class Linear(HybridSystem):

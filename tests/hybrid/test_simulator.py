@@ -116,7 +116,7 @@ class Balls(HybridSystem):
 @pytest.mark.parametrize("method", [RK4(1e-3), RK4(0.03), Adaptive(), Stiff()])
 @pytest.mark.parametrize("apart", [0.0, 1.2e-15, 1e-13, 1e-9])
 def test_balls_that_land_at_one_instant_all_bounce(method, apart):
-    """Each has the bounces of a ball alone, and after all of them the heights of it."""
+    """Each of the balls bounces at the times of a ball alone, and is at its height afterwards."""
     start = [1.0, 0.0, 1.0 + apart, 0.0, 1.0, 0.0]
     run = simulate(Balls(), np.array(start), None, method, t_end=1.5)
     alone = simulate(Ball(), np.array([1.0, 0.0]), 0, method, t_end=1.5)
@@ -359,7 +359,7 @@ def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(metho
     assert run.final_state[0] == pytest.approx(0.5, abs=1e-4)
 
 
-def test_bad_starts_and_counts():
+def test_a_run_that_cannot_begin_or_end_is_refused():
     for wrong in (
         lambda: simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0),
         lambda: go(Timer(lambda t: 1.0), stop_after=("g", 0)),

@@ -32,7 +32,7 @@ WALKERS = {
 
 
 def states(walker, gait, count=4):
-    """States about the start of a step, the observer's with errors in all its rows."""
+    """States near the start of a walking step, in which all rows of the observer have errors."""
     random = np.random.default_rng(7)
     q, v = gait.start(walker.plant)
     for _ in range(count):
@@ -74,6 +74,7 @@ def test_linear_part_and_remainder_are_the_derivative_along_the_flow(biped, gait
 
 
 def impact(walker, gait, h):
+    """The first impact of a walk by the exponential method with steps of h [s]."""
     x0 = walker.initial_state(*gait.start(walker.nominal))
     method, stop = Exponential(h), (FOOT_STRIKE, 1)
     run = simulate(walker, x0, ba.Mode(), method, t_end=2.0, stop_after=stop)
@@ -87,7 +88,7 @@ def impact(walker, gait, h):
     ids=["undisturbed", "heavier, push and torque limit"],
 )
 def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit):
-    """(q, q') at the first impact, against steps of 0.1 ms."""
+    """With steps of 0.5 ms (q, q') at the first impact is within 1e-4 of that with 0.1 ms, and 1 us in time."""
     adrc = ba.ADRCController(gait.constraint)
     walker = ba.Walker(plant(biped), adrc, push, model=biped, torque_limit=limit)
     exact, found = (impact(walker, gait, h) for h in (1e-4, 5e-4))

@@ -22,11 +22,11 @@ def walk_of(**values):
 
 @pytest.fixture(scope="session")
 def walked():
-    """Makes a walk of these values, or finds it."""
+    """The function `walk_of`: the walk of these values of a scenario, simulated once."""
     return walk_of
 
 
 @pytest.fixture(scope="session")
 def log(walked):
-    """Of a walk with exact angles and rates, at 1 kHz."""
+    """The log of a walk with exact angles and rates, at 1 kHz."""
     return logged(walked(hardware="ideal"))

@@ -16,7 +16,7 @@ from biped_adrc.extras.logs.robot_log import logged
 LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}
 RABBIT = {"hardware.profile": "rabbit", "hardware.encoders.filter_time": 5e-3}
 ROUND_OFF = 1e-9
-"""[N m] of the two engines, through these observers."""
+"""Largest difference of torques [N m]: round-off of walk and replay, amplified by these observers."""
 
 
 def asked(walk, log=None):
@@ -55,6 +55,8 @@ def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
 
 
 def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
+    """From the angles alone the replay finds the filtered rates of the walk; without its filter they are
+    noisier."""
     walk = walked(**LESO, **RABBIT)
     log = logged(walk)
     x, y = asked(walk), asked(walk, replace(log, v=None, measured=None))
@@ -105,7 +107,7 @@ def test_a_log_in_another_reading_is_refused_by_the_one_that_fits(walked, values
 
 
 def test_a_log_that_fits_in_no_reading_has_a_remark(log):
-    """Columns in another order."""
+    """With the torques in the wrong order no reading fits, and nothing can be proposed."""
     (said,) = ba.replay(replace(log, u=log.u[:, ::-1]), ba.Scenario("NPD")).remarks
     assert "look at the order, signs and units of its columns" in said
 
@@ -172,6 +174,8 @@ def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controll
 
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
+    """20 N m within 1 N m, away from the touchdown, where contact makes more than 100 N m on soft ground
+    alone."""
     soft, rigid = (
         walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
         for x in ("mujoco", "rigid")
@@ -211,6 +215,7 @@ def test_without_an_observer_nothing_is_estimated(log):
 
 
 def test_another_period_is_resampled_and_said(log):
+    """From 1 ms to 2 ms each second row stays, and a torque is the mean of two."""
     half = replace(log, t=log.t, remarks=())
     found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1

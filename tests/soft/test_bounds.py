@@ -56,7 +56,8 @@ def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
 
 @pytest.mark.parametrize("made", LOOPS)
 def test_the_bounds_are_the_loops(made, plant, gait):
-    """Just below the peaks of a walk they end it, at the tick or the stride where it is beyond; above, not."""
+    """A bound 1 % below the peak of a walk ends it where the torque or rate passes it; 1 % above it does
+    not."""
     parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
     arc = run_of(made(*parts), gait, 0.05).arcs[0]
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
@@ -65,7 +66,8 @@ def test_the_bounds_are_the_loops(made, plant, gait):
         limit = float(0.99 * np.max(course))
         found = run_of(made(*parts, **{bound: limit}), gait, 0.05)
         assert found.status is ba.Status.RAN_AWAY
-        # at the tick of that torque; after the last stretch that is not too fast
+        # a torque ends the run at its tick; a rate at the end of the last stretch in which it is within the
+        # bound
         assert found.t_end == pytest.approx(arc.t[np.argmax(course > limit) - ("speed" in bound)])
         whole = run_of(made(*parts, **{bound: float(1.01 * np.max(course))}), gait, 0.05)
         assert whole.status is ba.Status.COMPLETED
@@ -84,7 +86,7 @@ def test_the_bounds_are_the_loops(made, plant, gait):
 def test_a_walk_that_the_engine_loses_can_be_read(
     monkeypatch, tmp_path, engine, lost, status, after
 ):
-    """In its first stride, or within a step: then its last node is alone, at a tick."""
+    """A walk that is lost at once or in its second single support is recorded up to there and can be stored."""
     moved = MuJoCoEngine.moved
 
     def fails(self, t, row, u, load, until):
@@ -111,7 +113,7 @@ def test_a_walk_that_the_engine_loses_can_be_read(
 
 
 def test_one_loop_walks_alike_in_many_threads(plant, gait):
-    """Each has a work space of its own: in one that is shared two walks would end the process."""
+    """Each thread has MuJoCo's data of its own; in shared data two walks would end the process."""
     loop = CompiledLoop(plant, ba.NPDController(gait.constraint), None, TICK, plant.biped)
     begin = loop.initial_state(*gait.start(plant.biped))
     with ThreadPoolExecutor(4) as pool:

@@ -11,7 +11,9 @@ from biped_adrc.analysis.soft_steps import contact_errors
 
 
 def walk(*humps, pushed=(2.0, 3.0)):
-    """Two steps of 0.5 s at nodes 1 ms apart, twice at touchdown: errors (time, size) and a push [s]."""
+    """Two single supports of 0.5 s with nodes 1 ms apart. humps: (time [s], size) of errors that last one node.
+    pushed: beginning and end of a push [s].
+    """
     t = np.concatenate((np.arange(501), np.arange(500, 1001))) * 1e-3
     step = np.repeat((1, 2), 501)
     error = np.full((len(t), 2), 1e-6)

@@ -45,7 +45,7 @@ def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, leve
     assert run.status is ba.Status.COMPLETED
     foot = biped.swing_foot(run.arcs[1].x[-1, :5])[1]
     assert foot == pytest.approx(-step.drop, abs=4e-4)  # penetration of both feet
-    # a longer or shorter single support, to the tick, and the next one is on level ground again
+    # the single support is longer or shorter as on the rigid plant, to a tick; the third one is on level ground
     rigid = ba.walk(walker, gait, impacts=2).trajectory.events("foot_strike")
     flat = ba.walk(replace(walker, ground_steps=()), gait, impacts=2).trajectory.events(
         "foot_strike"
@@ -84,7 +84,7 @@ def test_a_step_up_that_is_not_cleared_is_not_there(biped, gait, level):
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
-    """Also where the engine was elsewhere before, and in another process."""
+    """Depths in MuJoCo are the distances to both levels; also after other levels, and in another process."""
     ground = SoftGround(foot_radius=5e-3)
     plant = MuJoCoPlant(biped, ground, slope, ground_steps=(ba.StepDown(1, 0.01),))
     q, out = gait.start(biped)[0], ground_axes(slope)[1]

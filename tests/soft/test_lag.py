@@ -41,6 +41,7 @@ U = np.array([40.0, -30.0, 20.0, -10.0])
 
 
 def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
+    """In free flight, 9 m up, half the step leaves a quarter of the error."""
     soft = SoftGround(time_constant=5e-3)
     plants = [MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
     rows = []
@@ -88,7 +89,7 @@ def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
 
 
 def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
-    """Forces at a touchdown and in the readings are those under u_m, not under u."""
+    """Forces of the ground under lagging motors are those of ideal motors with the torque u_m, not u."""
     plant, ideal = MuJoCoPlant(biped, lag=TAU), MuJoCoPlant(biped)
     u = 5.0 * U
     row = plant.advance(0.0, plant.start(0.0, *gait.start(biped)), u, None, 2e-3).row

@@ -40,7 +40,7 @@ def walk(biped, gait):
 
 
 def momentum(loop, arc, k):
-    """Of the whole robot (x, z) [N s] at a node, by MuJoCo's own sum over its bodies."""
+    """Momentum (x, z) [N s] of the whole robot at node k, by MuJoCo's own sum over its bodies."""
     plant, x = loop.plant, arc.x[k]
     plant.footing(loop.row(x), x[-plant.p :], STILL)
     mujoco().mj_subtreeVel(plant.engine.model, plant.engine.data)
@@ -61,7 +61,7 @@ def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
 
 
 def test_the_point_that_touches_moves_as_the_places_say(walk):
-    """v = d(place)/dt with a point for a foot, between the readings of one piece."""
+    """For a foot of 1 mm radius the recorded velocity is d(place)/dt, up to the rolling of the sphere."""
     arc = with_readings(*walk).arcs[1]
     _, place, speed = feet_of(arc)
     inside = np.flatnonzero(np.diff(arc.t) > 0.0)
@@ -74,6 +74,7 @@ def test_the_point_that_touches_moves_as_the_places_say(walk):
 
 
 def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
+    """A sphere of 5 cm whose centre moves at its radius times the shin's rate has a contact point at rest."""
     plant = MuJoCoPlant(biped, SoftGround(friction=1.0, foot_radius=0.05))
     q, v = gait.start(biped)
     state = plant.start(0.0, q, v)
@@ -104,7 +105,9 @@ def test_a_block_that_slides_to_rest():
 
 
 def test_less_friction_slips_and_flies(biped, gait):
-    """At 0.2 where 1.0 does not; single support, double support and flight are the whole step."""
+    """Feet slip with a friction of 0.2 and not with 1.0; single support, double support and flight add up to
+    the duration of each single support.
+    """
     rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0)), gait)
     holds = steps_of(rough, run_of(rough, gait, impacts=1))
     smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2)), gait)

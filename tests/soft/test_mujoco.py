@@ -19,7 +19,7 @@ from biped_adrc.model.ground import SoftGround, ground_axes
 from .loops import loop_on, run_of
 
 ROBOTS = [("rabbit", "identified"), ("rabbit", "tac2003"), ("three_link", None)]
-"""Those with motors."""
+"""Robots with motors, and their presets."""
 
 
 @pytest.fixture(params=ROBOTS, ids=lambda robot: "-".join(filter(None, robot)))

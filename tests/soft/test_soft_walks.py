@@ -61,8 +61,8 @@ def test_the_slope_of_a_plant_is_that_of_the_walk(biped, gait):
 
 
 def test_its_signals_are_of_the_plant_that_walked(made):
+    """xi = q_b'' - kappa u with the q'' of MuJoCo; forces of the ground are in its cone of friction 0.6."""
     x, walker = made.signals, made.walker
-    # u is the torque held, xi = q_b'' - kappa u with the q'' of the plant, split as (12) says
     assert np.allclose(x.xi, x.xi_external + x.xi_nominal, rtol=1e-9, atol=1e-7)
     rows = np.flatnonzero(np.diff(x.t) > 0.0)[5:400:40]
     for k in rows:
@@ -73,13 +73,17 @@ def test_its_signals_are_of_the_plant_that_walked(made):
     F = x.ground_reaction[late]
     assert np.min(F[:, 1]) > 0.0
     assert np.max(np.abs(F[:, 0]) / F[:, 1]) <= 0.6 * (1.0 + 1e-6)
-    # the foot that stands does not move more than it creeps, and the next one is a step further
+    # the stance foot only creeps, less than 2 mm, and the second foothold is one step length ahead
     assert np.ptp(x.foothold[late]) < 2e-3
     first = x.foothold[x.step == 1][-1]
     assert x.foothold[late][0] - first == pytest.approx(0.31, abs=0.03)
 
 
-def test_what_a_finished_walk_offers(made, tmp_path):
+def test_a_finished_soft_walk_has_a_verdict_and_slips_and_comes_back_from_its_file(made, tmp_path):
+    """Both of its steps are feasible, by the same numbers after saving and loading.
+
+    A certificate needs the impact map of the rigid plant, so a soft walk has none.
+    """
     assert made.certificates == ()
     assert made.feasibility.feasible_impacts == 2
     assert made.feasibility.text() == "it made all steps, feasible"
@@ -143,7 +147,7 @@ def test_a_step_that_takes_too_long_is_told():
 
 
 def test_a_stretch_no_longer_than_round_off_gives_no_acceleration():
-    """As where a push ends at a tick but for the last bit: 2e-16 rad/s in 1e-16 s is none."""
+    """Where a push ends one bit beside a tick, 2e-16 rad/s in 1e-16 s would be an acceleration of 2 rad/s^2."""
     t = np.array([0.0, 1e-3, 1e-3, np.nextafter(1e-3, 1.0), np.nextafter(1e-3, 1.0), 2e-3])
     a = np.array([7.0, 7.0, 4e3, 4e3, 9.0, 9.0])
     dx = np.column_stack((np.zeros(6), a))

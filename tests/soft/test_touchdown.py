@@ -63,6 +63,7 @@ def test_noticed_at_once_is_ideal_knowledge(plant, gait):
 
 
 def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
+    """For 4 ms after a touchdown that is noticed late the controller computes in the old labels of the legs."""
     loop, run = walked(plant, gait, FaultyTouchdown(late=4e-3), controller=ba.NPDController)
     (event,) = run.events("foot_strike")
     arc, biped = run.arcs[1], plant.biped

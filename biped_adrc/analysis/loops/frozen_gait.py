@@ -150,7 +150,8 @@ class TickMatrices(NamedTuple):
 def linear_twin(walker: Walker) -> Walker:
     """The walker without its parts that have no derivative: limits, counts, noise, pushes.
 
-    Raises InputError for a walker in continuous time, or one that detects touchdowns.
+    Its motors are left out too, since `walker_loop` adds their lag to the robot. Raises InputError for a walker
+    in continuous time, or one that detects touchdowns.
     """
     if not isinstance(walker.timing, SampledTime) or walker.touchdown is not None:
         raise InputError(
@@ -164,7 +165,7 @@ def linear_twin(walker: Walker) -> Walker:
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
 
-    Raises NotFiniteError as `tick_derivative`.
+    Raises NotFiniteError where a method has no finite derivative there.
     """
     assert isinstance(twin.timing, SampledTime)
     assert twin.held is not None
@@ -175,6 +176,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         J = np.zeros((0, 0))
         layout = twin.layout_of(x)
         ticked = ticked or tick_derivative(twin, layout)
+        # the earlier ticks only fill the memory of the sensors; J of the last one is kept
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
@@ -188,10 +190,10 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     """Drop the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
 
     Two numbers that act on everything in the same ratio become one, their weighted sum: as the old angle of an
-    encoder and the rate of its filter do.
+    encoder and the rate of its filter do. Without the dropped numbers others may have no effect, so it repeats.
     """
     Z, Y, C, E = tick
-    columns = np.concatenate((*Z, *C)).T
+    columns = np.concatenate((*Z, *C)).T  # row i: all effects of number i of z
     k = len(columns)
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]

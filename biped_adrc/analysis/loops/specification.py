@@ -193,7 +193,7 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 def structured_value(M: ComplexArray) -> float:
     """Least upper bound of mu over scalings d of one matrix M (p, p)."""
-    from scipy.optimize import minimize  # half a second, which `poincare` has no use for
+    from scipy.optimize import minimize  # it takes half a second to load, in vain for `poincare`
 
     p = len(M)
     if p == 1:

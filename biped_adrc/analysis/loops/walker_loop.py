@@ -128,6 +128,7 @@ class WalkerLoops:
         return np.asarray(self._rates(values))
 
     def _rates(self, values: ComplexArray) -> ComplexArray:
+        """s = log(lambda) / T [1/s] of eigenvalues lambda; TINY in place of smaller ones, whose log is -inf."""
         return np.asarray(np.log(np.where(np.abs(values) > TINY, values, TINY)) / self.period)
 
     def growth(self, unknown: float = 0.0) -> Array:
@@ -165,7 +166,7 @@ class WalkerLoops:
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
         """
-        from scipy.optimize import brentq  # half a second, which `poincare` has no use for
+        from scipy.optimize import brentq  # it takes half a second to load, in vain for `poincare`
 
         tried = [0.0, 0.25 * self.period]
         while tried[-1] < most:
@@ -179,14 +180,15 @@ class WalkerLoops:
         return most if low == most else float(brentq(growth, low, high, xtol=1e-9, rtol=1e-6))
 
     def sensitivity(self) -> ComplexArray:
-        """S (.., F, p, p): the controller's torque plus an error of the torque, per that
-        error, at F frequencies.
+        """S (.., F, p, p) at F frequencies: the total torque (controller's plus error) per error that is added
+        to the controller's torque.
 
         They are FREQUENCIES in geometric order and those of the loop's modes, between `slow` and
         half the sampling frequency.
         """
         nyquist, own = np.pi / self.period, self.rates.imag
         inside = (own > self.slow) & (own < nyquist)
+        # loops have different numbers of modes in the band; rows are filled up with the frequency `slow`
         own = -np.sort(-np.where(inside, own, self.slow), axis=-1)
         own = own[..., : int(np.max(np.sum(inside, axis=-1)))]
         grid = np.geomspace(self.slow, nyquist, FREQUENCIES)

@@ -96,7 +96,7 @@ class OnHardware:
     hardware: Hardware
     observer: GPIObserver
     gains: Gains
-    """K_p and K_d of (20)."""
+    """K_p and K_d of (20) of the paper."""
 
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
         """The sampled loop with `ratio` times the model's kappa, dimensionless."""
@@ -151,6 +151,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
         w = math.nan if candidate(MOST).obstacle else MOST
     if math.isnan(w):
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
+    # w is known to 1e-6 of it, so at 2e-6 above it the criterion that excludes larger ones holds for certain
     best, because = candidate(w), candidate(w * (1.0 + 2e-6)).obstacle
     margin = largest_delay(best.sampled())
     return Recommended(m, w, because, best.ripple, margin, best.rejection)

@@ -1,6 +1,6 @@
 """The estimation error that an impact leaves in an observer, by its linear error dynamics.
 
-    e' = A^ e   (19),   e(0+) = true states after impact - estimates after the reset
+    e' = A^ e   (19) of the paper,   e(0+) = true states after impact - estimates after the reset
 
 The true states are q_b, q_b', the total disturbance xi (p,) [rad/s^2] of q_b'' = kappa u +
 xi (13), and derivatives of xi in time. e_1, e_2, e_3 (p,) are the errors of the first three,
@@ -37,7 +37,8 @@ DEGREE = 20
 DERIVATIVES = 3
 """Number of derivatives of xi taken from it; higher ones, too rough, are zero before and after impact."""
 INSTANTS, LONG = 400, 8.0
-"""Number of instants after t = 0 at which the response is computed."""
+"""Number of instants after t = 0 at which the response is computed, and the last of them in time constants of
+the slowest pole."""
 
 
 class ImpactPeak(NamedTuple):
@@ -81,6 +82,8 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
     def chain(time: float, q: Array, v: Array) -> Array:
+        """States (order, p) at a time [s] of the orbit: q_b, q_b', xi, its derivatives by the fits, then
+        zeros."""
         rows = [q[: biped.p], v[: biped.p], biped.reduction(q, v).xi]
         rows += [np.array([fit.deriv(j)(time) for fit in fits]) for j in range(1, DERIVATIVES + 1)]
         return np.array([*rows, *[np.zeros(biped.p)] * order][:order])

@@ -1,6 +1,7 @@
 """The linear loop of one joint under ADRC whose torque acts after a delay: loop gain and delay margin.
 
-With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and (20) are
+Numbers such as (19) are equations of the paper. With chi(s) the observer's polynomial (19), a = kappa u - q_d''
+and e = q_b - q_d, the robot and (20) are
 
     e'' = a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
 
@@ -180,7 +181,7 @@ SHORTEST, LONGEST = 1e-6, 0.1
 RATIO = 1.05
 """Ratio of one period of that search to the one before."""
 PARTS, MOST_PERIODS = 20, 50
-"""Steps per period of the search for the largest delay, and its length in periods."""
+"""Delays that are tried per period in the search for the largest one, and the longest of them in periods."""
 _HIGHEST = 14
 """Largest m: above it round-off moves the poles of the discrete observer by more than the loop does."""
 
@@ -229,7 +230,7 @@ class SampledLoop:
     def step(self) -> StepMatrices:
         """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n).
 
-        Formed from rows in (X, T^2 xi, n), composed as the equations read.
+        Each variable is a row of coefficients of (X, T^2 xi, n), so the lines below read as the equations do.
         """
         k, T, g = self.observer.order, self.period, self.kappa_ratio
         queue, f = whole_and_part(self.delay, T)
@@ -237,12 +238,14 @@ class SampledLoop:
         size = 2 + k + queue + late
         rows = np.eye(size + 2)
         e, rate, xi, n = rows[[0, 1, size, size + 1]]
+        # line: the torques on their way, the oldest first
         Z, line = rows[2 : 2 + k], rows[2 + k : size]
         o = self.observer.sampled(T)
         correction = np.outer(o.L, e + n - Z[0])
         Z_k = Z + correction
         K_p, K_d = first_gains(self.gains)
         F = np.zeros(k)
+        # F = T^2 (K_p, K_d / T, 1 / T^2), for Z = (x1^, T x2^, T^2 xi^, ..); without xi^ for m = 0, where k = 2
         F[:3] = (T**2 * np.array([K_p, K_d / T, T**-2]))[:k]
         a = -F @ Z_k
         sent = np.vstack((line, a))  # in the order in which they act; the first until t_k + f T
@@ -316,8 +319,9 @@ def largest_delay(loop: SampledLoop) -> float:
 
 
 def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
-    """Find where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
+    """The number up to which `holds` is true, by bisection to 1e-6 of it.
 
+    tried: increasing numbers; bisection goes on between the first at which it does not hold and the one before.
     NaN when it does not hold at the first, infinite when it holds at all of them.
     """
     low = math.nan

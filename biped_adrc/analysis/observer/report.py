@@ -172,7 +172,7 @@ class ObserverReport(OnHardware):
         return "\n\n".join((self.verdict, *tables))
 
     def _gains(self) -> _Section:
-        """Table of the gains l of (19), physical [1/s^i] and scaled."""
+        """Table of the gains l of (19) of the paper, physical [1/s^i] and scaled (dimensionless)."""
         o = self.observer
         rows = (
             (f"l_{o.m + 1 - i} [1/s^{i + 1}]", f"{physical:.6g}", f"{scaled:.6g}")
@@ -191,6 +191,7 @@ class ObserverReport(OnHardware):
             (f"delay margin, period {period}", *map(microseconds, self.sampled_margins)),
         ]
         for name, late in (("no delay", 0.0), ("a delay of one period", 1.0)):
+            # without a delay there is nothing to know, and both columns have the same loop
             known = (replace(loop, known=k and late > 0.0) for k in (False, True))
             periods = (microseconds(largest_period(one, late)) for one in known)
             rows.append((f"largest period, {name}", *periods))
@@ -226,7 +227,11 @@ class ObserverReport(OnHardware):
         return _Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
 
     def _allowed(self) -> _Section:
-        """Table of the largest allowed bandwidth for every order m, with the loop without an observer."""
+        """Table of the largest allowed bandwidth for every order m; the last row is the loop without observer.
+
+        "rms torque" [N m] is what the error of one encoder count causes, "|e / xi|" [s^2] the tracking error
+        [rad] per disturbance [rad/s^2] of 5 Hz.
+        """
         rows: list[tuple[str, ...]] = []
         for r in self.recommended:
             if math.isnan(r.bandwidth):

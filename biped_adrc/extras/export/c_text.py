@@ -81,7 +81,7 @@ class Written:
     operations: int
     """Number of arithmetic operations and calls, one for each line that is no copy."""
     doubles: int
-    """Number of these that are in double whatever `real` is."""
+    """Number of these operations that are in double whatever `real` is."""
 
 
 def read_by(function: SymbolicFunction, which: int) -> set[int]:

@@ -138,7 +138,7 @@ class Landing(NamedTuple):
     """State of `Noticed`."""
 
     inner: Any
-    """Of the sensors inside."""
+    """State of the sensors inside."""
     landed: float
     """1 between a touchdown and the sample instant after it, else 0."""
 
@@ -147,9 +147,10 @@ class Landing(NamedTuple):
 class Noticed(Sensor):
     """Sensors on the computer where touchdowns are detected at sample instants, as in `closed_loop.semantics`.
 
-    A detected touchdown comes with the measurement of that instant. The measurement is read in the old labels
-    first, so that rates go on; these are relabelled, and the sample instant that follows at once reads nothing
-    again. Raises InputError for a robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
+    A detected touchdown comes with the measurement of that instant. The measurement is first read in the old
+    labels, so that rates are differences within one single support. Angles and rates are then relabelled, and
+    the sample instant that follows at once does not read the same measurement again. Raises InputError for a
+    robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
     """
 
     inner: Sensor

@@ -38,7 +38,7 @@ from biped_adrc.scenario.build import build
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
 
 MACHINES = {("Linux", "x86_64"): "linux64"}
-"""Operating system and processor -> name of FMI 2.0 for the folder of a binary."""
+"""(Operating system, processor) -> name that FMI 2.0 has for the folder of a binary."""
 AS_READ = {True: "read at every step", False: "read at the first step only"}
 """Whether `step` reads a rate -> text about it in the FMU's description."""
 

@@ -5,8 +5,9 @@ the names of their numbers.
     step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
     touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
 
-x_c = (s, w, queue, waiting, u): the controller's state, and the numbers kept between sample instants. lost is
-not positive where a matrix is singular or a torque beyond the walker's bound.
+x_c = (s, w, queue, waiting, u) is what the computer keeps between sample instants: the states of controller and
+sensors, torques on their way and the one that acts, as in `hardware.sample_hold`. lost is not positive where a
+matrix is singular or a torque beyond the walker's bound.
 
 In C the numbers x_c are fields of a struct. Numbers that no function reads, such as a torque that
 nothing depends on, have no field.
@@ -138,8 +139,9 @@ class Functions:
 
 
 def functions(computer: Computer) -> Functions:
-    """Trace the functions of a computer and name their numbers. Raises InputError for a
-    method that cannot be traced.
+    """Trace the functions of a computer and name their numbers; fields that no torque depends on are left out.
+
+    Raises InputError for a method that cannot be traced.
     """
     traced = init(computer), step(computer), touchdown(computer)
     n, p, every = computer.robot.n, computer.robot.p, fields_of(computer)
@@ -153,6 +155,7 @@ def functions(computer: Computer) -> Functions:
     left = {name for field in kept for name in field}
     states = [f"next->{name}" if name in left else "" for field in every for name in field]
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
+    # all three functions return x_c, and step u and lost behind it
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)
     rates = tuple(i for i in range(n) if _HEAD + n + i in read)

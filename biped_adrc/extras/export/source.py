@@ -131,6 +131,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
         "n": k.n,
         "p": k.p,
         "period": decimal(computer.timing.period),
+        # an index from p on stands for a torque that changes its sign (`types.relabelled`)
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
         "rates_read": functions_.rates,
         "rates": _rates(functions_.rates, k.n),

@@ -5,9 +5,9 @@
     observation, reward, terminated, truncated, info = env.step(action)
     envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
-A step of the environment is one sample of the walk, from one sample instant to the next (1 ms by default); a
-sample in which the foot strikes ends at the impact, where the clock restarts. `stage` defines the observation,
-`task` the reward.
+A step of the environment is one sample of the walk (not a walking step), from one sample instant to the next
+(1 ms by default); a sample in which the foot strikes ends at the impact, where the clock restarts. `stage`
+defines the observation, `task` the reward.
 
 The vector environment moves all walks by one call of machine code; each walk is that of `WalkEnv`, bit for bit.
 A walk that has ended begins anew at the next step (`AutoresetMode.NEXT_STEP`): its action of that step has no
@@ -190,6 +190,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         Returns observations (N, ..), rewards (N,), whether each has fallen (N,), whether its time or impacts
         are over (N,), and the infos. Raises InputError for actions of another shape or not finite.
         """
+        # `again`: walks that ended at the last step; in place of this step they begin anew, with the reward 0
         stage, again = self.stage, self.over
         stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         for i in np.flatnonzero(again):
@@ -240,7 +241,7 @@ class Picture:
         return list(zip(ends, roles_of(self.bones, self.biped, step), strict=True))
 
     def drawn(self, i: int) -> NDArray[np.uint8]:
-        """Draw walk i as pixels (HEIGHT, WIDTH, 3)."""
+        """Draw walk i as pixels (HEIGHT, WIDTH, 3), with the hip in the middle and tiles along the ground."""
         row, foot, first = self.stage.view[i], self.stage.feet[i], self.stage.first
         q, t, step = row[: self.biped.n], float(row[first]), int(row[first + 1])
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")

@@ -60,7 +60,7 @@ TORQUES, ADDED = "torques", "added"
 _NEAR = 0.1
 """e_1 of the reward [rad]."""
 FALLEN_FROM = 1e-9
-"""Tolerance of the time limit [s]: a sample that ends so little before it is the last."""
+"""Tolerance of the time limit [s]: a sample that ends less than this before it is the last one."""
 
 
 @dataclass(frozen=True)
@@ -132,14 +132,16 @@ _NAMES = np.array(["walks", *(x.name.lower().replace("_", " ") for x in STATUS[1
 """Text of each status, by its code."""
 
 Flags = NDArray[np.bool_]
+"""One truth value for each of N walks."""
 
 
 class Stage:
     """N walks of one task. Raises InputError for a task that cannot be walked.
 
-    count: N. drawn: whether to follow the places of the stance feet, for pictures. needs (N, 4): 1 where all
-    single supports that are over are feasible, else 0; largest |F_T| / F_N and least F_N [N] of the mean
-    force; largest torque [N m]. feet (N, 2): places of the stance feet [m], where `drawn`.
+    count: N. drawn: whether to follow the places of the stance feet, for pictures. Attributes: needs (N, 4),
+    over the finished single supports of each walk: 1 where all are feasible, else 0; largest |F_T| / F_N and
+    least F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m], if
+    `drawn`.
     """
 
     def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
@@ -159,7 +161,8 @@ class Stage:
         self.lowest, self.needs = -self.highest, np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
-        self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
+        # a task that cannot be walked raises here; no walk goes on until `begin` is called for it
+        self.begin(0, self.task.scenario.run.seed)
         self.stepper.codes[:] = -1
 
     def begin(self, i: int, seed: int) -> None:

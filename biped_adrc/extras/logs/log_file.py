@@ -38,7 +38,8 @@ MOST_ANGLE = 4.0 * math.pi
 MOST_TORQUE = 100.0
 """Largest plausible torque, as a multiple of the robot's peak torque."""
 STRETCH = 0.01
-"""Interval over which a rate is compared with its angle [s]: longer than encoder steps, short beside a step."""
+"""Interval over which a rate is compared with its angle [s]: many encoder counts, a small part of a walking
+step."""
 LEAST_MOTION = 0.002
 """Least rms change of an angle in an interval [rad]; with less motion its rate is not checked."""
 RATIOS = 0.5, 2.0
@@ -226,8 +227,9 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
 
 
 def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Over M intervals, each within one single support: how much the angles changed, and the integrals of the
-    rates, both (M, n) [rad]. They are equal in a log whose rates are those of its angles.
+    """Changes of the angles, and integrals of the rates, over M intervals, both (M, n) [rad].
+
+    Each interval lies within one single support. Both are equal in a log whose rates are those of its angles.
     """
     ways = np.diff(t)[:, np.newaxis]
     area = np.vstack((np.zeros_like(v[:1]), np.cumsum(0.5 * ways * (v[1:] + v[:-1]), axis=0)))
@@ -237,7 +239,10 @@ def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]
 
 
 def _check_rate(turned: Array, integral: Array, i: int) -> None:
-    """Raise InputError where rate i is not that of its angle, from changes and integrals (M,) [rad]."""
+    """Raise InputError where rate i is not that of its angle.
+
+    turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
+    """
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
         return
     square = float(integral @ integral)

@@ -2,11 +2,12 @@
 
 On windows of single support the momentum D q' of the pinned robot changes by the impulses that act on it:
 
-    Delta(D q') = integral of (C' q' - G + B u) dt,     r = |left - right| / |D q', C' q' - G, B u|
+    a = Delta(D q') - integral of (C' q' - G) dt,   b = integral of B u dt,   r = |a - b| / sqrt(|a|^2 + |b|^2)
 
-with q' from differences of the angles. r is about 0.1 for the right reading on exact sensors, 0.5 with
-encoders, friction and masses that are 30 % off, and 0.9 or more for a wrong one. The mirror image of a walk,
-angles and torques with the other sign, fits as well, but its swing foot lands behind the stance foot.
+with q' from differences of the angles, a = b on exact data, and norms over all windows. r is about 0.1 for the
+right reading on exact sensors, 0.5 with encoders, friction and masses that are 30 % off, and 0.9 or more for a
+wrong one. The mirror image of a walk, angles and torques with the other sign, fits as well, but its swing foot
+lands behind the stance foot.
 """
 
 from __future__ import annotations
@@ -22,9 +23,11 @@ from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.model.biped import Biped
 
 HALF, WINDOW = 0.01, 0.04
-"""Half of the interval of differences, in which encoder steps are small, and the length of a window [s]."""
+"""Half of the interval over which angles are differenced, so long that encoder counts do not matter, and the
+length of a window [s]."""
 FITS, POOR = 1.25, 0.8
-"""Ratio of r from which on another reading is meant; r above which none is trusted."""
+"""Another reading is meant where r of the log is so many times as large as its r; above the second number no
+reading is trusted."""
 
 
 def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
@@ -49,8 +52,8 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
 def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     """Iterate over the readings, the log as it stands first; none where no window fits into a support.
 
-    Each is whether the swing foot lands behind the stance foot, r, and words for it. Before a touchdown a walk
-    and its mirror image are not told apart.
+    Each has three values: whether the swing foot lands behind the stance foot, r, and words for the reading. In
+    a log without a touchdown a walk and its mirror image are not told apart.
     """
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
@@ -78,8 +81,8 @@ def _impulses(
 ) -> tuple[Array, Array]:
     """Delta(D q') - integral of (C' q' - G) dt, and the integral of B u dt, (M, n) each [N m s].
 
-    Of windows of `rows` rows from those in `begins` (M,) on; q' is the difference over `half` rows on each
-    side.
+    begins (M,): index of the first row of each window. rows: number of rows of a window. q' is the difference
+    of q over `half` rows on each side.
     """
     free, driven = np.zeros((2, len(begins), biped.n))
     for i, k in enumerate(begins):

@@ -1,5 +1,5 @@
-"""Replay of a log through the controller of a scenario: its signals, their table by
-single support, files and figure.
+"""Replay of a log through the controller of a scenario: its signals, their table by single support, files and
+figure. Numbers such as (7) are equations of the paper.
 
     found = replay("log.csv", Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}))
     found.signals     xi^, its parts, residuals and torques over time
@@ -126,6 +126,7 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         s = calls.predict(s, m, log.u[k])
     arrays = (np.array(x) for x in zip(*rows, strict=True))
     t_step, v, torque, residual, xi, nominal, beyond = arrays
+    # t_step of the first single support counts from the first row, where there was no touchdown
     late = (log.step > log.step[0]) & (t_step < window)
     inputs = log.t, log.step, t_step, log.q, v, log.u
     return ReplaySignals(*inputs, torque, residual, xi, nominal, beyond, late.astype(float))

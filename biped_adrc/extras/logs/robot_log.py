@@ -115,7 +115,11 @@ class RobotLog(Shown):
         return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, remark))
 
     def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
-        """t, step, q, u, v of one single support on the even clock; rows (K,): its indices."""
+        """t, step, q, u, v of one single support on the even clock.
+
+        rows (K,): indices of its rows. The mean torque of a new row is its impulse over the period by this
+        time.
+        """
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
         edges = np.append(t, t[-1] + self.period)

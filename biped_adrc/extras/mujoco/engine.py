@@ -3,8 +3,8 @@
     row = (q, q', own),   own = (time of the last touchdown, base (x, z), its velocity, rest)
 
 rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then u_m
-(p,) of motors with lag. A row is the whole state of a `plant.MuJoCoPlant`. `moved` copies it into MuJoCo,
-steps the engine and reads the result. Integrators:
+(p,) of motors with lag. A row is the whole state of a `plant.MuJoCoPlant`. `moved` copies it into MuJoCo, takes
+integration steps there and reads the result. Integrators:
 
     rk4         v, q by the classical method, four evaluations of the forces in a step
     leapfrog    q <- q + h v / 2;  N times (v <- v + h a(q, v), q <- q + h v);  q <- q - h v / 2
@@ -72,10 +72,11 @@ class MuJoCoEngine:
         self.rates = np.array([*range(n, 2 * n), 2 * n + 3, 2 * n + 4])[order]
         planes = [k for k in range(model.ngeom) if model.geom(k).name in PLANES]
         self.planes = planes if len(planes) > 1 else []
-        """Those that move: one for each foot."""
+        """Indices of the planes that move, one for each foot; empty on ground without steps."""
         turn, radius = model.geom_quat[planes[0], 2], model.geom(d.feet[0]).size[0]
         self.depth = -radius * (1.0 - 2.0 * turn**2)
-        """Height of a plane at level 0 [m]; its own may have been left elsewhere."""
+        """Height of a plane at level 0 [m]. The model's value may be that of an earlier run, so it is
+        computed."""
         self.points_at = [data.xpos[model.body(name).id] for name in (*d.feet, d.hip)]
 
     def _places(self, joints: tuple[str, ...]) -> Indices:
@@ -84,7 +85,8 @@ class MuJoCoEngine:
 
     def place(self, row: Array) -> None:
         """Copy positions and rates of a row into MuJoCo."""
-        row.take(self.positions, out=self.qpos, mode="clip")  # by far the fastest way
+        # `take` into an array with mode="clip" is by far the fastest way to copy
+        row.take(self.positions, out=self.qpos, mode="clip")
         row.take(self.rates, out=self.qvel, mode="clip")
         self.warnings[:] = 0
         if self.planes:
@@ -124,9 +126,10 @@ class MuJoCoEngine:
         return self.read(row)
 
     def followed(self, u: Array, u_m: Array, steps: int) -> Array:
-        """Advance by this many steps with lagging motors, from their torque u_m to the command u (p,) [N m].
+        """Take this many integration steps with lagging motors, whose torque goes from u_m to the command u
+        (p,).
 
-        Returns their torque (p,) [N m] at the end.
+        Returns their torque (p,) [N m] at the end. Over each step MuJoCo gets the exact mean of the torque.
         """
         ratio = self.options.timestep / self.lag
         left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio

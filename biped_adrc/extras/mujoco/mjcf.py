@@ -24,7 +24,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.model.robots.urdf import Visual
 
 SHARES = {"box": (0.5, 0.5, 0.5), "cylinder": (1.0, 0.5), "sphere": (1.0,)}
-"""Of a shape's sizes, what MuJoCo takes: radii, and half lengths [1]."""
+"""Factors [1] from the URDF's sizes of a shape to MuJoCo's, which has radii and half lengths."""
 
 
 def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -> Path:
@@ -39,7 +39,10 @@ def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -
 
 
 def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
-    """Text of a plant as MJCF; arguments as for `write_mjcf`. Raises InputError for ground with steps."""
+    """Text of a plant as MJCF, with the start of `gait` as its keyframe; None for no keyframe.
+
+    Raises InputError for ground with steps.
+    """
     check_part(plant, "plant", MuJoCoPlant)
     if plant.ground_steps:
         raise InputError(

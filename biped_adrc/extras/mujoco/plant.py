@@ -1,22 +1,25 @@
 """A biped on soft ground in MuJoCo, as a plant that integrates itself.
 
+Its state is row = (q, q', own), with q and q' of stance and swing leg as on the rigid plant, and
+
     own = (time of the last touchdown, base (x, z), its velocity, steps of the ground, u_m of motors with lag)
 
-The legs are alike, so at a touchdown the state is relabelled as on the rigid plant, and the same leg of the
-model stands again; a model error of one link follows the leg that stands, here as there. A touchdown is a
-sample instant at which the swing foot, ahead of the stance foot, carries more than `touchdown_force`. From one
-sample instant to the next, and at the edges of a push, the engine steps alone, with constant torque, and with
-the external load of the middle. Forces zeta of the coordinates with the stance foot fixed become, where the
-base floats,
+At a touchdown the row is relabelled as on the rigid plant. The legs of the robot are alike, so MuJoCo's first
+leg then stands again; a model error of one link follows the leg that stands, on both plants. A touchdown is a
+sample instant at which the swing foot, ahead of the stance foot, carries more than `touchdown_force`.
+
+Between sample instants and switching times of a push MuJoCo integrates alone, under constant torque and the
+external load that acts in the middle of this time. A load has generalised forces zeta of the coordinates q with
+the stance foot fixed, and their resultant F (2,). In MuJoCo, where the base floats, it becomes
 
     f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot fixed
 
-F (2,) their resultant. A state alone decides what comes next: there are no warm starts.
+The row alone decides what follows, since MuJoCo's warm starts are off.
 
-On steps of the ground each foot has a plane of its own. That of the stance foot rests; that of the other foot
-is at its last foothold, until a sample instant where this foot is ahead and above the next one, and at that
-from there on. So a plane moves under a foot in the air alone and gives no kick; a foot that does not clear a
-step up strikes the level behind it.
+On steps of the ground each foot has a plane of its own. The plane of the stance foot rests. That of the swing
+foot has the height of this foot's last foothold, until a sample instant at which the foot is ahead of the
+stance foot and above its next foothold; from then on it has that height. So a plane only moves under a foot in
+the air and gives no kick; a foot that does not clear a step up strikes the level behind the step.
 """
 
 from __future__ import annotations
@@ -214,10 +217,11 @@ class MuJoCoPlant(Checked, Shown):
         return Moved(until, after, result, self.landed(until, after) if lands else None)
 
     def look_ahead(self, own: Array, points: list[list[float]]) -> None:
-        """Move the swing foot's plane, in `own`, to the next foothold once the foot is ahead
-        of the other and above that.
+        """Move the swing foot's plane to the level of its next foothold, once the foot is ahead of the stance
+        foot and above that level.
 
-        points [m]: of both feet and the hip.
+        own: the plant's numbers, of which the last level is changed in place. points [m]: places (x, y, z) of
+        both feet and the hip.
         """
         (x, z), (stance, swing, _) = self.out, points
         foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
@@ -258,8 +262,9 @@ class MuJoCoPlant(Checked, Shown):
         """Find what ends the single support at t [s]: a fall, a stance foot in the air, a
         step too long, or a touchdown.
 
-        Empty where nothing does. own: the plant's numbers there. points [m]: of both feet and the hip. A foot
-        above the ground carries nothing, so forces are computed only where the swing foot is in it.
+        Empty where nothing does. own: the plant's numbers there. points [m]: places (x, y, z) of both feet and
+        the hip. A foot above the ground carries nothing, so forces are computed only where the swing foot is in
+        it.
         """
         (x, z), (stance, swing, hip) = self.out, points
         below, ahead = self.levels(own).tolist() if self.ground_steps else (0.0, 0.0)
@@ -282,7 +287,7 @@ class MuJoCoPlant(Checked, Shown):
         """
         mj, result, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
         model, data = self.engine.model, self.engine.data
-        mj.mj_forward(model, data)  # those of the last step are of a state before
+        mj.mj_forward(model, data)  # MuJoCo's step leaves the forces of the state before it
         for k in range(data.ncon):
             mj.mj_contactForce(model, data, k, wrench)
             contact = data.contact[k]

@@ -2,12 +2,12 @@
 
     qpos = (x, z of the base, q)      in the order of the model's joints
 
-`floating_mjcf` stands on a `SoftGround` with spheres for feet; `pinned_mjcf` turns about its stance foot
-and has no contact; `model_of` makes a model of either. Of MuJoCo's bodies those that move have to have a
-mass, so the joints of the base belong to the trunk. RK4, since MuJoCo's Euler methods move the angles over a
-sampling period by (1 + h/T) a T^2 / 2, which a fast observer takes for a disturbance: that of Table I does
-not walk on them. Static friction is MuJoCo's `frictionloss`, a bound on a constraint's force, where the rigid
-plant has tanh.
+The robot of `floating_mjcf` stands on a `SoftGround` with spheres for feet; that of `pinned_mjcf` turns about
+its stance foot and has no contact; `model_of` makes a model of either. MuJoCo's bodies that move must have a
+mass, so the joints of the base belong to the trunk. The integrator is RK4: MuJoCo's Euler methods move the
+angles over a sampling period T by (1 + h/T) a T^2 / 2, with the step h, which a fast observer takes for a
+disturbance; the observer of Table I does not walk on them. Static friction is MuJoCo's `frictionloss`, a bound
+on a constraint's force, where the rigid plant has tanh.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ def mujoco() -> ModuleType:
     """Import MuJoCo and return the module. Raises InputError where it is not installed."""
     with optional("mujoco", "MuJoCo is not installed"):
         import mujoco as module
-    module.set_mju_user_warning(lambda _: None)  # counted in its data; it would write a file
+    # warnings are counted in MuJoCo's data and read there; by default it would write them into a file
+    module.set_mju_user_warning(lambda _: None)
     return module
 
 
@@ -99,7 +100,8 @@ def _world(
 ) -> tuple[ET.Element, ET.Element]:
     """<mujoco> with motors and gravity, and its empty <worldbody>.
 
-    A state alone decides what comes next (no warm starts). One robot is one island, and looking costs 7 %.
+    Warm starts are off, so that a state alone decides what follows. One robot is one island of constraints, and
+    MuJoCo's search for islands, which costs 7 % of the time, is off too.
     """
     root = ET.Element("mujoco", model=one_line(biped.description.name))
     ET.SubElement(root, "compiler", angle="radian")

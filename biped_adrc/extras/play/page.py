@@ -2,9 +2,10 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`extras.play.webassembly`); its scripts compute samples, pushes
-and springs, steps back, and a ghost. It walks the scenarios it was made with, on the rigid plant: the one
-given, OTHERS, and the stations of the tour. A walk that is chosen begins anew from the start.
+The page has controllers, robot and integration as WebAssembly (`extras.play.webassembly`); its scripts compute
+samples, pushes and springs, going back in time, and a ghost (a second walk, for comparison). It can walk the
+scenarios that it was made with, on the rigid plant: the scenario of `play`, OTHERS, and the stations of the
+tour. A walk that is chosen begins anew from the start.
 
 The walk has no end and its ground is not known beforehand: the page moves the ground and a
 few footprints along with it.
@@ -95,7 +96,7 @@ def page(
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
     scenarios[first] = scenario
-    chosen = set(scenarios)
+    chosen = set(scenarios)  # walks of the tour are added below, and have no slider of the delay
     stations = guided(scenario, scenarios)
     walks = {first: variants(first, scenario, samples)}
     for name, s in scenarios.items():
@@ -152,7 +153,11 @@ def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str,
 
 
 def laid_out(walk: PageWalk) -> WalkScene:
-    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once."""
+    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once.
+
+    Its trajectory is made up: each of its arcs stands for a footprint, which the page moves along with the
+    walk.
+    """
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)

@@ -32,6 +32,7 @@ ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 CLOSER = 8
 """Number of places between a slider's end and its value where another end is tried."""
 POWERS = (*range(1, 15), -1, -2)
+"""Exponents k of b s^k that are tried; gains of an observer of high order are high powers of its bandwidth."""
 _EXACT = 1e-12
 """Largest relative error with which a form fits."""
 ELSEWHERE = (*CONTEXT, *GAINS, "bandwidth", "order", "poles", "solve_theta", "reset")
@@ -156,8 +157,9 @@ def end(one: Slider, x: float, numbers: _Numbers) -> float:
 
 
 def numbers_at(one: Slider, numbers: _Numbers, values: Sequence[float] = ()) -> Array:
-    """Numbers of the walk at values of a slider, a row for each; at those of `tried` if none
-    are given. Raises BipedError.
+    """Numbers of the walk, as a row for each of these values of a slider, or of `tried` if there are none.
+
+    Raises BipedError where the walk cannot have a value.
     """
     return np.array([numbers({one.name: x, **one.also}) for x in values or one.tried])
 

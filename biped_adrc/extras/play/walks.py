@@ -48,8 +48,10 @@ from biped_adrc.view.placement import exchanged, joint_values
 MOST = {"force": 300.0, "torque": 200.0}
 """Largest force [N] of a hand, about the weight of RABBIT, and largest torque on one coordinate [N m]."""
 SPRING = {"stiffness": 1500.0, "damping": 40.0}
-"""F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m]; holding it for T takes k T / 2 from d."""
+"""Spring from the mouse (anchor) to the point p: F = k (anchor - p) - d p', at most MOST, k [N/m], d [N s/m]. F
+is constant over a sample T [s], which reduces the damping by k T / 2."""
 DELAY, FRICTION = "hardware.delay", "hardware.friction"
+"""Names of two values of a scenario whose sliders differ from all others."""
 _SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
 
@@ -126,7 +128,7 @@ class PageWalk:
 
     @cached_property
     def rubbed(self) -> Scenario:
-        """The scenario with the joint friction of its walker."""
+        """The scenario with joint friction on where its walker has it."""
         return self.scenario.replace({FRICTION: self.walker.plant.friction})
 
     def at(self, values: Mapping[str, object]) -> Array:
@@ -145,8 +147,8 @@ class PageWalk:
         """The block at the start of a compiled walker as floats, without addresses."""
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in FUNCTIONS:
-            result[PLACES[name]] = 0.0  # addresses
-        return np.nan_to_num(result)  # whole numbers that are no floats
+            result[PLACES[name]] = 0.0  # an address, which differs from process to process
+        return np.nan_to_num(result)  # cells of whole numbers may read as NaN, which equals nothing
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
         """The sliders of the walk, without that of the delay, by name: each with the numbers that it changes,

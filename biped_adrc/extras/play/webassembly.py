@@ -1,14 +1,16 @@
 """The compiled loops and functions of walkers as one WebAssembly module, for a page that needs no server.
 
-It is made from the same text as the machine code: the loops of `engine.kernels` in LLVM's language,
-and the functions as `engine.ir` writes them. LLVM makes an object file, in which functions call each other by
-number, and which a browser starts as it is. Functions called from outside stand in its table of functions, in
-the order of the constant `called`, from 1 on.
+The module is made from the same text as the machine code: the loops of `engine.kernels` in LLVM's language, and
+the functions of each walker (flow, tick, impact, ..) as `engine.ir` writes them. LLVM makes an object file of
+it, which a browser loads without a linker.
 
-It imports from `env` its memory, that table, the stack's end, and functions such as `sin` and `pow`.
+WebAssembly has no addresses of functions: they are called by their number in a table, from 1 on. So the memory
+block of a run (`engine.kernels.record`) has such a number wherever it has an address in machine code.
+`WebWalkers.functions` lists the names in the order of these numbers, and the constant `called` puts the
+functions into the table in the same order. Walkers of the same structure share their functions.
 
-`web_walkers` makes the module, and the numbers of each walker. In place of an address a block has a function's
-number in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
+The page has to give the module, by the name `env`: its memory, the table, the end of the stack, and functions
+of mathematics such as `sin` and `pow`. `web_walkers` makes the module, and the block of each walker.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ class WebWalkers(NamedTuple):
     code: bytes
     """Bytes of the module."""
     functions: tuple[str, ...]
-    """Names of the functions that are called by their number, from 1 on: LOOPS, and those of the walkers."""
+    """Names of the functions in the order of their numbers, from 1 on: those of _LOOPS, then the walkers'."""
     walkers: tuple[WebWalker, ...]
 
 
