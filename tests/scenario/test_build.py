@@ -13,9 +13,12 @@ from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.core.registry import REGISTRY, takes
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
+from biped_adrc.scenario.controllers import ControllerRecord
+from biped_adrc.scenario.cycle import cycle_of, specification_of
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.scenario.walk import walk_scenario
+from biped_adrc.scenario.walk import halved, walk_scenario
 from biped_adrc.studies.run import run_trials
 
 
@@ -141,6 +144,16 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"controller": {"observr": {"order": 1}}}, "controller.observr: unknown name"),
         ({"start.q": 1.0}, "start.q: expected"),
         ({"run.method": "rk5"}, "found 'rk5', expected rk4 or"),
+        ({"hardware": 5}, "hardware: found 5"),
+        ({"run": 5}, "run: found 5"),
+        (
+            {"run": {"method": "adaptive", "h": 1e-3}},
+            "run.h: is 0.001 s, and 'adaptive' chooses its",
+        ),
+        (
+            {"run": {"method": "stiff", "fine": 1e-3}},
+            "run.h: is 0.001 s, and 'stiff' chooses its own",
+        ),
     ],
 )
 def test_wrong_values_of_a_scenario_are_refused_by_name(values, message) -> None:
@@ -221,6 +234,96 @@ def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> 
     with pytest.raises(ba.BipedError, match="made for robot 'rabbit', preset 'identified'"):
         RobotAndGait.of(s)
     assert RobotAndGait.of(s.replace({"gait.other_robot": True})).gait.preset == "identified"
+
+
+IN_PARTS = {
+    "hardware": {"profile": "rabbit", "touchdown": {"name": "kinematics"}},
+    "pushes": "q1=3@2:0.1-0.3",
+    "run": {"fine": 1e-4, "h": 1e-3, "impacts": 6},
+}
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: build(Scenario({"inner": "PD"})),
+            "controller.inner: .*'ADRC' is no outer loop, and",
+        ),
+        (
+            lambda: cycle_of(Scenario(start={"speed": 0.1})),
+            "a return map takes no start.speed; leave",
+        ),
+        (
+            lambda: specification_of(Scenario(ground="mujoco")),
+            "on plant 'mujoco', expected 'rigid'",
+        ),
+        (
+            lambda: walk_scenario(Scenario(**IN_PARTS)),
+            "a walk of 3 parts needs a clock that restarts at",
+        ),
+        (lambda: Scenario.field_of("limits"), "is a record; name a value, as limits.friction"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(call, message) -> None:
+    with pytest.raises(ba.BipedError, match=message):
+        call()
+
+
+def test_a_scenario_is_the_same_by_records_by_names_and_by_numpy() -> None:
+    push = Push(joints="q1", torque=3.0, step=1, onset=0.1)
+    assert Scenario(pushes=push) == Scenario(pushes="q1=3@1:0.1-0.3")
+    law, bandwidth = ControllerRecord(name="LESO"), {"controller.observer.bandwidth": 3.0}
+    assert Scenario(law, **bandwidth) == Scenario("LESO").replace(bandwidth)
+    of_numpy = {"controller.observer.poles": np.array([-1.0, -2.0]), "run.seed": np.int64(3)}
+    plain = Scenario(**{"controller.observer.poles": (-1.0, -2.0), "run.seed": 3})
+    assert Scenario(**of_numpy).dotted() == plain.dotted()
+    assert type(Scenario(**of_numpy).run.seed) is int
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        (
+            {"link": "torso", "force": 3.0, "step": 1, "onset": 0.0},
+            "Push(force=3.0, link='torso', step=1, onset=0.0)",
+        ),
+        (
+            {"joints": "q1, -q2,q3", "torque": 3.0, "step": 4, "onset": 0.1, "rise": 0.01},
+            "3 N m on q1, q3 and -3 N m on q2 from 0.1 to 0.3 s in single support 4, each edge taking 0.01 s",
+        ),
+        (
+            {"joints": "q1", "torque": 2.0, "onset": 0.1, "shape": "step"},
+            "2 N m on q1 from 0.1 s on in single support 3",
+        ),
+        (
+            {"joints": "q1", "torque": 2.0, "onset": 0.1, "shape": "sine", "frequency": 2.0},
+            "2 N m on q1, a sine of 2 Hz, from 0.1 to 0.3 s in single support 3",
+        ),
+    ],
+)
+def test_a_push_is_said_in_words(values, text) -> None:
+    assert Push(**values).in_words() == text
+
+
+@pytest.mark.parametrize(
+    ("values", "half"),
+    [
+        (
+            {"run": {"method": "adaptive", "tolerance": 1e-6}},
+            {"method": "adaptive", "tolerance": 1e-8},
+        ),
+        (
+            {"run": {"method": "stiff", "tolerance": 1e-6}},
+            {"method": "adaptive", "tolerance": 1e-8},
+        ),
+        ({"run": {"h": 1e-3, "fine": 1e-4}}, {"h": 5e-4, "fine": 5e-5}),
+        ({"hardware": "ideal", "run": {"engine": "pinocchio"}}, {"h": 5e-4}),
+    ],
+)
+def test_half_a_step_is_half_or_a_hundredth_of_the_tolerance(values, half) -> None:
+    s = Scenario("NPD", **values)
+    assert halved(s, build(s)).run.record() == half
 
 
 def test_a_class_and_its_name_have_the_same_settings() -> None:
