@@ -226,7 +226,9 @@ def periodic_orbit(
     """
     s = P.project(np.asarray(guess, dtype=float))
     if P.compiled(x := P.lift(s)) is not None:
-        with suppress(SimulationError, SingularError):  # the derivative costs a hundred compiled steps
+        with suppress(
+            SimulationError, SingularError
+        ):  # the derivative costs a hundred compiled steps
             s = P.project(P.fixed_point(x, tolerance).x_minus)
     for _ in range(MOST_ITERATIONS):
         step = differentiate_step(P, s)
