@@ -6,7 +6,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from biped_adrc.core.errors import BipedError, InputError, SimulationError
 from biped_adrc.core.files import data_folder
 from biped_adrc.scenario.scenario import DRAWN
 from biped_adrc.studies import runner
-from biped_adrc.studies.results import RESULTS
+from biped_adrc.studies.results import RESULTS, Results
 from biped_adrc.studies.study import read_study
 from tests.commands import command
 
@@ -108,6 +108,37 @@ def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, messag
 
 
 @pytest.mark.parametrize("kind", ["rows", "costs"])
+class Broken(Executor):
+    """Takes no work, or returns none."""
+
+    def __init__(self, error, at_once=False):
+        self.error, self.at_once = error, at_once
+
+    def submit(self, *_):
+        if self.at_once:
+            raise self.error
+        future = Future()
+        future.set_exception(self.error)
+        return future
+
+
+@pytest.mark.parametrize(
+    ("error", "at_once", "message"),
+    [
+        (ValueError("no"), False, r"could not be handed to a worker or back: ValueError\('no'\)"),
+        (
+            BrokenExecutor("no"),
+            False,
+            "a worker of the executor died, which the study cannot start",
+        ),
+        (BrokenExecutor("no"), True, "a worker of the executor died, which the study cannot start"),
+    ],
+)
+def test_an_executor_that_fails_ends_the_study(tmp_path, error, at_once, message):
+    with pytest.raises(SimulationError, match=message):
+        plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(error, at_once))
+
+
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):
     """A kill and a Ctrl-C at random moments, of a study and of a search."""
     script, random = FOLDER / "plants.py", np.random.default_rng(38)
@@ -296,6 +327,8 @@ def test_rows_of_other_types_are_walked_again(tmp_path, expected):
     for place, value in enumerate(values):
         changed(tmp_path / RESULTS, f"UPDATE walks SET row = {value} WHERE place = {place}")
     changed(tmp_path / RESULTS, "UPDATE walks SET place = 777 WHERE place = 30")
+    with pytest.raises(InputError, match="row 0 does not fit its checksum"):
+        list(Results(read_study(plants.ROWS), tmp_path).results())
     assert made(tmp_path, None) == expected
 
 

@@ -89,6 +89,44 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     assert {p.name for p in tmp_path.glob("*.toml")} == {"chosen-narrow.toml", "chosen-all.toml"}
 
 
+def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
+    when = {"when": {"controller.name": "LESO"}}
+    bandwidth, order = "controller.observer.bandwidth", "controller.observer.order"
+    variables = {
+        "controller.name": {"choices": ["NPD", "LESO"]},
+        bandwidth: {"from": 50.0, "to": 200.0, "scale": "log", **when},
+        order: {"from": 1, "to": 4, "whole": True, **when},
+        "run.impacts": {"from": 1, "to": 3, "whole": True, "when": {order: [2, 3]}},
+    }
+    search = read_study(plants.tables(variables=variables, budget=3, finalists=5)).search
+    chosen = {"controller.name": "LESO", bandwidth: 70.0, order: 2, "run.impacts": 2}
+    assert search.values({"a": 1}, chosen) == {"a": 1, **chosen}
+    assert search.values({}, chosen | {order: 4}) == {
+        k: 4 if k == order else x for k, x in chosen.items() if k != "run.impacts"
+    }
+    assert search.values({"a": 1}, chosen | {"controller.name": "NPD"}) == {
+        "a": 1,
+        "controller.name": "NPD",
+    }
+    middle = {
+        "controller.name": "LESO",
+        bandwidth: pytest.approx(100.0),
+        order: 3,
+        "run.impacts": 2,
+    }
+    npd = {"controller.name": "NPD"}
+    assert list(search.some({})) == [npd, npd, middle]
+    assert search.count({"search": 2, "choice": 3, "test": 5}) == 3 * 2 + 6 * 3 + 2 * 5
+    walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
+    search = search.model_copy(update={"budget": 30, "generation": 5, "walks": search.walks})
+    found = searched(search, {}, walk, lambda c: None)
+    assert len(found) == 30
+    assert {type(c.chosen[order]) for c in found[1:]} == {int}
+    assert {c.chosen[order] for c in found[1:]} == {1, 2, 3, 4}
+    assert {c.chosen["controller.name"] for c in found[1:]} == {"NPD", "LESO"}
+    assert search.ranked(found)[0].objective == 1.0
+
+
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
