@@ -2,9 +2,10 @@
 
 import errno
 import os
+import re
 import shutil
 import subprocess
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.core.tree import flatten
+from biped_adrc.extras.export import export
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.computer import Computer, Landing, Noticed
 from biped_adrc.extras.export.export import export_c
@@ -70,6 +72,12 @@ def test_a_walk_that_runs_away_ends_as_that_of_python():
     assert (there.status, there.t_end) == (here.status, here.t_end)
 
 
+def test_an_exported_controller_acts_at_sample_instants(biped, gait):
+    controller = ExportedController(recorded("NPD")[0].source)
+    with pytest.raises(InputError, match=r"acts at sample instants; give timing=SampledTime"):
+        ba.walk(ba.Walker(biped, controller), gait, 1)
+
+
 @pytest.mark.parametrize("flag", loading.ERRORS)
 def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
     name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
@@ -100,6 +108,23 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
         Noticed(inner, R, np.abs(r))
 
 
+@dataclass(frozen=True)
+class Share(ba.NPDController):
+    """NPD's torque times a number that nothing checks."""
+
+    share: float = 1.0
+
+    def output(self, s, m):
+        return self.share * super().output(s, m)
+
+
+class Other(Sensor):
+    """A sensor with another part on the computer."""
+
+    def on_computer(self, period):
+        return self
+
+
 class Own(Sensor):
     """A sensor of the user's own."""
 
@@ -109,10 +134,16 @@ class Own(Sensor):
 
 def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     walker = build(ba.Scenario("NPD", hardware="ideal"))
+    share = Share(walker.controller.reference, share=np.nan)
     for scenario, word in [
         (ba.Scenario("NPD"), "ContinuousTime"),
         (ba.Scenario("CLF-QP", hardware="ideal"), r"CLFQPController.output .* cannot be compiled"),
         (replace(walker, sensors=Own()), "sensor Own does not say"),
+        (replace(walker, sensors=Other()), "the sensors are Other, expected Sensors or None"),
+        (
+            replace(walker, controller=share),
+            r"parameter .*share of the scenario is NaN, expected a",
+        ),
     ]:
         with pytest.raises(InputError, match=word):
             export_c(scenario, tmp_path / "out")
@@ -179,6 +210,15 @@ def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
             export_c(NPD, tmp_path / "new", fmu=True)
     assert (tmp_path / "new" / "controller.c").exists()
     source = export_c(NPD, tmp_path / "new")
+    assert repr(source).startswith("Source(controller.h, controller.c, main.c, Makefile, README.md")
+    with (
+        pytest.raises(InputError, match=r"does not compile a\.c: a\.c:1:"),
+        build_c({"a.c": "int"}, ["a.c"]),
+    ):
+        pass
+    with monkeypatch.context() as patch:
+        patch.setattr(export.platform, "machine", lambda: "abacus")
+        assert re.fullmatch("FMI 2.0 has no name for .* on abacus", export.without_binary())
     monkeypatch.setattr(loading.shutil, "which", lambda name: None)
     assert "there is no C compiler" in loading.tried(source)
     with pytest.raises(InputError, match="there is no C compiler"):
