@@ -611,18 +611,10 @@ WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
         (rabbit(), Hints(armature=math.nan), "armature"),
         (rabbit().replace(' effort="150"', ""), Hints(), "--torque"),
         ("<sdf/>", Hints(), "robot"),
-        (
-            rabbit(),
-            Hints(actuated=("q1_left", "q9")),
-            r"motors \['q1_left', 'q9'\], expected each at",
-        ),
+        (rabbit(), Hints(actuated=("q1_left", "q9")), r"motors \['q1_left', 'q9'\], expected"),
         (rabbit(), Hints(actuated=("q1_left",) * 2), "expected each at most once and from"),
         (rabbit(), Hints(tip=(0.0, 0.0, 0.1)), "give the links with this tip by .* found None"),
-        (
-            rabbit(),
-            Hints(("world", "left_toe")),
-            "'world' lies on the axis of its own joint 'BasePosX'",
-        ),
+        (rabbit(), Hints(("world", "left_toe")), "'world' lies on the axis of its own joint"),
         (ARM, Hints(), r"which two of the links \['right_tip', 'left_tip', 'hand'\] are the feet"),
         (STILL, Hints(), "no revolute joint below the trunk 'torso'; a biped"),
         (rabbit().replace('left_shin"', 'ground"'), Hints(), "joint 'q2_left': link 'ground' and"),
@@ -668,28 +660,24 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypa
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
 
 
-def singular(q, v):
-    raise SingularError("the impact (7) is singular")
+NUMBERS = ("n", "tree", "description", "impact", "inertia", "bias")
 
 
 @pytest.mark.parametrize(
-    "wrong",
-    [
-        {"inertia": lambda q: np.diag([1.0, 1.0, 1.0, 1.0, -1e-3])},
-        {"inertia": lambda q: np.diag([1.0, 1.0, 1.0, 1.0, 1e-16])},
-        {"inertia": lambda q: np.full((5, 5), np.nan)},
-        {"bias": lambda q, v: np.full(5, np.inf)},
-        {"impact": singular},
-    ],
-    ids=repr,
+    ("name", "number"),
+    [("inertia", np.diag([1.0, 1.0, 1.0, 1.0, x])) for x in (-1e-3, 1e-16, np.nan)]
+    + [("bias", np.full(5, np.inf)), ("impact", SingularError("the impact (7) is singular"))],
 )
-def test_numbers_of_a_robot_that_cannot_be_used_are_refused(wrong):
-    right = ba.Biped.load("rabbit")
-    names = ("n", "tree", "description", "impact", "inertia", "bias")
-    known = {name: getattr(right, name) for name in names}
-    check_numbers(SimpleNamespace(**known))
+def test_numbers_of_a_robot_that_cannot_be_used_are_refused(name, number):
+    def wrong(*_):
+        if isinstance(number, SingularError):
+            raise number
+        return number
+
+    right = {x: getattr(ba.Biped.load("rabbit"), x) for x in NUMBERS}
+    check_numbers(SimpleNamespace(**right))
     with pytest.raises(ModelError, match="expected positive ones"):
-        check_numbers(SimpleNamespace(**known | wrong))
+        check_numbers(SimpleNamespace(**right | {name: wrong}))
 
 
 def test_what_a_urdf_states_of_its_joints_is_read_said_and_written(urdf, tmp_path):

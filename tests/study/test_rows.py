@@ -109,34 +109,27 @@ def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, messag
 
 @pytest.mark.parametrize("kind", ["rows", "costs"])
 class Broken(Executor):
-    """Takes no work, or returns none."""
+    """Returns no work, or, with one more error, takes none."""
 
-    def __init__(self, error, at_once=False):
+    def __init__(self, error, *at_once):
         self.error, self.at_once = error, at_once
 
     def submit(self, *_):
-        if self.at_once:
-            raise self.error
+        for error in self.at_once:
+            raise error
         future = Future()
         future.set_exception(self.error)
         return future
 
 
-@pytest.mark.parametrize(
-    ("error", "at_once", "message"),
-    [
-        (ValueError("no"), False, r"could not be handed to a worker or back: ValueError\('no'\)"),
-        (
-            BrokenExecutor("no"),
-            False,
-            "a worker of the executor died, which the study cannot start",
-        ),
-        (BrokenExecutor("no"), True, "a worker of the executor died, which the study cannot start"),
-    ],
-)
-def test_an_executor_that_fails_ends_the_study(tmp_path, error, at_once, message):
-    with pytest.raises(SimulationError, match=message):
-        plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(error, at_once))
+DEAD = BrokenExecutor("no")
+
+
+@pytest.mark.parametrize("errors", [(ValueError("no"),), (DEAD,), (DEAD, DEAD)])
+def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
+    said = r"to a worker or back: ValueError\('no'\)|a worker of the executor died, which the study"
+    with pytest.raises(SimulationError, match=said.split("|")[errors[0] is DEAD]):
+        plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(*errors))
 
 
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):

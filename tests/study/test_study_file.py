@@ -155,10 +155,7 @@ def test_mistakes_of_a_search_are_named_by_their_place(change, message):
     for more, said in (
         ({"cases": {"m = 1": {}, "m=1": {}}}, "cases: their files would be"),
         ({"cases": {89 * "m": {}}}, "expected different, shorter names"),
-        (
-            {"grid": {"run.impacts": [1, 2]}},
-            "a search has variables and sets of walks; leave out grid",
-        ),
+        ({"grid": {"run.impacts": [1, 2]}}, "a search has variables and sets of walks; leave"),
         ({"seeds": 3}, "leave out grid, draw and seeds"),
         ({"draw": 5}, "draw: found 5"),
         ({"cases": {"a": 3}}, "cases.a: found 3, expected a table"),
@@ -201,11 +198,7 @@ def test_a_module_beside_the_study_is_found_and_others_there_are_not_run(tmp_pat
 
 
 def test_the_versions_of_a_study_are_those_of_its_files_classes_and_plants():
-    values = [
-        ("ground.plant", "mujoco"),
-        ("ground.plant", "rigid"),
-        ("controller.name", "math:sin"),
-    ]
+    values = [("ground.plant", x) for x in ("mujoco", "rigid")] + [("controller.name", "math:sin")]
     assert versions_of([*values, ("gait.name", "none.json"), ("robot.name", "no/robot.toml")]) == {
         "engine of mujoco": importlib.metadata.version("mujoco-core"),
         "file no/robot.toml": (none := hashlib.sha256(b"").hexdigest()[:12]),
