@@ -67,6 +67,7 @@ def test_the_robot_is_drawn_where_its_walk_stands():
     one, other = envs.render()
     assert one.shape == (360, 480, 3)
     np.testing.assert_array_equal(one, other)
+    assert np.all(np.any(one[320] < 255, axis=1))  # the ground, from one edge to the other
     colours = {tuple(x) for x in one.reshape(-1, 3).tolist()}
     assert {ImageColor.getrgb(x) for x in (STANCE, SWING, TRUNK)} <= colours
     assert made(1, scenario=s, action="added").unwrapped.render() is None

@@ -138,7 +138,7 @@ DAMAGE = {
 @pytest.mark.parametrize("kind", DAMAGE)
 def test_damage_is_named_with_its_place(lines, read, kind):
     change, said = DAMAGE[kind]
-    with pytest.raises(InputError, match=f"log.csv.*{said}"):
+    with pytest.raises(InputError, match=f"^log '.*log.csv': .*{said}"):
         read(change(lines))
 
 

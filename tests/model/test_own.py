@@ -546,6 +546,7 @@ def test_a_broken_law_is_found(urdf, change, law):
     biped = biped_from_urdf(urdf(rabbit()))
     broken = [check.name for check in physical_checks(change(biped)) if not check.holds]
     assert any(law in name for name in broken)
+    assert len(physical_checks(biped)) == 9
     assert all(check.holds for check in physical_checks(biped))
 
 

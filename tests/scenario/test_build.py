@@ -220,6 +220,42 @@ def test_every_value_is_known_by_its_name() -> None:
             assert Scenario(**{name: what.default}) == Scenario()
 
 
+RANGES = """
+controller.K_p none >0 1/s^2; controller.K_d none >0 1/s; controller.observer.bandwidth none >0
+<=1e+06 rad/s; controller.observer.order none >=0 <=12; controller.contact.window none >=0 <=1 s;
+controller.prediction 0 >=0 <=0.1 s; controller.feedforward 0 >=0 <=2 1; hardware.period none
+>=1e-05 <=0.1 s; hardware.delay 0 >=0 <=1 s; hardware.encoders.counts none >=1 1;
+hardware.encoders.noise 0 >=0 <=1 rad; hardware.encoders.pitch_noise 0 >=0 <=1 rad;
+hardware.encoders.rate_noise 0 >=0 <=100 rad/s; hardware.encoders.filter_time 0 >=0 <=1 s;
+hardware.torque_limit none >0 N m; hardware.rate_limit none >0 N m/s; hardware.lag 0 >=0 <=1 s;
+pushes.0.force 0 >=0 <=100000 N; pushes.0.direction 0 >=-7 <=7 rad; pushes.0.step 3 >=1 <=100000;
+pushes.0.onset none >=0 <=100 s; pushes.0.duration 0.2 >0 <=100 s; pushes.0.rise 0 >=0 <=10 s;
+pushes.0.frequency 5 >0 <=1000 Hz; errors.mass_width 0 >=0 <1 1; errors.com_width 0 >=0 <1 1;
+errors.inertia_width 0 >=0 <1 1; errors.friction_width 0 >=0 <1 1; errors.trunk_load 0 >-1 <=10 1;
+errors.friction 0 >=-1 <=10 1; errors.impact_width 0 >=0 <1 1; ground.friction 0.6 >0 <=10 1;
+ground.time_constant 0.002 >=1e-05 <=1 s; ground.damping_ratio 1 >0 <=100 1; ground.plant_step none
+>=1e-06 <=0.01 s; ground.slope none >=-0.5 <=0.5 rad; ground.drop 0 >=-0.2 <=0.2 m; ground.drop_step
+3 >=1 <=100000; ground.rms 0 >=0 <=0.1 m; ground.step_height 0 >=0 <=0.1 m; ground.stone_tolerance
+0.025 >0 <=1 m; start.speed 0 >-1 <=2 1; start.speed_spread 0 >=0 <=1 1; start.spread 0 >=0 <=1 rad;
+start.rate_spread 0 >=0 <=10 rad/s; limits.friction none >0 <=1 1; limits.window 0.005 >0 <=0.1 s;
+run.impacts 25 >=1 <=10000; run.first_step 1 >=1 <=100000; run.seed 0 >=0 <=9.22337e+18; run.h none
+>=1e-06 <=0.1 s; run.fine none >=1e-06 <=0.1 s; run.tolerance 1e-09 >0 <=1 1; run.max_step_time 2 >0
+<=100 s; run.runaway_speed 20 >0 <=1e+09 1; run.runaway_torque 1000 >0 <=1e+09 1
+"""
+"""Of each number with a range: its default, the range and the unit."""
+SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+
+
+def test_numbers_have_these_defaults_and_ranges() -> None:
+    texts = []
+    for what in map(Scenario.field_of, Scenario.names()):
+        usual = "none" if what.default is None else what.default
+        usual = usual if isinstance(usual, str | tuple | dict) else f"{usual:g}"
+        limits = [f"{SIGNS[kind]}{x:g}" for kind, x in what.limits]
+        texts += [" ".join(filter(None, (what.name, usual, *limits, what.unit)))] if limits else []
+    assert "; ".join(texts).split() == RANGES.split()
+
+
 def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> None:
     gait = ba.load_gait("published", ba.Biped.load("rabbit"))
     path = tmp_path / "gait.json"
