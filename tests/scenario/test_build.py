@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import re
 
 import numpy as np
@@ -12,6 +13,7 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.core.registry import REGISTRY, takes
+from biped_adrc.model.ground import StepDown, StepUp
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
 from biped_adrc.scenario.controllers import ControllerRecord
 from biped_adrc.scenario.cycle import cycle_of, specification_of
@@ -218,6 +220,80 @@ def test_every_value_is_known_by_its_name() -> None:
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
             assert Scenario(**{name: what.default}) == Scenario()
+
+
+PERIOD = 0.4164
+"""[s] of the published gait."""
+TICKS = {"hardware.period": 1e-3}
+HIGH = {"link": "torso", "force": 10.0, "direction": math.pi / 2, "onset": 0.1}
+LATE = {"shape": "noise", "torque": 2.0, "joints": "q1", "step": 4, "onset": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("values", "name", "expected"),
+    [
+        ({**TICKS, "hardware.lag": 2e-3}, "motors", ba.Motors(None, 2e-3)),
+        ({**TICKS, "hardware.rate_limit": 3e4}, "motors", ba.Motors(3e4, 0.0)),
+        ({**TICKS, "hardware.delay": 2e-3}, "timing", ba.SampledTime(1e-3, True, 2e-3, False)),
+        ({**TICKS, "hardware.touchdown": "force"}, "timing", ba.SampledTime(1e-3, False)),
+        ({"pushes": "q1,-q5=3@4:0.1-0.3"}, "disturbance.amplitude", (3, 0, 0, 0, -3)),
+        ({"pushes": "q1=3@4:0.1-0.3"}, "disturbance.step", 4),
+        ({"pushes": "q1=3@4:0.1-0.3"}, "disturbance.stop", 0.3),
+        ({"pushes": [HIGH]}, "disturbance.wave.amplitude", (0, 10, 0)),
+        (
+            {"pushes": [LATE | {"across_impacts": True}], "run.first_step": 2},
+            "disturbance.start",
+            2 * PERIOD + 0.1,
+        ),
+        (
+            {"pushes": [LATE | {"across_impacts": True}], "run.first_step": 2},
+            "disturbance.stop",
+            2 * PERIOD + 0.3,
+        ),
+        ({"pushes": [LATE | {"across_impacts": False}]}, "disturbance.start", 0.1),
+        ({"ground.drop": 0.01, "ground.drop_step": 2}, "ground_steps", (StepDown(2, 0.01),)),
+        ({"ground.drop": -0.01}, "ground_steps", (StepUp(3, 0.01),)),
+        ({"ground.stones": [0.4, 0.3], "ground.stone_tolerance": 0.02}, "stones.tolerance", 0.02),
+        ({"run.max_step_time": 3.0}, "max_step_time", 3.0),
+        ({"run.runaway_speed": 3.0}, "runaway_speed", 3.0),
+        ({"run.runaway_torque": 3.0}, "runaway_torque", 3.0),
+        ({"hardware.torque_limit": 90.0}, "torque_limit", 90.0),
+    ],
+)
+def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> None:
+    found = operator.attrgetter(name)(build(Scenario("NPD", **values)))
+    if isinstance(expected, tuple | float) and name != "ground_steps":
+        np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-12)
+    else:
+        assert found == expected
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"pushes": "q1=3@6:0-0.1"}, "pushes.0.step: is 6, the walk has 2 to 5"),
+        ({"pushes": "q1=3@1:0-0.1"}, "pushes.0.step: is 1, the walk has 2 to 5"),
+        (
+            {"pushes": [{"force": 3.0}]},
+            "pushes.0.force: the push 'pulse' is a torque; name the link",
+        ),
+        (
+            {"pushes": [LATE | {"rise": 0.1}]},
+            "pushes.0.rise: the push 'noise' has no edges; only a",
+        ),
+        (
+            {"pushes": [{"shape": "hip force", "torque": 3.0}]},
+            "torque: .*'hip force' takes no torque",
+        ),
+        ({"controller": "passive"}, "'passive' does not fit robot 'rabbit' with 4 motors"),
+    ],
+)
+def test_a_push_that_cannot_act_is_refused(values, message) -> None:
+    run = {"run.first_step": 2, "run.impacts": 4}
+    for fits in ("q1=3@2:0-0.1", "q1=3@5:0-0.1", "q1=3@1:0.1-"):
+        build(Scenario("NPD", pushes=fits, **run))
+    with pytest.raises(ba.BipedError, match=message):
+        build(Scenario(**{"controller": "NPD"} | run | values))
 
 
 RANGES = """
