@@ -107,7 +107,6 @@ def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, messag
     assert message in detail
 
 
-@pytest.mark.parametrize("kind", ["rows", "costs"])
 class Broken(Executor):
     """Returns no work, or, with one more error, takes none."""
 
@@ -132,6 +131,7 @@ def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
         plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(*errors))
 
 
+@pytest.mark.parametrize("kind", ["rows", "costs"])
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):
     """A kill and a Ctrl-C at random moments, of a study and of a search."""
     script, random = FOLDER / "plants.py", np.random.default_rng(38)
