@@ -41,6 +41,14 @@ def test_gymnasium_finds_no_fault(values):
     check_env(made(**values).unwrapped)
 
 
+def test_bounds_are_two_turns_the_speed_of_a_runaway_and_the_lower_torque_limit():
+    high = np.repeat([4 * np.pi, 1000.0, 8 * np.pi, 2000.0, 150.0, 8 * np.pi], [5, 5, 4, 4, 4, 1])
+    for limit, torque in ((None, 150.0), (200.0, 150.0), (100.0, 100.0)):
+        space = made(effort=1.0, **{"hardware.torque_limit": limit}).observation_space
+        high[18:22] = torque
+        np.testing.assert_array_equal([space.high, space.low], [high, -high])
+
+
 CASES = {
     "RABBIT": {"condition": "RABBIT pushed", **SLOW},
     "MuJoCo": {"ground.plant": "mujoco", "hardware.period": 7e-4, **SLOW},  # sums of 0.7 ms round
