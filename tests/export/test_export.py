@@ -108,6 +108,17 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
         Noticed(inner, R, np.abs(r))
 
 
+def test_header_and_readme_say_what_the_caller_has_to_do():
+    files = [recorded(name)[0].source.files for name in SCENARIOS]
+    npd, robot = (" ".join(x["controller.h"].split()) for x in files)
+    assert "every 1 ms: laws, gait" in npd
+    assert "v are their rates. */" in npd
+    assert "every 1.5 ms: laws, gait" in robot
+    assert "It knows that torques act 2 ms late. How a touchdown is noticed is left to the" in robot
+    assert "v are their rates; init reads all of them, zero at rest; step reads none. */" in robot
+    assert all("u are then u[1], u[0], u[3], u[2]." in x["README.md"] for x in files)
+
+
 @dataclass(frozen=True)
 class Share(ba.NPDController):
     """NPD's torque times a number that nothing checks."""
