@@ -73,11 +73,13 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     """By the stored nodes of the same walk, which lie on the ticks."""
     values = {
         "controller.name": "NPD",
-        "run.impacts": 2,
+        "run.impacts": 3,
         "hardware.period": 1e-3,
         "start.speed": 0.05,
     }
-    row = run_trials([values])[0]
+    row, ended = run_trials([values, values | {"start.v5": 1e4}])
+    walked = ("status", "impacts", "distance", "speed", "last_speed", "cost_of_transport")
+    assert [ended[x] for x in walked] == ["RAN_AWAY", 0, 0.0, None, None, None]
     s = Scenario(**values)
     walk, scene = walk_scenario(s), RobotAndGait.of(s)
     signals, gait = walk.signals, scene.walked
@@ -91,6 +93,10 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     usual = scene.biped.swing_foot(gait.q_minus)[0] / gait.period
     speed = sum(lengths) / sum(c.duration for c in walk.certificates)
     assert row["speed"] == pytest.approx(speed, rel=1e-6)
+    last = sum(lengths[1:]) / sum(c.duration for c in walk.certificates[1:])
+    assert row["last_speed"] == pytest.approx(last, rel=1e-6)
+    weighed = scene.biped.mass * 9.81 * row["distance"]
+    assert row["cost_of_transport"] == pytest.approx(row["work"] / weighed, rel=1e-12)
     assert row["speed_change"] == pytest.approx((speed - usual) / usual, abs=1e-6)
 
 
