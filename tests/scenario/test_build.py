@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from biped_adrc.model.ground import StepDown, StepUp
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
 from biped_adrc.scenario.controllers import ControllerRecord
 from biped_adrc.scenario.cycle import cycle_of, specification_of
+from biped_adrc.scenario.integration import WalkPart, methods_of, refined
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
@@ -403,6 +405,25 @@ def test_a_push_is_said_in_words(joints, values, text) -> None:
     assert push.in_words() == "2 N m on " + text.format(" in single support 4")
     push = Push(link="torso", force=3.0, step=1, onset=0.0)
     assert push.in_words() == "Push(force=3.0, link='torso', step=1, onset=0.0)"
+
+
+def test_the_method_of_a_walk_and_where_its_steps_are_fine() -> None:
+    push = "q1=3@3:0.1-0.3"
+    for values, method, fine in (
+        ({"controller": "NPD"}, ba.RK4(1e-3), None),
+        ({"controller": "NPD", "hardware": "rabbit"}, ba.RK4(2.5e-4), None),
+        ({"controller": "ADRC"}, ba.Exponential(5e-4), 5e-5),
+        ({"controller": "ADRC", "run.engine": "pinocchio"}, ba.Exponential(5e-4), None),
+        ({"controller": "ADRC", "run.h": 2e-3}, ba.Exponential(2e-3), None),
+        ({"controller": "ADRC", "run.fine": 2e-4}, ba.Exponential(5e-4), 2e-4),
+    ):
+        s = Scenario(**values, pushes=push)
+        walker = build(s)
+        assert methods_of(s.run, walker) == (method, fine)
+        twice, parts = WalkPart(2, method), (WalkPart(6, method),)
+        if fine is not None:
+            parts = twice, WalkPart(2, replace(method, h=fine)), twice
+        assert refined(walker, 6, 1, method, fine) == parts
 
 
 @pytest.mark.parametrize("method", ["adaptive", "stiff", None])
