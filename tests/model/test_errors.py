@@ -155,5 +155,5 @@ def rough():
 def test_limits_that_are_not_said_are_those_of_the_robot(biped):
     assert ba.Limits().of(biped.description) == (0.6, 150.0, 0.005)
     assert ba.Limits(1.0, 3.0, 0.01).of(biped.description) == (1.0, 3.0, 0.01)
-    with pytest.raises(ba.BipedError, match="1.01, expected a number above 0 and at most 1"):
+    with pytest.raises(ba.BipedError, match=r"1\.01, expected a number above 0 and at most 1"):
         ba.Limits(friction=1.01)
