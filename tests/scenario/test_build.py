@@ -367,6 +367,7 @@ FINE = {"pushes": "q1=3@2:0.1-0.3", "run": {"fine": 1e-4, "h": 1e-3, "impacts": 
             lambda: walk_scenario(Scenario(**NOTICED, **FINE)),
             "of 3 parts needs a clock that restarts",
         ),
+        (lambda: walk_scenario(Scenario(start={"q5": 6.8})), "rad, beyond a whole turn; give np"),
         (lambda: Scenario.field_of("limits"), "is a record; name a value, as limits.friction"),
     ],
 )
