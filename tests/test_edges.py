@@ -171,6 +171,16 @@ def test_a_start_with_the_swing_foot_in_the_ground_is_named(engine, biped, gait)
     assert lifted.remarks == ()
 
 
+def test_a_gait_of_another_preset_and_a_push_after_the_walk_are_named(biped, gait):
+    other = ba.Biped.load("rabbit", "tac2003")
+    walk = ba.walk(ba.Walker(other, ba.NPDController(gait.constraint)), gait, 1)
+    assert walk.remarks == ("gait 'published' was made for rabbit identified",)
+    push = ba.TorquePulse([1.0] * 5, start=0.1, stop=9.0) + ba.TorquePulse([1.0] * 5, start=5.0)
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint), push), gait, 1)
+    end = f"the walk ended at {walk.trajectory.t_end:.4g} s"
+    assert walk.remarks == (f"the push from 5 s on did not act: {end}",)
+
+
 def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
     late = pulse(5, 0.1, 0.3) + pulse(7, 0.1, 0.3)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), late)

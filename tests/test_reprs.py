@@ -40,6 +40,14 @@ def test_parts_and_walks_fit_a_line(biped, gait):
         assert len(repr(thing)) <= LINE, repr(thing)
 
 
+def test_what_a_robot_computes_is_one_line(biped):
+    text = "Impact(q=[0 0 0 0 0], v=[0 0 0 0 0], impulse=[0 0], v_e=array(7,))"
+    assert repr(biped.impact(np.zeros(5), np.zeros(5))) == text
+    assert repr(biped.reduction(np.zeros(5), np.zeros(5))).startswith(
+        "Reduction(D=array(5, 5), Omega"
+    )
+
+
 def test_a_class_of_ones_own_fits_too(gait):
     @dataclasses.dataclass(frozen=True)
     class Own(ba.Controller):

@@ -2,9 +2,10 @@
 
 import errno
 import os
+import re
 import shutil
 import subprocess
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.core.tree import flatten
+from biped_adrc.extras.export import export
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.computer import Computer, Landing, Noticed
 from biped_adrc.extras.export.export import export_c
@@ -73,6 +75,12 @@ def test_a_walk_that_runs_away_ends_as_that_of_python():
     assert (there.status, there.t_end) == (here.status, here.t_end)
 
 
+def test_an_exported_controller_acts_at_sample_instants(biped, gait):
+    controller = ExportedController(recorded("NPD")[0].source)
+    with pytest.raises(InputError, match=r"acts at sample instants; give timing=SampledTime"):
+        ba.walk(ba.Walker(biped, controller), gait, 1)
+
+
 @pytest.mark.parametrize("flag", loading.ERRORS)
 def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
     name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
@@ -103,6 +111,34 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
         Noticed(inner, R, np.abs(r))
 
 
+def test_header_and_readme_say_what_the_caller_has_to_do():
+    files = [recorded(name)[0].source.files for name in SCENARIOS]
+    npd, robot = (" ".join(x["controller.h"].split()) for x in files)
+    assert "every 1 ms: laws, gait" in npd
+    assert "v are their rates. */" in npd
+    assert "every 1.5 ms: laws, gait" in robot
+    assert "It knows that torques act 2 ms late. How a touchdown is noticed is left to the" in robot
+    assert "v are their rates; init reads all of them, zero at rest; step reads none. */" in robot
+    assert all("u are then u[1], u[0], u[3], u[2]." in x["README.md"] for x in files)
+
+
+@dataclass(frozen=True)
+class Share(ba.NPDController):
+    """NPD's torque times a number that nothing checks."""
+
+    share: float = 1.0
+
+    def output(self, s, m):
+        return self.share * super().output(s, m)
+
+
+class Other(Sensor):
+    """A sensor with another part on the computer."""
+
+    def on_computer(self, period):
+        return self
+
+
 class Own(Sensor):
     """A sensor of the user's own."""
 
@@ -112,10 +148,13 @@ class Own(Sensor):
 
 def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     walker = build(ba.Scenario("NPD", hardware="ideal"))
+    share = Share(walker.controller.reference, share=np.nan)
     for scenario, word in [
         (ba.Scenario("NPD"), "ContinuousTime"),
         (ba.Scenario("CLF-QP", hardware="ideal"), r"CLFQPController.output .* cannot be compiled"),
         (replace(walker, sensors=Own()), "sensor Own does not say"),
+        (replace(walker, sensors=Other()), "the sensors are Other, expected Sensors or None"),
+        (replace(walker, controller=share), r"parameter .*share of the scenario is NaN"),
     ]:
         with pytest.raises(InputError, match=word):
             export_c(scenario, tmp_path / "out")
@@ -186,6 +225,15 @@ def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
             export_c(NPD, tmp_path / "new", fmu=True)
     assert (tmp_path / "new" / "controller.c").exists()
     source = export_c(NPD, tmp_path / "new")
+    assert repr(source).startswith("Source(controller.h, controller.c, main.c, Makefile, README.md")
+    with (
+        pytest.raises(InputError, match=r"does not compile a\.c: a\.c:1:"),
+        build_c({"a.c": "int"}, ["a.c"]),
+    ):
+        pass
+    with monkeypatch.context() as patch:
+        patch.setattr(export.platform, "machine", lambda: "abacus")
+        assert re.fullmatch("FMI 2.0 has no name for .* on abacus", export.without_binary())
     monkeypatch.setattr(loading.shutil, "which", lambda name: None)
     assert "there is no C compiler" in loading.tried(source)
     with pytest.raises(InputError, match="there is no C compiler"):

@@ -7,6 +7,7 @@ from gymnasium.utils.env_checker import check_env
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
+from biped_adrc.extras.logs.robot_log import logged
 
 ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 SLOW = {"controller.observer.bandwidth": 160.0, "controller.observer.order": 1}
@@ -38,6 +39,14 @@ def state(env):
 def test_gymnasium_finds_no_fault(values):
     """Warnings are errors here; all render modes are made and drawn, without a screen."""
     check_env(made(**values).unwrapped)
+
+
+def test_bounds_are_two_turns_the_speed_of_a_runaway_and_the_lower_torque_limit():
+    high = np.repeat([4 * np.pi, 1000.0, 8 * np.pi, 2000.0, 150.0, 8 * np.pi], [5, 5, 4, 4, 4, 1])
+    for limit, torque in ((None, 150.0), (200.0, 150.0), (100.0, 100.0)):
+        space = made(effort=1.0, **{"hardware.torque_limit": limit}).observation_space
+        high[18:22] = torque
+        np.testing.assert_array_equal([space.high, space.low], [high, -high])
 
 
 CASES = {
@@ -195,6 +204,20 @@ WRONG = (
 def test_what_is_no_task_is_refused(values):
     with pytest.raises(InputError):
         made(**values)
+
+
+def test_a_learner_sees_what_the_robots_computer_logs():
+    """Also between a touchdown and its notice, in the labels of the leg that the computer believes in."""
+    hardware = {"profile": "rabbit", "touchdown": {"name": "kinematics"}}
+    s = ba.Scenario("NPD", hardware=hardware, run={"impacts": 2})
+    rows, *_, infos = walked(made(scenario=s, action="added", alive=2.0), 0, 999)
+    log = logged(ba.walk_scenario(s))
+    assert len(log.t) == len(rows) == 554  # the first one is of the reset there
+    seen = np.array(rows[:-1])
+    np.testing.assert_array_equal(seen[:, :5], log.q[1:])
+    np.testing.assert_array_equal(seen[:, 5:10], log.v[1:])
+    assert [x["t"] for x in infos[:-1]] == log.t[1:].tolist()
+    assert [x["step"] for x in infos[:-1]] == log.step[1:].tolist()
 
 
 def test_what_is_no_action_is_refused():

@@ -4,8 +4,12 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode, VectorEnv
+from PIL import ImageColor
 
+import biped_adrc as ba
 from biped_adrc.core.errors import InputError
+from biped_adrc.view.colours import STANCE, SWING, TRUNK
+from biped_adrc.view.placement import WalkScene
 
 ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 
@@ -49,6 +53,24 @@ def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
                 assert all(infos[f"_{name}"].all() for name in expected[4])
         over = fallen | late
     assert again >= count
+
+
+def test_the_robot_is_drawn_where_its_walk_stands():
+    s = ba.Scenario("NPD", hardware={"period": 1e-3}, run={"seed": 3})
+    envs = made(2, scenario=s, action="added", render_mode="rgb_array").unwrapped
+    envs.reset(seed=3)
+    for _ in range(450):
+        envs.step(np.zeros((2, 4)))
+    scene = WalkScene.of(ba.walk_scenario(s.replace(run={"impacts": 2})))
+    where = [[scene.footholds[1], scene.heights[1]]] * 2
+    np.testing.assert_allclose(envs.stage.feet, where, atol=1e-12)
+    one, other = envs.render()
+    assert one.shape == (360, 480, 3)
+    np.testing.assert_array_equal(one, other)
+    assert np.all(np.any(one[320] < 255, axis=1))  # the ground, from one edge to the other
+    colours = {tuple(x) for x in one.reshape(-1, 3).tolist()}
+    assert {ImageColor.getrgb(x) for x in (STANCE, SWING, TRUNK)} <= colours
+    assert made(1, scenario=s, action="added").unwrapped.render() is None
 
 
 def test_what_is_no_vector_is_refused():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.extras.logs.log_file import write_log
+from biped_adrc.extras.logs.log_file import check_plausible, write_log
+from biped_adrc.extras.logs.reading import check_reading
+from biped_adrc.extras.logs.robot_log import RobotLog, logged
 
 ARRAYS = ("t", "step", "q", "u", "v", "measured")
 
@@ -120,11 +123,114 @@ DAMAGE = {
     "degrees": (scaled("q1", 57.3), "line 2 has q1 = .* call it 'q1 \\[deg\\]'"),
     "rates in degrees": (scaled("v3", 57.3), "q3 changes by 0.0175 times what v3 says"),
     "a rate that rests": (scaled("v3", 0.0), "q3 changes by inf times what v3 says"),
+    "doubled": (put(0, "v2", "v1 [rad/s]"), "two of its columns are called 'v1'"),
+    "absent": (put(0, "u4", "w4 [N m]"), r"expected u4 \[N m\] too; rates v1 \.\. may be left out"),
+    "no leg": (put(0, "contact", "leg"), "expected one of contact, step too"),
+    "a third leg": (put(3, "contact", "3"), "line 4, column 'contact': found 3, expected 1 or 2"),
+    "rate of one leg": (put(0, "v2", "w2"), "the log has v1 and not v2, of which it is made"),
+    "whole turn": (put(3, "q5", "6.3"), r"line 4 has q5 = 6\.3 rad, after .* without a jump"),
+    "torque": (
+        put(3, "u2", "-15000.1"),
+        "line 4 has u2 = -15000.1 N m, expected at most 15000 N m",
+    ),
 }
 
 
 @pytest.mark.parametrize("kind", DAMAGE)
 def test_damage_is_named_with_its_place(lines, read, kind):
     change, said = DAMAGE[kind]
-    with pytest.raises(InputError, match=f"log.csv.*{said}"):
+    with pytest.raises(InputError, match=f"^log '.*log.csv': .*{said}"):
         read(change(lines))
+
+
+def log_of(ways=(1, 1, 1, 1, 1), step=(1,) * 6, **arrays):
+    """Six rows of one coordinate and one motor at rest; ways: times between them [1/64 s]."""
+    t = np.cumsum((0.0, *ways)) / 64.0
+    return RobotLog(
+        **{"t": t, "step": step, "q": np.zeros((6, 1)), "u": np.zeros((6, 1)), **arrays}
+    )
+
+
+LATER = (1, 1, 1, 2, 2, 2)
+
+
+@pytest.mark.parametrize(
+    ("arrays", "said"),
+    [
+        ({"t": np.zeros((6, 1))}, r"the log has t \(6, 1\), .* expected K rows of each"),
+        ({"q": np.zeros((5, 1))}, r"q \(5, 1\), u \(6, 1\)"),
+        ({"u": np.zeros(6)}, r"u \(6,\)"),
+        ({"v": np.zeros((6, 2))}, r"v \(6, 2\), expected K rows"),
+        ({"measured": [1.0, 0.0]}, r"measured of the log has the shape \(2,\), expected \(1,\)"),
+        ({"u": [[0.0]] * 4 + [[np.nan]] * 2}, "row 5 of the log has .* expected finite numbers"),
+        ({"step": (1, 1, 1, 1.5, 2, 2)}, "row 4 of the log is of single support 1.5"),
+        ({"step": (0, 0, 0, 1, 1, 1)}, "row 1 of the log is of single support 0"),
+        ({"step": LATER[::-1]}, "row 4 of the log is of single support 1"),
+        ({"step": (1, 1, 1, 3, 3, 3)}, "row 4 of the log is of single support 3"),
+        ({"ways": (1, 0, 1, 1, 1)}, "row 3 of the log has t = 0.015625 s, the same time as the"),
+        ({"ways": (1, 1, -0.5, 1, 1)}, r"row 4 of the log has .*, 0.0078125 s before the row"),
+        ({"ways": (9, 9, 9, 9, 9)}, r"6 rows that are 0.140625 s apart, .* 1e-05 to 0.1 s apart"),
+        ({"ways": (6e-4,) * 5}, "6 rows that are 9.375e-06 s apart"),
+        ({"step": (1, 2, 3, 4, 5, 6)}, "6 rows that are nan s apart"),
+        (
+            {"ways": (1, 1, 1.6, 1, 1)},
+            r"row 4 .* 0.025 s after the row before, expected 0.015625 s",
+        ),
+        ({"ways": (1, 1, 0.49, 1, 1)}, r"row 4 .* comes 0.00765625 s after"),
+        ({"ways": (1, 1, 1.6, 1, 1), "step": LATER}, r"row 4 .* 0.025 s after"),
+    ],
+)
+def test_arrays_that_are_no_log_are_named_by_the_row(arrays, said):
+    with pytest.raises(InputError, match=said):
+        log_of(**arrays)
+
+
+def test_what_lies_at_the_limits_is_a_log(biped):
+    """Rows half a period late or early, a row soon after a touchdown; half a turn, two turns, 100 peaks."""
+    logs = [log_of((1, 1, x, 1, 1)) for x in (1.5, 0.5, 0.9991, 1.0009, 0.9989, 1.0011)]
+    assert [x.period for x in logs] == [1.0 / 64.0] * 6
+    assert [x.even(1.0 / 64.0) for x in logs] == [False, False, True, True, False, False]
+    assert log_of((1, 1, 0.1, 1, 1), LATER).even(1.0 / 64.0)
+    q = np.zeros((6, 5))
+    for half, step in ((np.pi, (1,) * 6), (3.2, LATER)):  # at a touchdown the labels change
+        for other in (0.0, 4.0 * np.pi, -4.0 * np.pi):
+            q[3:, 0], q[:, 1] = half, other
+            log = np.arange(6.0) / 64.0, np.array(step), q, np.full((6, 4), -15000.0), 0.0 * q
+            check_plausible(log, np.zeros(5), biped, ["row"] * 6)
+
+
+@pytest.mark.parametrize(
+    ("speed", "rate", "refused"),
+    [
+        *((1.0, 2.0, 0), (1.0, 0.5, 0), (1.0, 2.01, 1), (1.0, 0.49, 1)),
+        *((0.06, 0.0, 0), (0.07, 0.0, 1), (0.0, 0.06, 0), (0.0, 0.07, 1)),
+    ],
+)
+def test_a_rate_is_within_half_and_twice_that_of_its_angle(biped, speed, rate, refused):
+    """Over one interval of 1/32 s; slower than 0.002 rad in it nothing is said."""
+    t, one = np.arange(6.0) / 32.0, np.eye(5)[3]
+    log = t, np.ones(6), np.outer(speed * t, one), np.zeros((6, 4)), np.tile(rate * one, (6, 1))
+    said = pytest.raises(InputError, match=r"q4 changes by .* times what v4 says, expected 1")
+    with said if refused else nullcontext():
+        check_plausible(log, one > 0.0, biped, ["row"] * 6)
+    check_plausible(log, one > 1.0, biped, ["row"] * 6)  # no rate was measured
+
+
+def test_a_log_of_one_window_is_compared_with_the_model_and_a_shorter_one_is_not(log, biped):
+    """A window of 40 rows of 1 ms, with 10 on each side for the differences."""
+    one, short = (RobotLog(log.t[:K], log.step[:K], log.q[:K], -log.u[:K]) for K in (61, 60))
+    assert check_reading(short, biped) == ()
+    with pytest.raises(
+        InputError, match=r"141% off .*; it is 0% off if all torques have the other"
+    ):
+        check_reading(one, biped)
+
+
+@pytest.mark.parametrize(
+    ("hardware", "said"),
+    [("none", "continuous time and has no sample"), ("ideal", "t = 0 s, before")],
+)
+def test_a_walk_without_sample_instants_has_no_log(hardware, said):
+    walk = ba.walk_scenario(ba.Scenario("NPD", hardware=hardware, start={"v5": 1e5}))
+    with pytest.raises(InputError, match=said):
+        logged(walk)

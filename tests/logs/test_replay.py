@@ -196,6 +196,9 @@ def test_the_parts_of_the_estimate_make_the_whole(log):
     assert np.any(x.xi_contact[inside])
     assert not np.any(x.xi_contact[~inside])
     assert not np.any(x.xi_model_error[inside])
+    residual = [line.get_ydata() for line in found.plot().axes[1].lines]
+    for y, known in zip(residual, 1e3 * x.residual.T, strict=True):
+        np.testing.assert_array_equal(y[np.isfinite(y)], known)
     row = found.rows[1]
     rows = (x.step == 2) & ~inside
     assert row.beyond == pytest.approx(np.sqrt(np.mean(x.zeta_estimate[rows] ** 2, axis=0)).max())

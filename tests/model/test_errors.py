@@ -105,6 +105,10 @@ def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
     expected = np.array(scale) * rubbing.friction_torque(v)
     assert errors.apply(rubbing).friction_torque(v) == pytest.approx(expected, rel=1e-14)
     assert not ModelErrors.drawn(ba.Biped.load("rabbit"), 4).friction
+    assert ModelErrors.drawn(rubbing, 4, 0.1, 0.1, 0.1, 0.3) == errors
+    for wrong in ({"friction": {"left_knee": -1.01}}, {"mass": {"torso": -1.0}}):
+        with pytest.raises(ba.BipedError, match="ModelErrors"):
+            ModelErrors(**wrong)
     without = ModelErrors(friction=dict.fromkeys(errors.friction, -1.0)).apply(rubbing)
     assert not np.any(without.friction_torque(v))
 
@@ -146,3 +150,10 @@ def test_errors_that_leave_nothing_or_do_not_fit_are_refused(make):
 
 def rough():
     return ba.Biped.load("rabbit", friction=True)
+
+
+def test_limits_that_are_not_said_are_those_of_the_robot(biped):
+    assert ba.Limits().of(biped.description) == (0.6, 150.0, 0.005)
+    assert ba.Limits(1.0, 3.0, 0.01).of(biped.description) == (1.0, 3.0, 0.01)
+    with pytest.raises(ba.BipedError, match=r"1\.01, expected a number above 0 and at most 1"):
+        ba.Limits(friction=1.01)

@@ -125,6 +125,31 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     np.testing.assert_array_equal(again.inertia(q), derived.biped.inertia(q))
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "torque"),
+    [
+        ('knee" gear="60"', 'knee" gear="60" forcelimited="true" forcerange="-0.4 0.3"', 18.0),
+        ('knee" gear="60"', 'knee" gear="-60" ctrlrange="-0.4 0.5"', 24.0),
+        ('frictionloss="0.3"', 'actuatorfrclimited="true" actuatorfrcrange="-9 8"', 8.0),
+        (
+            '<motor joint="right_ankle"',
+            '<motor joint="right_knee" gear="40"/><motor joint="right_ankle"',
+            30.0,
+        ),
+        ('knee" gear="60"', 'knee" gear="60" ctrllimited="false"', None),
+    ],
+)
+def test_the_torque_limit_is_the_least_that_an_actuator_reaches(own, old, new, torque):
+    """Gear times the nearer end of force or control, of all motors of a joint together, at most the joint's."""
+    assert old in OWN
+    own.write_text(OWN.replace(old, new))
+    if torque is None:
+        with pytest.raises(ModelError, match="have no torque limit"):
+            derive(own)
+    else:
+        assert derive(own).biped.description.peak_torque == pytest.approx(torque, rel=1e-12)
+
+
 def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
     """`Hints.tip` is a point of the sole's own frame; foot and hip are where MuJoCo has them."""
     joints = [f"{side}_{joint}" for joint in ("hip", "knee", "ankle") for side in ("right", "left")]

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.core.errors import ModelError, OutputError
+from biped_adrc.core.errors import ModelError, OutputError, SingularError
 from biped_adrc.core.files import data_folder
 from biped_adrc.gait.conventions import AngleMap
 from biped_adrc.model.biped import check_numbers
@@ -546,6 +546,7 @@ def test_a_broken_law_is_found(urdf, change, law):
     biped = biped_from_urdf(urdf(rabbit()))
     broken = [check.name for check in physical_checks(change(biped)) if not check.holds]
     assert any(law in name for name in broken)
+    assert len(physical_checks(biped)) == 9
     assert all(check.holds for check in physical_checks(biped))
 
 
@@ -590,6 +591,13 @@ def test_what_is_no_biped_is_refused_by_name(urdf, old, new, named):
     assert "own.urdf" in str(caught.value)
 
 
+SHOULDER = joint("shoulder", "revolute", "torso", "arm", axis="0 1 0")
+HAND = joint("elbow", "revolute", "arm", "hand", xyz="0 0 0.3", axis="0 1 0")
+EMPTY = rabbit().replace("</robot>", f'{SHOULDER}<link name="arm"/></robot>')
+ARM = body("arm", "thigh") + body("hand", "shin") + SHOULDER + HAND
+ARM = rabbit().replace("_toe", "_tip").replace("</robot>", f"{ARM}</robot>")
+STILL = re.sub('type="(continuous|revolute)"', 'type="fixed"', rabbit(base=False))
+COMPASS = (data_folder("urdf") / "compass" / "floating.urdf").read_text()
 WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
 
 
@@ -604,6 +612,16 @@ WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
         (rabbit(), Hints(armature=math.nan), "armature"),
         (rabbit().replace(' effort="150"', ""), Hints(), "--torque"),
         ("<sdf/>", Hints(), "robot"),
+        (rabbit(), Hints(actuated=("q1_left", "q9")), r"motors \['q1_left', 'q9'\], expected"),
+        (rabbit(), Hints(actuated=("q1_left",) * 2), "expected each at most once and from"),
+        (rabbit(), Hints(tip=(0.0, 0.0, 0.1)), "give the links with this tip by .* found None"),
+        (rabbit(), Hints(("world", "left_toe")), "'world' lies on the axis of its own joint"),
+        (ARM, Hints(), r"which two of the links \['right_tip', 'left_tip', 'hand'\] are the feet"),
+        (STILL, Hints(), "no revolute joint below the trunk 'torso'; a biped"),
+        (rabbit().replace('left_shin"', 'ground"'), Hints(), "joint 'q2_left': link 'ground' and"),
+        (rabbit().replace("q1_left", "stance_pin"), Hints(), "'stance_pin': .* rename it"),
+        (EMPTY, Hints(), "'shoulder': it moves no mass; give link 'arm' an <inertial>, or make it"),
+        (COMPASS, Hints(("right_foot", "left_foot")), r"feet=\('left_foot', 'right_foot'\)"),
     ],
 )
 def test_what_cannot_be_guessed_is_asked_for(urdf, text, hints, word):
@@ -643,14 +661,24 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypa
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
 
 
-def test_an_inertia_matrix_that_is_not_definite_is_refused():
-    rabbit, D = ba.Biped.load("rabbit"), np.diag([1.0, 1.0, 1.0, 1.0, -1e-3])
-    wrong = SimpleNamespace(
-        n=5, tree=rabbit.tree, description=rabbit.description, impact=rabbit.impact,
-        inertia=lambda q: D, bias=rabbit.bias,
-    )  # fmt: skip
+NUMBERS = ("n", "tree", "description", "impact", "inertia", "bias")
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [("inertia", np.diag([1.0, 1.0, 1.0, 1.0, x])) for x in (-1e-3, 1e-16, np.nan)]
+    + [("bias", np.full(5, np.inf)), ("impact", SingularError("the impact (7) is singular"))],
+)
+def test_numbers_of_a_robot_that_cannot_be_used_are_refused(name, number):
+    def wrong(*_):
+        if isinstance(number, SingularError):
+            raise number
+        return number
+
+    right = {x: getattr(ba.Biped.load("rabbit"), x) for x in NUMBERS}
+    check_numbers(SimpleNamespace(**right))
     with pytest.raises(ModelError, match="expected positive ones"):
-        check_numbers(wrong)
+        check_numbers(SimpleNamespace(**right | {name: wrong}))
 
 
 def test_what_a_urdf_states_of_its_joints_is_read_said_and_written(urdf, tmp_path):

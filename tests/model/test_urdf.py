@@ -46,6 +46,11 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
             "two parent joints ['right_thigh']",
         ),
         ("</robot>", "", "ParseError"),
+        (
+            "</robot>",
+            "<xacro:leg/></robot>",
+            "it holds xacro macros, expected the URDF they expand",
+        ),
     ],
 )
 def test_bad_urdf_is_refused(tmp_path, old, new, message):
@@ -89,6 +94,11 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
 def test_states_that_are_no_states(biped):
     with pytest.raises(InputError, match=r"shape \(5,\)"):
         biped.inertia(np.zeros(4))
+    with pytest.raises(ModelError, match="foot 'torso' does not hang below 'left_thigh'"):
+        reroot(biped.tree, "torso", "left_thigh")
+    joints = ("left_hip", "right_hip", "left_knee", "torso_pitch")
+    with pytest.raises(ModelError, match="are not built alike, so they cannot change over"):
+        urdf.relabelling(biped.tree, joints, biped.description.feet)
     with pytest.raises(NotFiniteError, match="nan"):
         biped.reduction(np.zeros(5), np.full(5, np.nan))
 
@@ -97,6 +107,7 @@ def test_states_that_are_no_states(biped):
     ("old", "new", "message"),
     [
         ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "expected 5 finite numbers"),
+        ("0.5, 0.0, 1.0]", "0.5, 0.0, 0.0]", r"phase is \[.*\]; the last number must not be 0"),
         ("mass = 12.0", "mass = -12.0", "torso.mass: found -12"),
         ('unactuated = "torso_pitch"\n', "", "'unactuated' is missing"),
         ('urdf = "floating.urdf"', 'urdf = "../floating.urdf"', "in its own folder or below"),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import operator
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,10 +14,15 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.core.registry import REGISTRY, takes
+from biped_adrc.model.ground import StepDown, StepUp
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of
+from biped_adrc.scenario.controllers import ControllerRecord
+from biped_adrc.scenario.cycle import cycle_of, specification_of
+from biped_adrc.scenario.integration import WalkPart, methods_of, refined
+from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario, drawn, read_scenario
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.scenario.walk import walk_scenario
+from biped_adrc.scenario.walk import halved, walk_scenario
 from biped_adrc.studies.run import run_trials
 
 
@@ -68,11 +75,13 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     """By the stored nodes of the same walk, which lie on the ticks."""
     values = {
         "controller.name": "NPD",
-        "run.impacts": 2,
+        "run.impacts": 3,
         "hardware.period": 1e-3,
         "start.speed": 0.05,
     }
-    row = run_trials([values])[0]
+    row, ended = run_trials([values, values | {"start.v5": 1e4}])
+    walked = ("status", "impacts", "distance", "speed", "last_speed", "cost_of_transport")
+    assert [ended[x] for x in walked] == ["RAN_AWAY", 0, 0.0, None, None, None]
     s = Scenario(**values)
     walk, scene = walk_scenario(s), RobotAndGait.of(s)
     signals, gait = walk.signals, scene.walked
@@ -86,6 +95,10 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     usual = scene.biped.swing_foot(gait.q_minus)[0] / gait.period
     speed = sum(lengths) / sum(c.duration for c in walk.certificates)
     assert row["speed"] == pytest.approx(speed, rel=1e-6)
+    last = sum(lengths[1:]) / sum(c.duration for c in walk.certificates[1:])
+    assert row["last_speed"] == pytest.approx(last, rel=1e-6)
+    weighed = scene.biped.mass * 9.81 * row["distance"]
+    assert row["cost_of_transport"] == pytest.approx(row["work"] / weighed, rel=1e-12)
     assert row["speed_change"] == pytest.approx((speed - usual) / usual, abs=1e-6)
 
 
@@ -141,6 +154,10 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"controller": {"observr": {"order": 1}}}, "controller.observr: unknown name"),
         ({"start.q": 1.0}, "start.q: expected"),
         ({"run.method": "rk5"}, "found 'rk5', expected rk4 or"),
+        ({"hardware": 5}, "hardware: found 5"),
+        ({"run": 5}, "run: found 5"),
+        ({"run": {"method": "adaptive", "h": 1e-3}}, "run.h: is 0.001 s, and 'adaptive' chooses"),
+        ({"run": {"method": "stiff", "fine": 1e-3}}, "run.h: is 0.001 s, and 'stiff' chooses"),
     ],
 )
 def test_wrong_values_of_a_scenario_are_refused_by_name(values, message) -> None:
@@ -213,6 +230,116 @@ def test_every_value_is_known_by_its_name() -> None:
             assert Scenario(**{name: what.default}) == Scenario()
 
 
+PERIOD = 0.4164
+"""[s] of the published gait."""
+TICKS = {"hardware.period": 1e-3}
+HIGH = {"link": "torso", "force": 10.0, "direction": math.pi / 2, "onset": 0.1}
+LATE = {"shape": "noise", "torque": 2.0, "joints": "q1", "step": 4, "onset": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("values", "name", "expected"),
+    [
+        ({**TICKS, "hardware.lag": 2e-3}, "motors", ba.Motors(None, 2e-3)),
+        ({**TICKS, "hardware.rate_limit": 3e4}, "motors", ba.Motors(3e4, 0.0)),
+        ({**TICKS, "hardware.delay": 2e-3}, "timing", ba.SampledTime(1e-3, True, 2e-3, False)),
+        ({**TICKS, "hardware.touchdown": "force"}, "timing", ba.SampledTime(1e-3, False)),
+        ({"pushes": "q1,-q5=3@4:0.1-0.3"}, "disturbance.amplitude", (3, 0, 0, 0, -3)),
+        ({"pushes": "q1=3@4:0.1-0.3"}, "disturbance.step", 4),
+        ({"pushes": "q1=3@4:0.1-0.3"}, "disturbance.stop", 0.3),
+        ({"pushes": [HIGH]}, "disturbance.wave.amplitude", (0, 10, 0)),
+        (
+            {"pushes": [LATE | {"across_impacts": True}], "run.first_step": 2},
+            "disturbance.start",
+            2 * PERIOD + 0.1,
+        ),
+        (
+            {"pushes": [LATE | {"across_impacts": True}], "run.first_step": 2},
+            "disturbance.stop",
+            2 * PERIOD + 0.3,
+        ),
+        ({"pushes": [LATE | {"across_impacts": False}]}, "disturbance.start", 0.1),
+        ({"ground.drop": 0.01, "ground.drop_step": 2}, "ground_steps", (StepDown(2, 0.01),)),
+        ({"ground.drop": -0.01}, "ground_steps", (StepUp(3, 0.01),)),
+        ({"ground.stones": [0.4, 0.3], "ground.stone_tolerance": 0.02}, "stones.tolerance", 0.02),
+        ({"run.max_step_time": 3.0}, "max_step_time", 3.0),
+        ({"run.runaway_speed": 3.0}, "runaway_speed", 3.0),
+        ({"run.runaway_torque": 3.0}, "runaway_torque", 3.0),
+        ({"hardware.torque_limit": 90.0}, "torque_limit", 90.0),
+    ],
+)
+def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> None:
+    found = operator.attrgetter(name)(build(Scenario("NPD", **values)))
+    if isinstance(expected, tuple | float) and name != "ground_steps":
+        np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-12)
+    else:
+        assert found == expected
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"pushes": "q1=3@6:0-0.1"}, "pushes.0.step: is 6, the walk has 2 to 5"),
+        ({"pushes": "q1=3@1:0-0.1"}, "pushes.0.step: is 1, the walk has 2 to 5"),
+        (
+            {"pushes": [{"force": 3.0}]},
+            "pushes.0.force: the push 'pulse' is a torque; name the link",
+        ),
+        (
+            {"pushes": [LATE | {"rise": 0.1}]},
+            "pushes.0.rise: the push 'noise' has no edges; only a",
+        ),
+        (
+            {"pushes": [{"shape": "hip force", "torque": 3.0}]},
+            "torque: .*'hip force' takes no torque",
+        ),
+        ({"controller": "passive"}, "'passive' does not fit robot 'rabbit' with 4 motors"),
+    ],
+)
+def test_a_push_that_cannot_act_is_refused(values, message) -> None:
+    run = {"run.first_step": 2, "run.impacts": 4}
+    for fits in ("q1=3@2:0-0.1", "q1=3@5:0-0.1", "q1=3@1:0.1-"):
+        build(Scenario("NPD", pushes=fits, **run))
+    with pytest.raises(ba.BipedError, match=message):
+        build(Scenario(**{"controller": "NPD"} | run | values))
+
+
+RANGES = """
+controller.K_p none >0 1/s^2; controller.K_d none >0 1/s; controller.observer.bandwidth none >0
+<=1e+06 rad/s; controller.observer.order none >=0 <=12; controller.contact.window none >=0 <=1 s;
+controller.prediction 0 >=0 <=0.1 s; controller.feedforward 0 >=0 <=2 1; hardware.period none
+>=1e-05 <=0.1 s; hardware.delay 0 >=0 <=1 s; hardware.encoders.counts none >=1 1;
+hardware.encoders.noise 0 >=0 <=1 rad; hardware.encoders.pitch_noise 0 >=0 <=1 rad;
+hardware.encoders.rate_noise 0 >=0 <=100 rad/s; hardware.encoders.filter_time 0 >=0 <=1 s;
+hardware.torque_limit none >0 N m; hardware.rate_limit none >0 N m/s; hardware.lag 0 >=0 <=1 s;
+pushes.0.force 0 >=0 <=100000 N; pushes.0.direction 0 >=-7 <=7 rad; pushes.0.step 3 >=1 <=100000;
+pushes.0.onset none >=0 <=100 s; pushes.0.duration 0.2 >0 <=100 s; pushes.0.rise 0 >=0 <=10 s;
+pushes.0.frequency 5 >0 <=1000 Hz; errors.mass_width 0 >=0 <1 1; errors.com_width 0 >=0 <1 1;
+errors.inertia_width 0 >=0 <1 1; errors.friction_width 0 >=0 <1 1; errors.trunk_load 0 >-1 <=10 1;
+errors.friction 0 >=-1 <=10 1; errors.impact_width 0 >=0 <1 1; ground.friction 0.6 >0 <=10 1;
+ground.time_constant 0.002 >=1e-05 <=1 s; ground.damping_ratio 1 >0 <=100 1; ground.plant_step none
+>=1e-06 <=0.01 s; ground.slope none >=-0.5 <=0.5 rad; ground.drop 0 >=-0.2 <=0.2 m; ground.drop_step
+3 >=1 <=100000; ground.rms 0 >=0 <=0.1 m; ground.step_height 0 >=0 <=0.1 m; ground.stone_tolerance
+0.025 >0 <=1 m; start.speed 0 >-1 <=2 1; start.speed_spread 0 >=0 <=1 1; start.spread 0 >=0 <=1 rad;
+start.rate_spread 0 >=0 <=10 rad/s; limits.friction none >0 <=1 1; limits.window 0.005 >0 <=0.1 s;
+run.impacts 25 >=1 <=10000; run.first_step 1 >=1 <=100000; run.seed 0 >=0 <=9.22337e+18; run.h none
+>=1e-06 <=0.1 s; run.fine none >=1e-06 <=0.1 s; run.tolerance 1e-09 >0 <=1 1; run.max_step_time 2 >0
+<=100 s; run.runaway_speed 20 >0 <=1e+09 1; run.runaway_torque 1000 >0 <=1e+09 1
+"""
+"""Of each number with a range: its default, the range and the unit."""
+SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
+
+
+def test_numbers_have_these_defaults_and_ranges() -> None:
+    texts = []
+    for what in map(Scenario.field_of, Scenario.names()):
+        usual = "none" if what.default is None else what.default
+        usual = usual if isinstance(usual, str | tuple | dict) else f"{usual:g}"
+        limits = [f"{SIGNS[kind]}{x:g}" for kind, x in what.limits]
+        texts += [" ".join(filter(None, (what.name, usual, *limits, what.unit)))] if limits else []
+    assert "; ".join(texts).split() == RANGES.split()
+
+
 def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> None:
     gait = ba.load_gait("published", ba.Biped.load("rabbit"))
     path = tmp_path / "gait.json"
@@ -221,6 +348,92 @@ def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> 
     with pytest.raises(ba.BipedError, match="made for robot 'rabbit', preset 'identified'"):
         RobotAndGait.of(s)
     assert RobotAndGait.of(s.replace({"gait.other_robot": True})).gait.preset == "identified"
+
+
+NOTICED = {"hardware": {"profile": "rabbit", "touchdown": {"name": "kinematics"}}}
+FINE = {"pushes": "q1=3@2:0.1-0.3", "run": {"fine": 1e-4, "h": 1e-3, "impacts": 6}}
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: build(Scenario({"inner": "PD"})), r"controller.inner: .*'ADRC' is no outer loop"),
+        (
+            lambda: cycle_of(Scenario(start={"speed": 0.1})),
+            "return map takes no start.speed; leave",
+        ),
+        (lambda: specification_of(Scenario(ground="mujoco")), "'mujoco', expected 'rigid'"),
+        (
+            lambda: walk_scenario(Scenario(**NOTICED, **FINE)),
+            "of 3 parts needs a clock that restarts",
+        ),
+        (lambda: walk_scenario(Scenario(start={"q5": 6.8})), "rad, beyond a whole turn; give np"),
+        (lambda: Scenario.field_of("limits"), "is a record; name a value, as limits.friction"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(call, message) -> None:
+    with pytest.raises(ba.BipedError, match=message):
+        call()
+
+
+def test_a_scenario_is_the_same_by_records_by_names_and_by_numpy() -> None:
+    push = Push(joints="q1", torque=3.0, step=1, onset=0.1)
+    assert Scenario(pushes=push) == Scenario(pushes="q1=3@1:0.1-0.3")
+    law, bandwidth = ControllerRecord(name="LESO"), {"controller.observer.bandwidth": 3.0}
+    assert Scenario(law, **bandwidth) == Scenario("LESO").replace(bandwidth)
+    plain, of_numpy = (
+        Scenario(**{"controller.observer.poles": poles, "run.seed": seed})
+        for poles, seed in (((-1.0, -2.0), 3), (np.array([-1.0, -2.0]), np.int64(3)))
+    )
+    assert of_numpy.dotted() == plain.dotted()
+    assert type(of_numpy.run.seed) is int
+
+
+@pytest.mark.parametrize(
+    ("joints", "values", "text"),
+    [
+        (
+            "q1, -q2,q3",
+            {"rise": 0.01},
+            "q1, q3 and -2 N m on q2 from 0.1 to 0.3 s{}, each edge taking 0.01 s",
+        ),
+        ("q1", {"shape": "step"}, "q1 from 0.1 s on{}"),
+        ("q1", {"shape": "sine", "frequency": 3.0}, "q1, a sine of 3 Hz, from 0.1 to 0.3 s{}"),
+    ],
+)
+def test_a_push_is_said_in_words(joints, values, text) -> None:
+    push = Push(joints=joints, torque=2.0, step=4, onset=0.1, **values)
+    assert push.in_words() == "2 N m on " + text.format(" in single support 4")
+    push = Push(link="torso", force=3.0, step=1, onset=0.0)
+    assert push.in_words() == "Push(force=3.0, link='torso', step=1, onset=0.0)"
+
+
+def test_the_method_of_a_walk_and_where_its_steps_are_fine() -> None:
+    push = "q1=3@3:0.1-0.3"
+    for values, method, fine in (
+        ({"controller": "NPD"}, ba.RK4(1e-3), None),
+        ({"controller": "NPD", "hardware": "rabbit"}, ba.RK4(2.5e-4), None),
+        ({"controller": "ADRC"}, ba.Exponential(5e-4), 5e-5),
+        ({"controller": "ADRC", "run.engine": "pinocchio"}, ba.Exponential(5e-4), None),
+        ({"controller": "ADRC", "run.h": 2e-3}, ba.Exponential(2e-3), None),
+        ({"controller": "ADRC", "run.fine": 2e-4}, ba.Exponential(5e-4), 2e-4),
+    ):
+        s = Scenario(**values, pushes=push)
+        walker = build(s)
+        assert methods_of(s.run, walker) == (method, fine)
+        twice, parts = WalkPart(2, method), (WalkPart(6, method),)
+        if fine is not None:
+            parts = twice, WalkPart(2, replace(method, h=fine)), twice
+        assert refined(walker, 6, 1, method, fine) == parts
+
+
+@pytest.mark.parametrize("method", ["adaptive", "stiff", None])
+def test_half_a_step_is_half_or_a_hundredth_of_the_tolerance(method) -> None:
+    by_step = {"h": 1e-3, "fine": 1e-4}, {"h": 5e-4, "fine": 5e-5}
+    by_tolerance = {"tolerance": 1e-6, "method": method}, {"tolerance": 1e-8, "method": "adaptive"}
+    run, half = by_tolerance if method else by_step
+    s = Scenario("NPD", run={"engine": "pinocchio", **run})
+    assert halved(s, build(s)).run.record() == half
 
 
 def test_a_class_and_its_name_have_the_same_settings() -> None:

@@ -15,6 +15,7 @@ TOUCHDOWN = NPD.replace(
 )
 IN_PYTHON = NPD.replace(controller="CLF-QP", run={"impacts": 1})
 WAITING = NPD.replace(ground="mujoco", hardware={"delay": 0.0004}, run={"impacts": 1})
+OTHERS = (NPD.replace(controller="LESO"), None), (NPD, ba.Limits())
 U = np.array([4.0, -3.0, 2.0, 5.0])
 
 
@@ -39,8 +40,8 @@ def largest(a, b):
 @pytest.mark.parametrize("name", ["NPD", "TOUCHDOWN", "IN_PYTHON"])
 def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
     s = globals()[name]
-    walk, stepper = ba.walk_scenario(s), ba.Stepper(s)
-    sample, count = stepper.reset(), 0
+    walk, stepper = ba.walk_scenario(s), ba.Stepper(s, within=ba.Limits())
+    sample, count, over = stepper.reset(), 0, []
     assert bool(stepper.why) is (name == "IN_PYTHON")
     for arc in walk.trajectory.arcs:
         while sample.step[0] == arc.mode.step and sample.t[0] < arc.t[-1]:
@@ -49,7 +50,20 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
             size = None if row else 10  # an arc begins after its sample instant
             assert largest(arc.x[row][:size], sample.x[0, :size]) < 1e-12
             sample, count = stepper.step(), count + 1
+            over += stepper.over
     assert count > 300
+    judged = walk.feasible_within(ba.Limits()).supports
+    assert [i for i, _ in over] == [0] * walk.impacts
+    for (_, ours), theirs in zip(over, judged, strict=False):
+        for name in (
+            "step",
+            "duration",
+            "mean_friction",
+            "scuffing",
+            "peak_torque",
+            "impulse_ratio",
+        ):
+            assert getattr(ours, name) == pytest.approx(getattr(theirs, name), rel=1e-9), name
     assert sample.status[0] is ba.Status.COMPLETED
 
 
@@ -190,6 +204,17 @@ def test_what_is_no_step_is_refused(biped, gait):
     for inputs in ({"torque": np.zeros(5)}, {"force": [[np.nan, 0.0]] * 2}):
         with pytest.raises(InputError, match=r"expected \(2, .\)|finite"):
             stepper.step(**inputs)
+    walk, others = stepper.save(0), [ba.Stepper(s, 1, x) for s, x in OTHERS]
+    for other, why in zip(
+        others, ("14 states, expected 26", "saved without `within`"), strict=True
+    ):
+        with pytest.raises(InputError, match="call reset"):
+            other.save()
+        with pytest.raises(InputError, match="no gait to refer to, or no walk"):
+            other.read(signals_at)
+        other.reset()
+        with pytest.raises(InputError, match=why):
+            other.restore(0, walk)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
     with pytest.raises(InputError, match="start"):
         ba.Stepper(walker).reset()

@@ -17,9 +17,17 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
+from biped_adrc.scenario.stored import load_walks, rebuilt_walk
 from tests.commands import command
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}
+
+
+class Nothing(ba.Disturbance):
+    """No torque at all."""
+
+    def torque(self, t, step, t_start, q, v):
+        return np.zeros(5)
 
 
 def same(one: ba.Walk, other: ba.Walk) -> None:
@@ -98,6 +106,29 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
     (tmp_path / "gait.json").unlink()
     same(walk, ba.load_walk(path))
     command("plot", path, "-o", "figure.png")
+
+
+def test_walks_of_one_controller_are_named_by_their_files(tmp_path: Path) -> None:
+    walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", **FAST))
+    a, b = (walk.save(tmp_path / name) for name in ("a.npz", "b.npz"))
+    assert list(load_walks([a])) == ["NPD"]
+    assert list(load_walks([a, b])) == [f"NPD ({a})", f"NPD ({b})"]
+    same(rebuilt_walk(walk.scenario, walk.trajectory), walk)
+    beside = {name: x for name, x in load_beside(a).items() if name != "walker"}
+    with pytest.raises(InputError, match=r"a\.npz'.* it names no walker, as runs of Walk\.save"):
+        ba.load_walk(save(load(a), a, None, beside))
+
+
+def test_a_disturbance_of_ones_own_is_absent_when_it_is_read_again(biped, gait, tmp_path) -> None:
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), Nothing())
+    with pytest.warns(ba.WalkWarning, match="Nothing did not act: it was zero"):
+        walk = ba.walk(walker, gait, 1)
+    with pytest.raises(InputError, match="an outcome is of a scenario's walk"):
+        walk.outcome  # noqa: B018
+    again = ba.load_walk(walk.save(tmp_path / "a.npz"))
+    same(walk, again)
+    with pytest.raises(InputError, match=r"cannot go on without '.*:Nothing'; walk it again"):
+        ba.walk(again.walker, gait, 1)
 
 
 def stored(own: str, period: float | None = 1e-3) -> ba.Walk:

@@ -30,8 +30,9 @@ class Holds(ba.Controller):
 
 @pytest.mark.parametrize("made", [SteppingLoop, CompiledLoop])
 @pytest.mark.parametrize("tau", [1e-5, 50e-3])
-def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
-    loop = made(MuJoCoPlant(biped, lag=tau), Holds(), None, TICK, biped)
+@pytest.mark.parametrize("method", ["rk4", "leapfrog"])
+def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau, method):
+    loop = made(MuJoCoPlant(biped, lag=tau, integrator=method), Holds(), None, TICK, biped)
     arc = run_of(loop, gait, 0.02).arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
     np.testing.assert_allclose(arc.read["u"], expected, rtol=1e-12, atol=1e-12)

@@ -6,7 +6,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from biped_adrc.core.errors import BipedError, InputError, SimulationError
 from biped_adrc.core.files import data_folder
 from biped_adrc.scenario.scenario import DRAWN
 from biped_adrc.studies import runner
-from biped_adrc.studies.results import RESULTS
+from biped_adrc.studies.results import RESULTS, Results
 from biped_adrc.studies.study import read_study
 from tests.commands import command
 
@@ -105,6 +105,30 @@ def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, messag
     ((status, (count, detail)),) = found.statuses().items()
     assert (status, count) == ("RAISED", 60)
     assert message in detail
+
+
+class Broken(Executor):
+    """Returns no work, or, with one more error, takes none."""
+
+    def __init__(self, error, *at_once):
+        self.error, self.at_once = error, at_once
+
+    def submit(self, *_):
+        for error in self.at_once:
+            raise error
+        future = Future()
+        future.set_exception(self.error)
+        return future
+
+
+DEAD = BrokenExecutor("no")
+
+
+@pytest.mark.parametrize("errors", [(ValueError("no"),), (DEAD,), (DEAD, DEAD)])
+def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
+    said = r"to a worker or back: ValueError\('no'\)|a worker of the executor died, which the study"
+    with pytest.raises(SimulationError, match=said.split("|")[errors[0] is DEAD]):
+        plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(*errors))
 
 
 @pytest.mark.parametrize("kind", ["rows", "costs"])
@@ -296,6 +320,8 @@ def test_rows_of_other_types_are_walked_again(tmp_path, expected):
     for place, value in enumerate(values):
         changed(tmp_path / RESULTS, f"UPDATE walks SET row = {value} WHERE place = {place}")
     changed(tmp_path / RESULTS, "UPDATE walks SET place = 777 WHERE place = 30")
+    with pytest.raises(InputError, match="row 0 does not fit its checksum"):
+        list(Results(read_study(plants.ROWS), tmp_path).results())
     assert made(tmp_path, None) == expected
 
 

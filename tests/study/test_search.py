@@ -89,6 +89,34 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     assert {p.name for p in tmp_path.glob("*.toml")} == {"chosen-narrow.toml", "chosen-all.toml"}
 
 
+def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
+    when = {"when": {"controller.name": "LESO"}}
+    bandwidth, order = "controller.observer.bandwidth", "controller.observer.order"
+    variables = {
+        "controller.name": {"choices": ["NPD", "LESO"]},
+        bandwidth: {"from": 50.0, "to": 200.0, "scale": "log", **when},
+        order: {"from": 1, "to": 4, "whole": True, **when},
+        "run.impacts": {"from": 1, "to": 3, "whole": True, "when": {order: [2, 3]}},
+    }
+    search = read_study(plants.tables(variables=variables, budget=3, finalists=5)).search
+    chosen = {"controller.name": "LESO", bandwidth: 70.0, order: 2, "run.impacts": 2}
+    assert search.values({"a": 1}, chosen) == {"a": 1, **chosen}
+    npd = {"controller.name": "NPD"}
+    assert search.values({"a": 1}, chosen | npd) == {"a": 1, **npd}
+    middle = chosen | {bandwidth: pytest.approx(100.0), order: 3}
+    assert [*search.values({}, chosen | {order: 4})] == [*chosen][:3]
+    assert list(search.some({})) == [npd, npd, middle]
+    assert search.count({"search": 2, "choice": 3, "test": 5}) == 3 * 2 + 6 * 3 + 2 * 5
+    walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
+    search = search.model_copy(update={"budget": 30, "generation": 5, "walks": search.walks})
+    found = searched(search, {}, walk, lambda c: None)
+    assert len(found) == 30
+    assert {type(c.chosen[order]) for c in found[1:]} == {int}
+    assert {c.chosen[order] for c in found[1:]} == {1, 2, 3, 4}
+    assert {c.chosen["controller.name"] for c in found[1:]} == {"NPD", "LESO"}
+    assert search.ranked(found)[0].objective == 1.0
+
+
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
@@ -100,6 +128,9 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
     assert all((c.chosen["controller.k1"] > 20.0) is not c.walked for c in found if c.number)
     assert [c.number for c in found] == list(range(len(found)))
     assert all(c.walked for c in search.ranked(found))
+    limits[0]["most"] = 0.1  # which none keeps: a generation asks 8 times for each of its 10
+    _, found = found_by(budget=30, generation=10, limits=limits)
+    assert ([c.number for c in found if c.walked], len(found)) == ([0], 80)
 
 
 def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path):

@@ -1,7 +1,8 @@
 """Studies from files: what they mean and what is refused; samples, units and tables by closed forms."""
 
 import csv
-import importlib
+import hashlib
+import importlib.metadata
 import math
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import read_scenario, write_scenario
-from biped_adrc.studies.build import scenario_of
+from biped_adrc.studies.build import scenario_of, versions_of
 from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.space import Draw, Levels
 from biped_adrc.studies.study import read_study
@@ -145,13 +146,26 @@ SPAN = {"from": 1, "to": 2}
         ({"limits": [{"column": "feasible"}]}, "search.limits.0: expected one of least and most"),
         ({"limits": [{"column": "feasible", "least": 1, "condition": "x"}]}, "no condition 'x'"),
         ({"budgt": 3}, "search.budgt: unknown key; did you mean 'budget'"),
+        ({"variables": {"run.h": 3}}, "search.variables: run.h: found 3, expected a table"),
     ],
 )
 def test_mistakes_of_a_search_are_named_by_their_place(change, message):
     with pytest.raises(InputError, match=message):
         read_study(plants.tables(**change))
-    with pytest.raises(InputError, match="cases: their files would be"):
-        read_study(plants.tables() | {"cases": {"m = 1": {}, "m=1": {}}})
+    for more, said in (
+        ({"cases": {"m = 1": {}, "m=1": {}}}, "cases: their files would be"),
+        ({"cases": {89 * "m": {}}}, "expected different, shorter names"),
+        ({"grid": {"run.impacts": [1, 2]}}, "a search has variables and sets of walks; leave"),
+        ({"seeds": 3}, "leave out grid, draw and seeds"),
+        ({"draw": 5}, "draw: found 5"),
+        ({"cases": {"a": 3}}, "cases.a: found 3, expected a table"),
+    ):
+        with pytest.raises(InputError, match=said):
+            read_study(plants.tables() | more)
+    read_study((calm := plants.tables()) | {"cases": {88 * "m": {}}})
+    calm["search"]["walks"]["test"]["conditions"] = ["calm"]
+    with pytest.raises(InputError, match=r"search\.walks\.test: there is no condition 'calm'"):
+        read_study(calm)
 
 
 def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
@@ -181,6 +195,16 @@ def test_a_module_beside_the_study_is_found_and_others_there_are_not_run(tmp_pat
         importlib.import_module("not_installed")
     found = ba.study(study, tmp_path / "out", 1)
     assert found.statuses() == {"COMPLETED": (1, "")}
+
+
+def test_the_versions_of_a_study_are_those_of_its_files_classes_and_plants():
+    values = [("ground.plant", x) for x in ("mujoco", "rigid")] + [("controller.name", "math:sin")]
+    assert versions_of([*values, ("gait.name", "none.json"), ("robot.name", "no/robot.toml")]) == {
+        "engine of mujoco": importlib.metadata.version("mujoco-core"),
+        "file no/robot.toml": (none := hashlib.sha256(b"").hexdigest()[:12]),
+        "file none.json": none,
+        "source math:sin": "none",
+    }
 
 
 def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():

@@ -23,14 +23,18 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf
+from biped_adrc.model.robots.urdf import Visual
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
+from biped_adrc.view.from_the_side import side_view
 from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
+from biped_adrc.view.meshcat import objects
 from biped_adrc.view.plots import figures, over_time, zero_dynamics
 from biped_adrc.view.plots.figures import NAMES, draw
+from biped_adrc.view.plots.study import map_figure, path_figure
 from biped_adrc.view.style import render
 
 
@@ -242,6 +246,46 @@ def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
     assert axes.get_xlim() == (0.0, 2.0)
 
 
+def test_a_map_has_a_panel_for_each_case_and_no_more() -> None:
+    """Means of the finite numbers of a cell; cells without one have no text."""
+    x, y = [1.0, 1.0, 2.0], [3.0, 3.0, "none"]
+    panels = {f"case {k}": (x, y, np.array([k, k + 2.0, np.inf])) for k in range(5)}
+    figure = map_figure(panels, ("x [1]", "y [1]"), "error", log=False)
+    shown = [axes.get_title(loc="left") for axes in figure.axes if axes.axison]
+    assert shown == [*panels, ""]  # and the colour bar
+    texts = [[t.get_text() for t in axes.texts] for axes in figure.axes[:5]]
+    assert texts == [[f"{k + 1.0:.2g}", "", "", ""] for k in range(5)]
+    labels = [(a.get_xlabel(), a.get_ylabel()) for a in figure.axes[:5]]
+    assert labels == [("", "y [1]"), *[("x [1]", "")] * 3, ("x [1]", "y [1]")]
+
+
+@pytest.mark.parametrize(("less", "best"), [(True, [np.inf, 4, 4, 2]), (False, [-np.inf, 4, 4, 4])])
+def test_the_path_of_a_search_is_the_best_so_far_that_keeps_its_limits(less, best) -> None:
+    path = [(0, 1.0, False), (1, 4.0, True), (2, np.inf, False), (3, 2.0, True)]
+    figure = path_figure({"a": path, "$b": path[:2]}, "error [1]", less)
+    found = [line.get_xydata().tolist() for line in figure.axes[0].lines[:3]]
+    assert found == [[[1, 4], [3, 2]], [[0, 1]], [list(x) for x in enumerate(best)]]
+    assert [t.get_text() for t in figure.legends[0].get_texts()] == ["a", r"\$b"]
+    assert path_figure({"a": path}, "error [1]", less).legends == []
+
+
+def test_what_cannot_be_drawn_is_refused() -> None:
+    with pytest.raises(InputError, match="figure 1 shows a biped of 5 coordinates, found 2"):
+        robot_figure(Biped.load("compass"))
+    with pytest.raises(InputError, match="asked for as 'pdf', expected 'png' or 'svg'"):
+        render(Figure(), "pdf")
+
+
+def test_a_box_is_the_line_along_its_longest_edge() -> None:
+    box = Visual("box", (0.1, 0.6, 0.2), (1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0))
+    np.testing.assert_allclose(side_view._axis(box), [[1.0, 1.7, 3.0], [1.0, 2.3, 3.0]])
+    rod = replace(box, shape="cylinder", size=(0.1, 0.6))
+    np.testing.assert_allclose(side_view._axis(rod), [[1.0, 2.0, 2.7], [1.0, 2.0, 3.3]])
+    assert side_view._axis(replace(box, shape="sphere", size=(0.1,))) is None
+    shape = objects._shape(box).lower({})
+    assert [shape[k] for k in ("width", "height", "depth")] == [0.1, 0.6, 0.2]
+
+
 def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
     def drawn(low: float, high: float) -> tuple[float, float]:
         class Domain(tuple[SimpleNamespace, SimpleNamespace]):
@@ -249,6 +293,8 @@ def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
 
         ends = Domain((SimpleNamespace(zeta=low), SimpleNamespace(zeta=high)))
         report = SimpleNamespace(domain=ends, orbits=SimpleNamespace(lowest=7.0), zeta_star=20.0)
+        title = zero_dynamics._title(report) if ends.empty else ""  # type: ignore[arg-type]
+        assert title == ("no speed keeps the limits" if ends.empty else "")
         return zero_dynamics._shown(report)  # type: ignore[arg-type]
 
     assert drawn(10.0, 30.0) == (10.0, 30.0)

@@ -6,15 +6,19 @@ import math
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import biped_adrc as ba
+from biped_adrc.analysis.signals import FORCE, PLACE
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown
 from biped_adrc.scenario.recording import Walk
+from biped_adrc.view.from_the_side import moving_parts
+from biped_adrc.view.from_the_side.moving_parts import DrawnWalk
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.placement import WalkScene, link_placements
+from biped_adrc.view.placement import WalkScene, contact_changes, link_placements, loads_at
 
 from .pinocchio_view import floating
 
@@ -62,6 +66,60 @@ def ground(walk: Walk, i: int, x: float) -> float:
     """z of the ground that single support i + 1 starts on, at x [m]."""
     fallen = sum(height for step, height in DROPS.items() if step <= i)
     return -math.tan(walk.walker.slope) * x - (fallen if walk.walker.ground_steps else 0.0)
+
+
+def test_the_angles_of_a_passive_walk_are_drawn(walks: dict[str, Walk]) -> None:
+    walk = walks["compass"]
+    lines = walk.plot().axes[0].lines
+    for line, q in zip(lines, walk.signals.q.T, strict=False):
+        y = line.get_ydata()
+        np.testing.assert_array_equal(y[np.isfinite(y)], q)
+
+
+def test_on_soft_ground_the_foot_is_drawn_where_it_slips() -> None:
+    ground = {"plant": "mujoco", "friction": 0.55}
+    walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", ground=ground, run={"impacts": 2}))
+    scene, at = WalkScene.of(walk), 0
+    for i, (arc, step) in enumerate(zip(walk.trajectory.arcs, walk.soft_steps, strict=True)):
+        t = float(arc.t[len(arc.t) // 2])
+        k = int(np.flatnonzero(arc.t == t)[-1])  # after the sample instant
+        place = arc.read[PLACE][k, :2]
+        assert scene.foot(i, t) == tuple(place)
+        hip = walk.walker.plant.hip(arc.x[k][:5]) + place
+        np.testing.assert_allclose(scene.points(i, t, arc.x[k][:5])[:2], hip)
+        loads = loads_at(scene, t)
+        np.testing.assert_array_equal(loads.other, arc.read[FORCE][k, 2:])
+        np.testing.assert_array_equal(loads.ground_reaction, walk.signals.ground_reaction[at + k])
+        assert bool(len(contact_changes(scene, arc))) is (max(step.slip) > 0.0)
+        at += len(arc.t)
+    assert [max(step.slip) > 0.0 for step in walk.soft_steps] == [True, True]
+
+
+def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]) -> None:
+    view = SideView(WalkScene.of(walks["slope"]))
+    drawn = DrawnWalk(Figure().subplots(), view, 1.0, 1)
+    weight = walks["slope"].walker.plant.weight
+    for force, arrow, words in (
+        ([0.0, weight], [0.0, 0.4], ""),
+        ([3.0 * weight, 0.0], [1.2, 0.0], ""),
+        ([0.0, -4.0 * weight], [0.0, -1.2], f"{4.0 * weight:.3g} N, arrow cut"),
+        ([np.inf, 0.0], [0.0, 0.0], "no finite force, arrow cut"),
+    ):
+        vector, said = drawn._arrow(0, np.zeros(2), np.array(force))
+        np.testing.assert_allclose(vector, arrow, atol=1e-12)
+        assert said == words
+        assert drawn.arrows[0].get_visible() is any(arrow)
+
+
+def test_stones_are_drawn_where_the_next_foot_has_to_land() -> None:
+    s = ba.Scenario({"name": "footstep", "inner": "NPD"}, hardware="ideal")
+    walk = ba.walk_scenario(s.replace({"ground.stones": [0.4, 0.3], "run.impacts": 2}))
+    scene, axes = WalkScene.of(walk), Figure().subplots()
+    moving_parts.ground(axes, [SideView(scene)])
+    half, stones = walk.walker.stones.tolerance, axes.lines[1:]
+    for line, x, L in zip(stones, scene.footholds, (0.4, 0.3), strict=True):
+        np.testing.assert_allclose(line.get_xdata(), [x + L - half, x + L + half])
+        np.testing.assert_allclose(line.get_ydata(), scene.level(x + L))
 
 
 @pytest.mark.parametrize("name", NAMES)

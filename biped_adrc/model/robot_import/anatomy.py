@@ -79,13 +79,9 @@ def position(tree: Tree, link: str) -> Array:
 
 
 def _chain(body: PlanarBase, link: str) -> list[Joint]:
-    """Revolute joints between `link` and the trunk, from the trunk outwards. Raises ModelError."""
+    """Revolute joints between `link` and the trunk, from the trunk outwards."""
     path = body.tree.path_below(link, body.trunk)
-    if path is None:
-        raise ModelError(
-            f"'{body.tree.source}': link '{link}' does not hang on the trunk '{body.trunk}'; foot and "
-            "hip must"
-        )
+    assert path is not None
     return [joint for joint in reversed(path) if joint.type == "revolute"]
 
 
