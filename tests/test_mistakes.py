@@ -119,6 +119,14 @@ COMMANDS = [
     ("robot check nonexistent", 3, "not found"),
     ("robot check pipe.urdf", 3, "not a regular file"),
     (f"robot new URDF -o {LONG}", 5, "too long"),
+    ("simulate --log own.csv", 3, "--log needs sample instants; give a --period"),
+    ("simulate --set x", 3, "--set is 'x', expected NAME=VALUE"),
+    ("simulate --set run.h=1 --set run.h=2", 3, "'run.h' is given twice, as --set run.h=2 too"),
+    ("gait show published --set x=1", 3, "--set x: unknown name; choose from ['friction'"),
+    ("gait show published --set friction=a", 3, "--set friction: found 'a', should be"),
+    ("gait design --steps 0.3", 3, "--steps is given without --speeds"),
+    ("gait design --speeds 0.3 --step 1", 3, "--speeds is given beside a --speed or a --step"),
+    ("reproduce --push q9=5@1:0-1", 3, "no joint 'q9'"),
     ("robot new URDF -o afile", 3, "is a file"),
 ]
 """Command line, exit code, words of the sentence."""
