@@ -142,6 +142,16 @@ def test_arguments_and_results_are_named_with_what_was_expected():
     )
 
 
+def test_an_exception_of_a_user_s_code_is_told_with_its_line():
+    with pytest.raises(ValueError, match="odd") as found:
+        raise ValueError("odd")
+    end = ', `raise ValueError("odd")`) raised ValueError: odd'
+    assert checks.sentence_of(found.value).endswith(end)
+    with pytest.raises(ValueError, match="invalid literal") as found, checks.handing_out():
+        int("x")
+    assert type(found.value) is errors.RaisedError
+
+
 def test_a_point_of_another_class_or_shape_is_named():
     check, still = checks.point_returned, np.zeros(2)
     point = ReferencePoint(still, still, still, np.zeros((2, 3)))
@@ -301,7 +311,8 @@ def test_numbers_of_a_part_are_floats_and_structure_is_whole():
     x, part = content(Damper()), Damper()
     assert [type(y) for y in (x["K"], x["table"][0], x["order"])] == [float, float, int]
     assert type(x["seed"]).__name__ == "Setup"
-    assert (part.root, part.root.flags.writeable) == (2.0, False)
+    assert (part.root, part.root.flags.writeable, Damper.root.attrname) == (2.0, False, "root")
+    assert checks.hints_of(type("Unread", (), {"__annotations__": {"x": "Nowhere"}})) == {}
     assert (with_fields(part, K=9).root, with_fields(part, K=9).K) == (2.0, 9)
 
 

@@ -236,6 +236,13 @@ def test_report_says_what_does_not_hold(bare, published):
     good = zero_report(bare, published.constraint, DomainLimits(0.6, 150.0))
     assert good.walkable
     assert good.text() == REPORT
+    o, star = good.orbits, good.zeta_star
+    assert [o.steps_to(k * star, 1e-3) for k in (1.0009, 1.0011, 2.0)] == [0, 1, 19]
+    assert (
+        abs(o.iterate(2.0 * star, 19)[-1] / star - 1.0)
+        <= 1e-3
+        < o.iterate(2.0 * star, 18)[-1] / star - 1.0
+    )
     empty = zero_report(bare, published.constraint, DomainLimits(0.01, 150.0)).text().splitlines()
     kept = "F_N > 0, friction 0.01, torque 150 N m"
     assert empty[-2:] == [
