@@ -174,6 +174,7 @@ def test_texts_of_values():
         (np.zeros(7), "array(7,)"),
         (np.zeros((1, 2)), "array(1, 2)"),
         (True, "True"),
+        (np.float64(1.5), "1.5"),
         (math.hypot, "hypot"),
         ({"a": 1, "b": 2}, "{'a': 1, 'b': 2}"),
         ({"a": 1, "b": 2, "c": 3}, "{3 keys}"),
@@ -240,6 +241,17 @@ def test_names_of_outputs(tmp_path, monkeypatch):
         ("its own folder or below; copy it", InputError, files.beside, tmp_path / "a", "../a"),
     ):
         assert part in said(error, call, *arguments).replace("File", "file")
+
+
+def test_a_file_that_is_no_json_is_named_with_its_kind(tmp_path):
+    (tmp_path / "a.json").write_text("{")
+    text = said(InputError, files.read_json, tmp_path / "a.json", "walk")
+    assert text.startswith(f"walk '{tmp_path / 'a.json'}' is not valid JSON: Expecting")
+
+
+def test_stored_gaits_are_names_of_gaits_alone():
+    kinds = [kind for kind in registry.REGISTRY if "published-tac2003" in registry.names(kind)]
+    assert kinds == ["gait"]
 
 
 def test_a_failed_write_leaves_the_old_file(tmp_path):
