@@ -1,12 +1,27 @@
 """Return map, regression, certificates, checks and the map of pushes."""
 
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.errors import SimulationError
+from biped_adrc.analysis import gait_design, signals, variational
+from biped_adrc.analysis.return_map import after_impact, newton_step
+from biped_adrc.analysis.stability import Cycle, StabilityTable, nominal_step
+from biped_adrc.analysis.statistics import rms
+from biped_adrc.analysis.stride_gain import BUMP, bumped
+from biped_adrc.analysis.tick_derivative import tick_derivative
+from biped_adrc.analysis.touchdowns import touchdowns
+from biped_adrc.core.errors import GaitError, InputError, SimulationError, SingularError
+from biped_adrc.core.tree import Layout
+from biped_adrc.gait.design.optimise import Optimum
+from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
+from biped_adrc.hardware.touchdown import FaultyTouchdown
 from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.scenario.cycle import cycle_of, gait_map
 from biped_adrc.scenario.scenario import Scenario
@@ -46,6 +61,9 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     c = made.certificates[-1]
     assert c.joint_work == pytest.approx(c.energy_lost, rel=1e-4)
     assert c.violations() == ()
+    assert replace(c, old_foot_velocity=0.0).violations() == (
+        "the old stance foot does not lift off",
+    )
     assert made.certified(ba.Limits(friction=0.1))[-1].violations() == (
         f"friction {c.mean_friction:.3g} > 0.1 over 5 ms",
         f"the impulse at impact asks for friction {c.impulse_ratio:.3f} > 0.1",
@@ -57,7 +75,7 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     assert "torque" in weak.violations()[0]
     # the step of x*, and the signals of one of its two steps
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
-    assert len(made.signals.of_step(2).t) < len(made.signals.t)
+    assert [set(made.signals.of_step(k).step) for k in (1, 2)] == [{1}, {2}]
 
 
 def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):
@@ -77,3 +95,122 @@ def test_a_cycle_without_the_observer_s_states_has_a_multiplier_for_each_coordin
     result = ba.cycle_stability(cycle_of(Scenario("ADRC"), observer_states=False))
     assert len(result.orbit.multipliers) == 9
     assert result.table.stable
+
+
+# -- what is refused -------------------------------------------------------------------------------
+def refused(error, text, call, *arguments, **named):
+    with pytest.raises(error, match=text):
+        call(*arguments, **named)
+
+
+def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, monkeypatch):
+    P, w = return_map, return_map.walker
+    x = np.concatenate((gait.q_minus, gait.v_minus))
+    s, behind, no_return = P.project(x), np.append(biped.relabel(x[:5]), x[5:]), "never returns"
+    notices = replace(w, timing=ba.SampledTime(1e-3, restart=False), touchdown=FaultyTouchdown())
+    refused(InputError, no_return, replace, P, walker=notices)
+    noisy = replace(w, timing=ba.SampledTime(1e-3), sensors=ba.Sensors(noise=1e-3))
+    refused(InputError, no_return, replace, P, walker=noisy)
+    up = math.atan2(*biped.swing_foot(np.append(x[:4], 0.0)))  # where Newton's step has no end
+    refused(SimulationError, "no torso angle puts the swing foot", replace(P, pitch=up).lift, s)
+    refused(SimulationError, "not an impact", after_impact, w, 0.0, behind, ba.Mode())
+    short = Cycle(replace(P, walker=replace(w, max_step_time=0.01)), x)
+    orbit = SimpleNamespace(x_minus=x)
+    refused(SimulationError, "of the cycle ended before: STALLED", nominal_step, short, orbit)
+    refused(SingularError, "1 - dP/ds, by which", newton_step, np.eye(2), np.ones(2))
+    wrong = SimpleNamespace(image=s + 2.0, jacobian=np.zeros((9, 9)))
+    monkeypatch.setattr(variational, "differentiate_step", lambda P, s: wrong)
+    monkeypatch.setattr(variational, "MOST_ITERATIONS", 1)
+    ended = r"in 12 iterations: residual .*, expected below 0"
+    refused(SimulationError, ended, variational.periodic_orbit, P, x, 0.0)
+    refused(SimulationError, ended, P.fixed_point, x, 0.0)
+
+
+def test_derivatives_that_cannot_be_made_are_refused(return_map, gait, biped):
+    P, w = return_map, return_map.walker
+    x = np.concatenate((gait.q_minus, gait.v_minus))
+    smooth, system = "needs continuous time and no disturbance", variational.VariationalSystem
+    refused(InputError, smooth, system, replace(w, timing=ba.SampledTime(1e-3)))
+    refused(InputError, smooth, system, replace(w, disturbance=ba.TorquePulse([1.0] * 5)))
+    refused(InputError, "found a walker in continuous time", tick_derivative, w, Layout.of(x))
+    states = replace(w, controller=ba.ADRCController(gait.constraint))
+    own, s = replace(P, walker=states), replace(P, walker=states).project(x)
+    full = np.append(s, np.zeros(states.layout_of(x).size - 10))
+    refused(InputError, "has states of its own, the va", variational.differentiate_step, own, full)
+    run = SimpleNamespace(events=lambda guard: ())
+    refused(InputError, "knows touchdowns at once", touchdowns, w, run)
+    refused(InputError, r"\(1.0,\), expected 4 numbers", ba.stride_response, gait, biped, (1.0,))
+
+
+def test_the_word_on_multipliers_is_that_of_the_method_that_is_trusted():
+    z = np.array([0.5 + 0.6j, 0.5 - 0.6j, 0.1])
+    last = "the largest |lambda| is 0.781025."
+    alone = StabilityTable(z)
+    assert alone.verdict == f"Trust the central differences: the cycle is stable, {last}"
+    assert (alone.agree, alone.gap(), alone.stable) == (True, 0.0, True)
+    assert not StabilityTable(np.array([1.0 + 0.0j])).stable
+    both = StabilityTable(z * (1.0 + 3e-6), z)
+    assert both.gap() == pytest.approx(3.0, rel=1e-5)
+    assert both.verdict == (
+        "Central differences: disagrees, 3 times the tolerance of 1e-06 relative or 1e-07 absolute or what "
+        "root finder and step leave open, at most 0.0e+00. Trust the "
+        f"variational equation: the cycle is stable, {last}"
+    )
+    noisy = replace(both, noise=np.array([0.0, 4e-6, 0.0]) + 1e-5)
+    assert (
+        "agrees within 1e-06 relative or 1e-07 absolute or what root finder and step leave open, at "
+        in (noisy.verdict)
+    )
+    assert alone.text(2).startswith("central differences          7.810250e-01 7.810250e-01\nTrust")
+
+
+# -- numbers with closed forms ---------------------------------------------------------------------
+def test_integrals_and_means_of_signals():
+    t = np.array([0.0, 0.1, 0.4, 0.5, 1.0])
+    cubic = t**3 - 2.0 * t**2 + 3.0
+    assert signals.integrate(t, cubic) == pytest.approx(0.25 - 2.0 / 3.0 + 3.0, abs=1e-14)
+    twice = np.append(t, 1.0 + t), np.append(cubic, 2.0 * cubic)  # a jump between two pieces
+    assert signals.integrate(*twice) == pytest.approx(3.0 * (0.25 - 2.0 / 3.0 + 3.0), abs=1e-13)
+    assert signals.integrate(t[:3], t[:3]) == pytest.approx(0.08)  # trapezoids below four nodes
+    assert rms(t, np.column_stack((t, 2.0 * t))) == pytest.approx(math.sqrt(2.5 / 3.0))
+    assert rms(t[:1], np.array([[3.0, 4.0]])) == pytest.approx(math.sqrt(12.5))
+
+
+def test_accelerations_skip_differences_over_no_time():
+    """q'' at a node is that of the last interval that is longer than round-off, or the next at the start."""
+    dx = np.arange(12.0).reshape(6, 2)
+    for t, rows in (
+        ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0, 1, 2, 3, 4, 5]),
+        ([0.0, 1.0, 1.0, 2.0, 3.0, 4.0], [0, 1, 2, 3, 4, 5]),
+        ([0.0, 1.0, 1.0 + 1e-10, 2.0, 3.0, 4.0], [0, 0, 0, 3, 4, 5]),
+        ([0.0, 1e-10, 1.0, 2.0, 3.0, 4.0], [2, 2, 2, 3, 4, 5]),
+        ([0.0, 1e-10, 2e-10, 3e-10, 4e-10, 5e-10], [0, 1, 2, 3, 4, 5]),
+    ):
+        arc = SimpleNamespace(t=np.array(t), dx=dx)
+        assert signals.accelerations(arc, 1)[:, 0].tolist() == (2.0 * np.array(rows) + 1.0).tolist()
+
+
+def test_the_bump_of_a_stride_is_64_s3_1_s_3(gait):
+    h, s = gait.constraint, np.array([0.0, 0.25, 0.5, 1.0])
+    assert np.polyval(BUMP[::-1], s) == pytest.approx(64.0 * (s * (1.0 - s)) ** 3, abs=1e-12)
+    shift, middle = np.array([0.1, 0.0, -0.2, 0.0]), 0.5 * (h.theta_plus + h.theta_minus)
+    assert bumped(h, shift).h(middle)[0] - h.h(middle)[0] == pytest.approx(shift, abs=1e-9)
+
+
+# -- a designed gait -------------------------------------------------------------------------------
+def test_a_gait_is_certified_by_its_walk(biped, gait, monkeypatch):
+    walk = gait_design.simulate_by  # not with step control, which no compiled walk has
+    quick = lambda *x, **more: walk(*x[:4], ba.RK4(1e-3), **more)  # noqa: E731
+    monkeypatch.setattr(gait_design, "simulate_by", quick)
+    request, found = GaitRequest(0.75), Optimum(gait, 1.25, 7, 0.5)
+    design = gait_design.certify(biped, request, found)
+    assert (design.iterations, design.seconds, design.objective) == (7, 0.5, 1.25)
+    lines = design.text().splitlines()
+    assert lines[:2] == ["speed                0.750198 m/s", "step length          0.312372 m"]
+    assert lines[3] == "least torque         1.25 N^2 m s"
+    weak = replace(request, limits=StepLimits(torque=1.0))
+    with pytest.raises(GaitError, match=r"not pass its certificate: .* has the torque .* N m > 1$"):
+        gait_design.certify(biped, weak, found)
+    off = replace(found, gait=replace(gait, v_minus=gait.v_minus + 2e-6))
+    with pytest.raises(GaitError, match=r"is left by 5\.0e-06 .* after 2 steps, expected 1e-06"):
+        gait_design.certify(biped, request, off)

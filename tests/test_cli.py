@@ -2,14 +2,21 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
+from biped_adrc import cli
 from biped_adrc.cli import app
-from biped_adrc.core.errors import InputError
+from biped_adrc.cli.gait import _numbers
+from biped_adrc.cli.robot import _names
+from biped_adrc.core.errors import InputError, ModelError, SimulationError
+from biped_adrc.core.verdict import at_most
+from biped_adrc.extras.export.computer import Computer
 from biped_adrc.gait.curves import BSpline
 from biped_adrc.scenario.push import Push, parse_push
 
@@ -134,3 +141,129 @@ def test_simulate_says_where_rounding_decides(tmp_path):
     printed = command("simulate", "--controller", "reference reset", "--impacts", "3", *words)
     assert "note: rounding decides digits of this walk: from a start 1e-12 aside" in printed
     assert "rounding" not in command("simulate", "--controller", "NPD", "--impacts", "1")
+
+
+def ended(*words):
+    """Exit code and text of a command that ends by itself."""
+    done = CliRunner().invoke(app, [str(word) for word in words], catch_exceptions=False)
+    return done.exit_code, " ".join(done.output.split())
+
+
+# -- what is printed, whole ------------------------------------------------------------------------
+WALK = """\
+time length torque at scuffs step [s] [m] [N m] F_N [N] friction impact [mm] breaks
+1 0.4163 0.3123 108.5 222.1 0.446 0.518 0 impulse
+2 0.4164 0.3123 107.6 222.1 0.446 0.518 0 impulse
+F_N and friction: least and largest mean over 5 ms
+COMPLETED: the run reached the number of events or the time asked for
+2 impacts, largest tracking error 1.286e-04 rad (1.286e-04 at half the step),
+peak torque 108.5 N m, RK4, h = 0.001 s
+it made all steps, feasible but for the impact: step 1: the impulse at impact asks
+for friction 0.518 > 0.5
+the old stance foot does not lift off after steps [1, 2]
+engine compiled"""
+
+
+def test_a_walk_is_printed_step_by_step(monkeypatch):
+    certified = ba.Walk.certified
+    stuck = lambda w, k: tuple(replace(c, old_foot_velocity=0.0) for c in certified(w, k))  # noqa: E731
+    monkeypatch.setattr(ba.Walk, "certified", stuck)
+    words = "--impacts", 2, "--period", 0.001, "--set", "limits.friction=0.5"
+    text = ended("simulate", "--controller", "NPD", *words)[1].replace("\u2500", "")
+    assert " ".join(WALK.split()) in " ".join(text.split())
+
+
+def test_a_table_of_gaits_and_a_version():
+    assert "│ published │ 0.7502 │ 0.3124 │ 0.4164 │ 0 │" in ended("gait", "show")[1]
+    assert ended("--version") == (0, f"biped-adrc {ba.__version__}")
+
+
+# -- how commands end ------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("error", "code", "text"),
+    [
+        (InputError("odd"), 3, "error: odd"),
+        (SimulationError("odd"), 4, "error: odd"),
+        (SystemExit(2), 2, ""),
+        (SystemExit("odd"), 1, ""),
+        (SystemExit(None), 0, ""),
+        (KeyboardInterrupt(), 130, "interrupted; what was already written is complete"),
+        (None, 0, ""),
+    ],
+)
+def test_errors_become_exit_codes(monkeypatch, capsys, error, code, text):
+    def command(standalone_mode):
+        if error is not None:
+            raise error
+
+    monkeypatch.setattr(cli, "app", command)
+    assert cli._run() == code
+    assert capsys.readouterr().err.strip() == text
+
+
+def test_a_law_that_does_not_hold_ends_check_and_new(biped, monkeypatch, tmp_path):
+    law = at_most("energy [J]", "law", 1.0, 0.1)
+    derived = SimpleNamespace(biped=biped, notes=(), checks=(law,), broken=(law,))
+    monkeypatch.setattr("biped_adrc.cli.robot._derived", lambda *_: derived)
+    code, text = ended("robot", "check", "x.urdf", "--plot", tmp_path / "x.svg")
+    assert (code, text.count("energy [J]: 1.0e+00 is not <= 0.1")) == (1, 2)
+    with pytest.raises(ModelError, match=r"^URDF 'x.urdf': energy \[J\]: 1.0e\+00 is not <= 0.1$"):
+        command("robot", "new", "x.urdf", "-o", tmp_path / "new")
+
+
+def test_a_study_that_is_interrupted_says_where_it_goes_on(monkeypatch, tmp_path):
+    (tmp_path / "study.toml").write_text("name = 'a'\n[grid]\ncontroller.K_p = [5000.0]\n")
+    ignored = []
+
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ba, "study", interrupt)
+    monkeypatch.setattr("biped_adrc.cli.study.signal.signal", lambda *x: ignored.append(x[0].name))
+    for out, begun in (
+        (tmp_path / "new", "nothing was begun in"),
+        (tmp_path, "what is finished is in"),
+    ):
+        code, text = ended("study", tmp_path / "study.toml", "-o", out)
+        assert (code, begun in text) == (130, True)
+    assert ignored == ["SIGINT", "SIGTERM"] * 2
+
+
+def test_remarks_are_printed(monkeypatch, tmp_path):
+    monkeypatch.setattr(ba, "replay", lambda *_: SimpleNamespace(rows=(), remarks=("odd",)))
+    assert "note: odd" in ended("replay", "x.csv")[1]
+    raised = SimpleNamespace(status=ba.Status.RAISED, t_end=0.25, detail="odd")
+    monkeypatch.setattr(ba, "walk_scenario", lambda *_: SimpleNamespace(trajectory=raised))
+    with pytest.raises(ba.BipedError, match=r", after 0\.25 s:\nodd$"):
+        command("simulate")
+    source = SimpleNamespace(
+        written={"step": SimpleNamespace(operations=5, doubles=2)},
+        files=("p.c",),
+        numbers=3,
+        prefix="p",
+        fields=(SimpleNamespace(name="z", size=4),),
+    )
+    monkeypatch.setattr(ba, "export_c", lambda *_: source)
+    monkeypatch.setattr("biped_adrc.extras.export.loaded.tried", lambda _: "tried")
+    (tmp_path / "s.toml").write_text("controller.name = 'NPD'\nhardware.period = 1e-3\n")
+    for growth, more in ((10.0, ""), (10.6, " by itself this controller is unstable (11 /s): ")):
+        monkeypatch.setattr(Computer, "growth", lambda *_, growth=growth: growth)
+        text = ended("export", tmp_path / "s.toml", "-o", "c", "--fmu")[1]
+        head = "step: 5 operations, 2 of them in double always; 3 constants; state z 4 tried p.fmu, for co-"
+        assert text.startswith(head)
+        assert text.partition("written to c: p.c, p.fmu")[2].startswith(more)
+        assert (len(text.partition("p.c, p.fmu")[2]) > 0) is (growth > 10.0)
+
+
+def test_numbers_and_names_of_options():
+    for text, numbers in (
+        ("0.4,0.5", (0.4, 0.5)),
+        ("0.4:0.6:0.1", (0.4, 0.5, 0.6)),
+        ("0.4:0.69:0.1", (0.4, 0.5, 0.6)),
+        ("0.3:0.3:0.1", (0.3,)),
+    ):
+        assert _numbers(text) == numbers
+    for text in ("0.4:0.3:0.1", "0.4:0.6:0", "0.4:0.6", "a"):
+        with pytest.raises(InputError, match=f"found '{text}', expected numbers as"):
+            _numbers(text)
+    assert (_names(None), _names(" a,, b "), _names("")) == (None, ("a", "b"), ())

@@ -16,8 +16,17 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.control.npid import NPIDController
+from biped_adrc.control.super_twisting import SuperTwistingController
+from biped_adrc.control.tracking import body_of
 from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.gait.conventions import layout_of
 from biped_adrc.gait.exchange.samples import read_csv
+from biped_adrc.gait.gait import onto_section
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hybrid.storage import save
+from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.scenario.cycle import cycle_of
 
 PYTHON = {
@@ -72,6 +81,65 @@ PYTHON = {
         lambda r: cycle_of(ba.Scenario("passive", robot="compass", gait="v0.8")),
         "no motors",
     ),
+    "poles as text": (lambda r: ba.GPIObserver.from_poles("ab"), "expected a sequence of numbers"),
+    "too many poles": (lambda r: ba.GPIObserver.from_bandwidth(50.0, 19), "has 21 poles and a"),
+    "a polynomial that is unstable": (
+        lambda r: HighGainObserver.from_epsilon(2e-3, (-1.0, 1.0, 1.0)),
+        "must have negative real parts; try those of (s + 1)^3",
+    ),
+    "a torque step with a stop": (lambda r: ba.TorqueStep([1.0] * 5, stop=1.0), "has no stop"),
+    "a recording before its start": (
+        lambda r: RecordedTorque([0.0, 1.0], np.zeros((2, 5)), 1, -1.0),
+        "begins at -1 s, expected a time from 0 on",
+    ),
+    "a law of ticks in continuous time": (
+        lambda r: ba.Walker(r.biped, NPIDController(r.h).sampled(1e-3)),
+        "NPIDController has no form but one in sampled time only",
+    ),
+    "another law of ticks": (
+        lambda r: ba.Walker(r.biped, SuperTwistingController(r.h).sampled(1e-3)),
+        "SuperTwistingController has no form but one in sampled time only",
+    ),
+    "sensors in continuous time": (
+        lambda r: ba.Walker(r.biped, ba.NPDController(r.h), sensors=ba.Sensors()),
+        "sensors and motors work in sampled time, found ContinuousTime",
+    ),
+    "a reference of five coordinates on three": (
+        lambda r: ba.Walker(ba.Biped.load("three_link"), ba.NPDController(r.h)).initial_state(
+            np.zeros(3), np.zeros(3)
+        ),
+        "VirtualConstraint of NPDController cannot be evaluated at the 3 coordinates",
+    ),
+    "a measurement without body terms": (
+        lambda r: body_of(SimpleNamespace(body=None)),
+        "the measurement has no body terms",
+    ),
+    "a convention of five angles for two": (
+        lambda r: layout_of("tac2003", ba.Biped.load("compass")),
+        "take convention 'own'",
+    ),
+    "a step that is too slow": (
+        lambda r: ba.ZeroDynamics.of(r.biped, r.h).orbit(0.1),
+        "the step does not reach its end: sigma^2 falls to -",
+    ),
+    "a ground that no foot reaches": (
+        lambda r: onto_section(r.biped, [np.pi, 0.0, 0.0, 0.0, 0.0]),
+        "no configuration near this one reaches it",
+    ),
+    "a plant of its own in continuous time": (
+        lambda r: SteppingLoop(r.biped, ba.NPDController(r.h), model=r.biped),
+        "is controlled at ticks, found ContinuousTime",
+    ),
+    "a plant that does not move by itself": (
+        lambda r: SteppingLoop(r.biped, ba.NPDController(r.h), None, ba.SampledTime(1e-3), r.biped),
+        "expected a plant that moves by itself, with n, p, swap",
+    ),
+    "a sensor without a reading": (lambda r: Sensor().reading((), 0, 0), "has no reading(w, q, v)"),
+    "a sensor on no computer": (lambda r: Sensor().on_computer(None), "write on_computer(before)"),
+    "settings that JSON has not": (
+        lambda r: save(r.walk().trajectory, "x.npz", {"a": object()}),
+        "expected settings of numbers, text, lists and mappings",
+    ),
 }
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
@@ -119,6 +187,14 @@ COMMANDS = [
     ("robot check nonexistent", 3, "not found"),
     ("robot check pipe.urdf", 3, "not a regular file"),
     (f"robot new URDF -o {LONG}", 5, "too long"),
+    ("simulate --log own.csv", 3, "--log needs sample instants; give a --period"),
+    ("simulate --set x", 3, "--set is 'x', expected NAME=VALUE"),
+    ("simulate --set run.h=1 --set run.h=2", 3, "'run.h' is given twice, as --set run.h=2 too"),
+    ("gait show published --set x=1", 3, "--set x: unknown name; choose from ['friction'"),
+    ("gait show published --set friction=a", 3, "--set friction: found 'a', should be"),
+    ("gait design --steps 0.3", 3, "--steps is given without --speeds"),
+    ("gait design --speeds 0.3 --step 1", 3, "--speeds is given beside a --speed or a --step"),
+    ("reproduce --push q9=5@1:0-1", 3, "no joint 'q9'"),
     ("robot new URDF -o afile", 3, "is a file"),
 ]
 """Command line, exit code, words of the sentence."""

@@ -10,17 +10,21 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer.choice import count_error, recommend
+from biped_adrc.analysis.observer import choice
+from biped_adrc.analysis.observer.choice import Hardware, count_error, recommend
 from biped_adrc.analysis.observer.impact import impact_peak, orbit_impact
 from biped_adrc.analysis.observer.loop import (
     ObserverLoop,
     SampledLoop,
+    covariance,
     largest_delay,
     largest_period,
+    last_true,
 )
 from biped_adrc.analysis.observer.report import observer_report
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, DelayState, pade
+from biped_adrc.core.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
 
 TABLE_I = ba.GPIObserver.from_poles()
@@ -363,3 +367,59 @@ def test_verdict_and_recommendation_agree(biped, gait, m):
         assert report.runs is allowed
         assert report.obstacle == ("" if allowed else found.because)
         assert ("cannot run" in report.verdict or "not well" in report.verdict) is not allowed
+
+
+def test_tables_of_an_observer(biped, gait):
+    report = observer_report(
+        ba.GPIObserver.from_poles((-300.0, -200.0, -400.0, -80.0)), robot=biped, gait=gait
+    )
+    assert report.name == "m = 2 with poles of 80 to 400 rad/s"
+    assert [*report._gains().lines(), *report._responses().lines()] == TABLES.split("\n")
+
+
+def test_words_on_an_observer(biped, gait):
+    """Hardware of 1 kg m^2 and 1 N m counts noise in shares of its limit."""
+    for observer_, hardware, words in (
+        (OBSERVERS["m = 0"], {}, ("m = 0 at 300 rad/s can run, but is worse than no observer,",)),
+        (
+            OBSERVERS["m = 0"],
+            {},
+            ("; with m = 0 no disturbance is estimated, and the weight is not",),
+        ),
+        (TABLE_I, {}, ("Table I cannot run on", "N m rms, 1", " times the limit of 150 N m")),
+        (
+            FIRST,
+            {"delay": 5e-3},
+            ("with a delay of 5000 us and 1.25 times", "margin at this period is"),
+        ),
+    ):
+        report = observer_report(observer_, robot=biped, gait=gait, **hardware)
+        assert [x for x in words if x not in report.verdict] == [], report.verdict
+    with pytest.raises(InputError, match="observer with m = 15 was asked for, expected m <= 14"):
+        SampledLoop(ba.GPIObserver.from_bandwidth(50.0, 15), 1e-3)
+
+
+def test_recommendations_at_both_ends_of_the_range(monkeypatch):
+    monkeypatch.setattr(choice, "BANDS", 8)
+    blunt, ideal = (Hardware(1e-3, 0.0, False, n, 150.0, 1.0) for n in (1e-3, 1e30))
+    assert math.isnan(recommend(blunt, ba.Gains(), 0).bandwidth)
+    assert recommend(ideal, ba.Gains(), 0)[1:3] == (2e4, "")
+    assert last_true(lambda x: x <= 3.0, [1.0, 2.0, 4.0, 5.0]) == pytest.approx(3.0, rel=2e-6)
+    assert math.isnan(last_true(lambda x: False, [1.0]))
+    assert last_true(lambda x: True, [1.0]) == math.inf
+    assert covariance(np.array([[0.5]]), np.array([[3.0]])) == pytest.approx(4.0, rel=1e-15)
+    assert math.isnan(SampledLoop(FIRST, 1e-3, delay=0.05).rms(1.0))
+
+
+TABLES = """\
+Gains of the observer; states scaled by w = 209.327 rad/s
+               physical  scaled
+  l_3 [1/s^1]  980       4.68167
+  l_2 [1/s^2]  332000    7.57683
+  l_1 [1/s^3]  4.48e+07  4.8843
+  l_0 [1/s^4]  1.92e+09  1
+Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]
+              at low frequency  peak                      -3 dB
+  |e / xi|    2.01e-08          0.000195 at 73.78 rad/s   105 rad/s
+  |xi^ / xi|  1                 1.319 at 84.61 rad/s      258.5 rad/s
+  |u / n|     2.37              3.977e+05 at 420.7 rad/s  966.4 rad/s"""

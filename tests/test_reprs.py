@@ -8,7 +8,10 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.analysis.stability import known_cycle
-from biped_adrc.core.shown import LONGEST, SHORT, short
+from biped_adrc.core.shown import LONGEST, SHORT, as_line, short
+from biped_adrc.gait.exchange.samples import Samples
+from biped_adrc.gait.outputs import OutputPoint
+from biped_adrc.gait.reference import ReferencePoint
 
 LINE = 120
 TICKS = ba.SampledTime(1e-3)
@@ -84,3 +87,19 @@ def test_a_long_text_is_shortened_and_a_short_one_is_whole():
     assert short((1.0, 2.0)) == "(1.0, 2.0)"
     assert short("x" * 200) == repr("x" * (SHORT - 5) + "...")
     assert short(tuple(range(200))) == "(200 items)"
+    assert as_line(Own(np.zeros(3))) == "Own(x=[0 0 0])"  # of another length than its default
+    assert as_line(Own()) == "Own()"
+    assert repr(Samples(np.zeros(7), np.zeros((7, 2)))) == "Samples(t=array(7,), q=array(7, 2))"
+    y = np.array([0.5])
+    assert repr(OutputPoint(y, y, np.ones((1, 2)), y)) == (
+        "OutputPoint(y=[0.5], dy=[0.5], J=array(1, 2), drift=[0.5])"
+    )
+    assert (
+        repr(ReferencePoint(y, y, y, y))
+        == "ReferencePoint(q_d=[0.5], dq_d=[0.5], drift=[0.5], H=[0.5])"
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class Own:
+    x: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(2))

@@ -26,7 +26,7 @@ import numpy as np
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.files import data_file, output_path, plain, reading, write_json
 from biped_adrc.core.part import SETUP, Part, setup
-from biped_adrc.core.types import Array, freeze
+from biped_adrc.core.types import Array, freeze, read_only
 from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
 from biped_adrc.gait.curves import Bezier, bernstein_to_power
 from biped_adrc.model.biped import Biped
@@ -130,7 +130,8 @@ class GaitFamily(Part):
     provenance: Mapping[str, object] = field(default_factory=dict, metadata=SETUP)
 
     def __post_init__(self) -> None:
-        freeze(self, "phase", "low", "high")
+        for name in ("phase", "low", "high"):  # lists, where a file was read
+            object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def curve(self, mu: Array) -> tuple[Array, float, float]:
         """alpha (p, M + 1) [rad], Theta+ and Theta- [rad] of the member mu."""

@@ -94,7 +94,7 @@ class Arc(Shown):
 class Recorder:
     """Nodes of the arc being built: one by one, or many in rows.
 
-    The lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by name grow with every call.
+    The lists t [s], x (nx,) or (K, nx), and dx likewise grow with every call.
     """
 
     every: int
@@ -102,20 +102,16 @@ class Recorder:
     t: list[float | Array] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
-    read: dict[str, list[Array]] = field(default_factory=dict)
 
-    def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
-        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each; and what was read there."""
+    def add(self, t: float | Array, x: Array, dx: Array) -> None:
+        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each."""
         self.t.append(t)
         self.x.append(x)
         self.dx.append(dx)
-        for name, rows in read.items():
-            self.read.setdefault(name, []).append(rows)
 
     def arc(self, mode: Any, event: Event | None) -> Arc:
         """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`."""
-        read = {name: np.vstack(rows) for name, rows in self.read.items()}
-        return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
+        return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event)
 
 
 def _hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:

@@ -1,5 +1,6 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
+import re
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +15,10 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import HipForce, OnLink
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.disturbances.waves import TorqueNoise
+from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import push_code
+from biped_adrc.engine.structure import structure
+from biped_adrc.engine.symbols import expression
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
@@ -310,3 +314,34 @@ def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
 def test_wrong_values_of_disturbances_are_refused(biped, make):
     with pytest.raises(ba.BipedError):
         make(biped)
+
+
+def test_a_sum_has_the_torques_and_the_forces_of_its_parts(biped):
+    q, v = np.full(5, 0.1), np.full(5, 0.2)
+    record = RecordedTorque([0.0, 1.0], np.array([[0.0] * 5, [10.0] * 5]), 1)
+    whole = record + OnLink(biped, "torso", ba.TorquePulse([3.0, 4.0, 0.0], stop=0.6))
+    at, late = (0.5, 1, 0.0), (0.7, 1, 0.0)
+    assert whole.resultant(*at).tolist() == [3.0, 4.0]
+    assert whole.resultant(*late).tolist() == [0.0, 0.0]
+    assert record.torque(*late, q, v) == pytest.approx([7.0] * 5)
+    assert whole.torque(*late, q, v) == pytest.approx([7.0] * 5)
+    pushed = whole.torque(*at, q, v) - record.torque(*at, q, v)
+    assert pushed == pytest.approx(OnLink.torque(whole.parts[1], *at, q, v))
+
+
+def test_what_has_no_machine_code_says_why(biped):
+    @dataclass(frozen=True)
+    class Switching(ba.Disturbance):
+        def torque(self, t, step, t_start, q, v):
+            return np.zeros(5)
+
+        def switching_times(self, step, t_start):
+            return (0.1,)
+
+    for text, call, *arguments in (
+        ("Switching writes switching_times in place of switches", push_code, Switching(), 5),
+        ("a part holds {1}, a set whose content cannot be compared", structure, {1}),
+        ("a law gives 'a', expected a real number", expression, "a"),
+    ):
+        with pytest.raises(NotCompiled, match=re.escape(text)):
+            call(*arguments)

@@ -1,10 +1,13 @@
 """The footstep controller and its family of gaits: the map from step to step, forces, rough ground, stones."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.gait_design import library, step_integrals
+from biped_adrc.analysis import gait_design
+from biped_adrc.analysis.gait_design import OF_LIBRARY, library, step_integrals
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.family import DECISION, load_family
 from biped_adrc.model.ground import Stones
@@ -55,6 +58,7 @@ def test_a_family_is_what_was_saved(biped, tmp_path):
     family = load_family("flat", biped)
     family.save(tmp_path / "mine.json")
     again = load_family(tmp_path / "mine.json", biped)
+    assert (again, again.low.flags.writeable) == (family, False)
     mu = np.array((0.7, 0.35))
     assert np.array_equal(again.curve(mu)[0], family.curve(mu)[0])
     assert again.steps.cycle_square(0.7, 0.35) == family.steps.cycle_square(0.7, 0.35)
@@ -71,6 +75,48 @@ def test_mistakes_with_a_family(biped, tmp_path):
         load_family("flat", biped).member(2.0, 0.4)
     with pytest.raises(GaitError, match="2 speeds and 1 lengths, expected at least 5"):
         library(biped, [0.5, 0.6], [0.3])
+    path.write_text('{"format": "another"}')
+    with pytest.raises(GaitError, match="it is no family, whose format is 'biped_adrc family 1'"):
+        load_family(path, biped)
+
+
+def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
+    """Of gaits that lie on polynomials the fit is these polynomials, and its steps are the quadratures."""
+    flat, spoken = load_family("flat", biped), []
+    speeds, lengths = (np.linspace(*ends, 5) for ends in zip(flat.low, flat.high, strict=True))
+
+    def optimise(biped, request):
+        if (request.speed, request.step) == (speeds[1], lengths[2]):
+            raise GaitError("none here")
+        zero = ba.ZeroDynamics.of(biped, flat.member(request.speed, request.step), 8)
+        return SimpleNamespace(gait=ba.Gait.of_cycle("a", zero, dict.fromkeys(OF_LIBRARY, "x")))
+
+    monkeypatch.setattr(gait_design, "optimise", optimise)
+    monkeypatch.setattr(gait_design, "_SAMPLES", 60)
+    gaits = library(biped, speeds, lengths, done=spoken.append)
+    assert (len(gaits), spoken[7]) == (24, f"{speeds[1]:g} m/s, {lengths[2]:g} m: none, none here")
+    assert spoken[0] == f"{speeds[0]:g} m/s, {lengths[0]:g} m: {gaits[0][2].period:.3f} s"
+    found = gait_design.design_family("mine", biped, gaits, {"command": "c"}, seed=1)
+    assert found.provenance == {**dict.fromkeys(OF_LIBRARY, "x"), "command": "c"}
+    assert (found.low.tolist(), found.high.tolist()) == (flat.low.tolist(), flat.high.tolist())
+    mu = np.array((0.77, 0.37))
+    np.testing.assert_allclose(found.curve(mu)[0], flat.curve(mu)[0], atol=1e-9)
+    assert found.curve(mu)[1:] == pytest.approx(flat.curve(mu)[1:], abs=1e-9)
+    W, J = step_integrals(biped, flat, 0.7, 0.34, 0.34, 0.8, 0.4)[-2:]
+    delta2, W_next, J_next = step_integrals(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36)[:3]
+    exact = delta2 * (400.0 + W - 6.0 * J) + W_next - 6.0 * J_next
+    for steps in (found.steps, flat.steps):
+        y = steps.next_square(400.0, np.array((0.7, 0.34)), np.array((0.8, 0.4)), 0.36, -3.0)
+        assert y == pytest.approx(exact, rel=0.01)
+    for member in (found.members[0], found.members[-1]):
+        h = flat.member(*member[:2])
+        orbit = ba.ZeroDynamics.of(biped, h).cycle
+        F_T, F_N = orbit.ground_reaction.T
+        worst = np.max(np.abs(F_T / F_N)), np.max(np.abs(orbit.u)), np.min(F_N)
+        assert member[2:] == pytest.approx(worst, abs=6e-4)
+    lengths[2] = 9.0
+    with pytest.raises(GaitError, match=r"^0 of 5 x 5 pairs .* a family needs at least 15$"):
+        library(biped, speeds + 9.0, lengths)
 
 
 # -- from step to step -----------------------------------------------------------------------------

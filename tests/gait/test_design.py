@@ -6,6 +6,7 @@ import shutil
 import signal
 from dataclasses import replace
 from threading import Timer, get_ident
+from types import SimpleNamespace
 
 import casadi as ca
 import numpy as np
@@ -15,6 +16,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.gait_design import DesignedGait, certify, design_gait
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import data_folder
+from biped_adrc.gait.design import optimise as optimisation
 from biped_adrc.gait.design.optimise import Optimum, audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait, onto_section
@@ -191,6 +193,7 @@ def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
         ({"speed": 0.5, "objective": "speed"}, "objective"),
         ({"speed": 0.5, "limits": StepLimits(ranges={"ankle": (0.0, 1.0)})}, "ankle"),
         ({"through": (np.zeros(5), np.zeros(5))}, "ground|sign"),
+        ({"through": (np.zeros(5), np.zeros(4))}, "pass through has 9 numbers, expected 10"),
     ],
 )
 def test_requests_without_a_gait(asked: dict, word: str) -> None:
@@ -209,3 +212,22 @@ def test_ctrl_c_ends_ipopt(monkeypatch) -> None:
     monkeypatch.setattr(ca, "nlpsol", interrupted)
     with pytest.raises(KeyboardInterrupt):
         optimise(Biped.load("three_link"), request)
+
+
+def test_a_design_that_ends_without_a_gait_says_how(monkeypatch) -> None:
+    biped, request = Biped.load("three_link"), GaitRequest(0.9, 0.6, nodes=8)
+    failed = SimpleNamespace(solved=False, status="S", iterations=1)
+    monkeypatch.setattr(optimisation, "solve_nlp", lambda *_: failed)
+    monkeypatch.setattr(optimisation, "relaxed", lambda programme, words, x0, bounds, status: x0)
+    with pytest.raises(GaitError, match="IPOPT stopped with S, though its limits can be met"):
+        optimise(biped, request)
+
+    def no_orbit(*_):
+        raise GaitError("odd")
+
+    monkeypatch.setattr(optimisation, "_solution", lambda *_: (None, 1))
+    monkeypatch.setattr(optimisation, "exact_gait", no_orbit)
+    with pytest.raises(
+        GaitError, match="its limits at 16 nodes and not between them: odd; give more"
+    ):
+        optimise(biped, request)

@@ -212,11 +212,45 @@ def test_zero_dynamics_without_a_fixed_point_name_the_condition(bare, published,
             DomainLimits(**wrong)
 
 
+REPORT = """\
+robot rabbit, parameters identified-bare; slope 0 rad
+Theta           3.339776 to 2.925973 rad
+I(Theta)        15.2358 to 20.9823 kg m^2
+delta^2         0.694390, the multiplier of the cycle: stable
+V_zero(Theta-)  -75.6054 kg^2 m^4/s^2
+V_max           57.9014 kg^2 m^4/s^2 at Theta = 3.1589 rad
+existence       -113.8852 kg^2 m^4/s^2 < 0: a periodic orbit exists
+zeta*           247.3920 kg^2 m^4/s^2, sigma- = -22.24374 kg m^2/s
+orbit           period 0.429119 s, speed 0.7279 m/s
+                16.399 J before impact, step 0.3124 m
+impact          asks for |F_T| / F_N = 0.856, at any speed
+domain          83.3845 (V_max at Theta = 3.1589 rad) < zeta < 530.3929 (friction at Theta = 3.1010 rad) \
+kg^2 m^4/s^2
+speeds in it    0.0000 to 1.1249 m/s, of the first step
+energies in it  5.527 to 35.159 J before impact
+settled         to 0.1% of zeta* after 18 steps from the lower end, 20 from the upper"""
+
+
 # -- report, picture, command ----------------------------------------------------------------------------
 def test_report_says_what_does_not_hold(bare, published):
     good = zero_report(bare, published.constraint, DomainLimits(0.6, 150.0))
     assert good.walkable
-    assert good.speeds[0] == 0.0
+    assert good.text() == REPORT
+    o, star = good.orbits, good.zeta_star
+    assert [o.steps_to(k * star, 1e-3) for k in (1.0009, 1.0011, 2.0)] == [0, 1, 19]
+    assert (
+        abs(o.iterate(2.0 * star, 19)[-1] / star - 1.0)
+        <= 1e-3
+        < o.iterate(2.0 * star, 18)[-1] / star - 1.0
+    )
+    empty = zero_report(bare, published.constraint, DomainLimits(0.01, 150.0)).text().splitlines()
+    kept = "F_N > 0, friction 0.01, torque 150 N m"
+    assert empty[-2:] == [
+        f"domain          empty: no speed keeps {kept} all along the step",
+        f"the periodic orbit does not keep {kept}: zeta* is outside of the domain",
+    ]
+    bold = zero_report(bare, published.constraint, DomainLimits(None, None)).text()
+    assert "< 601.8947 (lift-off at Theta = 3.1037 rad)" in bold.replace("zeta ", "")
     weak = zero_report(bare, published.constraint, DomainLimits(torque=60.0))
     assert "does not keep" in weak.text()
     recipe = ba.load_gait("recipe", bare)

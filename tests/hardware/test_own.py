@@ -9,6 +9,7 @@ import biped_adrc as ba
 from biped_adrc.engine.program import numbers_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.sensors import PitchSensor
 from biped_adrc.hardware.touchdown import ByKinematics, FaultyTouchdown
 
 CLOCK = ba.SampledTime(1e-3, restart=False)
@@ -135,3 +136,17 @@ def test_a_sensor_that_loses_its_numbers_on_the_way_is_named(biped, gait, engine
     run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
     assert not run.status.ok
     assert "Lost.reading" in run.detail
+
+
+def test_a_sensor_of_one_s_own_has_no_noise_and_its_computer_is_that_of_the_others():
+    tilted, before = Tilted(), np.ones(4)
+    assert (tilted.noisy, tilted.smooth(), tilted.errors(2, 1, before) is before) == (
+        False,
+        tilted,
+        True,
+    )
+    pitch = PitchSensor(noise=1e-3)
+    both = ba.Sensors(velocity="differences") + pitch
+    assert both.on_computer(None) == ba.Sensors(velocity="gyro")
+    assert pitch.on_computer(before) is before
+    assert pitch.errors(2, 1, before).tolist() == [1.0, 1e-3, 1.0, 0.0]

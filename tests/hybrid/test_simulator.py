@@ -1,5 +1,6 @@
 """The hybrid loop against closed forms: events, resets, clocks, switching times, statuses."""
 
+import json
 import math
 from dataclasses import dataclass, field
 
@@ -419,3 +420,33 @@ def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage):
 
 def int_mode(*numbers):
     return int(numbers[0])
+
+
+@pytest.mark.parametrize(
+    ("meta", "text"),
+    [
+        ({"format": "another"}, "it has format 'another', expected '"),
+        ({"events": []}, "there are events of 0 arcs"),
+        ({"events": [None, None]}, "the key"),
+        ({"settings": {"method": 1}}, "its method or engine is not text"),
+    ],
+)
+def test_a_damaged_run_is_refused_with_the_reason(tmp_path, meta, text):
+    class Still(HybridSystem):
+        def flow(self, t, x, mode):
+            return np.zeros(1)
+
+    path = save(simulate(Still(), np.ones(1), 0, RK4(0.5), t_end=1.0), tmp_path / "run")
+    arrays = dict(np.load(path))
+    arrays["meta"] = np.array(json.dumps(json.loads(str(arrays["meta"])) | meta))
+    np.savez(path, **arrays)
+    with pytest.raises(InputError, match=rf"^run '{path}'.*{text}"):
+        load(path)
+
+
+def test_a_system_without_a_flow_and_a_slope_that_is_nan_are_named():
+    with pytest.raises(NotImplementedError, match="HybridSystem has neither a flow nor a mover"):
+        HybridSystem().flow(0.0, np.zeros(1), 0)
+    steps = Adaptive().steps(lambda t, x: np.full(1, np.nan), 2.0, np.zeros(1), 3.0)
+    with pytest.raises(NotFiniteError, match="the slope is not finite at t = 2 s"):
+        next(steps)

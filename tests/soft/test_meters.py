@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.soft_steps import feet_of, spans, step_of
+from biped_adrc.analysis.soft_steps import feet_of, slip_times, spans, step_of
 from biped_adrc.closed_loop.feet import FEET, with_readings
 from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
@@ -18,6 +19,7 @@ from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.ground import SoftGround
+from biped_adrc.model.robots.limits import SLIP
 
 from .loops import loop_on, run_of, steps_of
 
@@ -99,9 +101,13 @@ def test_a_block_that_slides_to_rest():
     none = np.zeros((len(t), 2))
     feet = (x.reshape(-1, 4) for x in (force, place, speed))
     read = dict(zip(FEET, (*feet, none), strict=True))
-    found = step_of(Arc(Mode(), t, none, none, read=read), mu, FLAT)
+    arc = Arc(Mode(), t, none, none, read=read)
+    found = step_of(arc, mu, FLAT)
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
+    run = SimpleNamespace(arcs=(arc, replace(arc, t=1e-3 * t)))
+    far = (v0 - np.sqrt(v0**2 - 2.0 * mu * g * SLIP)) / (mu * g)  # v0 t - mu g t^2 / 2 = SLIP
+    assert slip_times(run, mu, FLAT) == pytest.approx((far, np.inf), rel=5e-3)
 
 
 def test_less_friction_slips_and_flies(biped, gait):
