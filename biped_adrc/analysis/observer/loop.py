@@ -66,9 +66,9 @@ class DelayMargin(NamedTuple):
     """The smallest delay with a root on the imaginary axis, and that root."""
 
     delay: float
-    """[s]."""
+    """[s], infinite when there is none."""
     frequency: float
-    """Frequency of the root [rad/s]."""
+    """Frequency of the root [rad/s], infinite when there is none."""
 
 
 @dataclass(frozen=True)
@@ -163,6 +163,8 @@ class ObserverLoop:
 
         grid = np.log(self.frequencies)
         turns = np.flatnonzero(np.diff(level(grid) > 0.0))
+        if len(turns) == 0:
+            return DelayMargin(np.inf, np.inf)
         at = np.exp([brentq(level, grid[i], grid[i + 1], xtol=1e-14) for i in turns])
         delays = np.mod(np.angle(-self.gain(at, known)), 2.0 * np.pi) / at
         first = int(np.argmin(delays))
