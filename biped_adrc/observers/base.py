@@ -28,7 +28,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, ClassVar, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -95,6 +95,9 @@ class Observer(Part):
     >>> observer.estimate(z).velocity
     array([1., 1., 1., 1.])
     """
+
+    MAKERS: ClassVar[tuple[str, ...]] = ()
+    """Class methods by which a scenario may make it, beside the constructor."""
 
     @abstractmethod
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Any:

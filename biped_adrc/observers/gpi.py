@@ -134,6 +134,8 @@ class GPIObserver(InjectedChain):
 
     poles: tuple[complex, ...] = ()
 
+    MAKERS = ("from_bandwidth", "from_poles")
+
     @classmethod
     def from_poles(cls, poles: Sequence[complex] = TABLE_I, m: int | None = None) -> GPIObserver:
         """The observer with m + 2 stable poles [rad/s]; complex ones in conjugate pairs.

@@ -36,6 +36,8 @@ class HighGainObserver(InjectedChain):
 
     alpha: tuple[float, ...] = ()
 
+    MAKERS = ("from_epsilon",)
+
     @classmethod
     def from_epsilon(
         cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1

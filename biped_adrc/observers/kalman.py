@@ -40,6 +40,8 @@ class KalmanObserver(InjectedChain):
     measurement: float = 0.0
     """Intensity R of the measurement noise [rad^2 s]."""
 
+    MAKERS = ("from_noise",)
+
     @classmethod
     def from_noise(cls, drift: float, measurement: float, m: int = 1) -> KalmanObserver:
         """The observer for noises: drift = sqrt(W) [rad/s^(m + 3/2)], measurement = sqrt(R) [rad s^(1/2)].

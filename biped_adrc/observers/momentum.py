@@ -46,6 +46,8 @@ class MomentumObserver(InjectedChain):
     poles: tuple[complex, ...] = ()
     lead: int = field(default=1, kw_only=True)
 
+    MAKERS = ("from_bandwidth", "from_poles")
+
     @classmethod
     def from_poles(cls, poles: Sequence[complex]) -> MomentumObserver:
         """The observer with these poles [rad/s]: two or more, with negative real parts, complex ones in pairs.

@@ -41,8 +41,6 @@ CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "g
 GAINS = ("K_p", "K_d")
 OF_POLES = ("poles", "bandwidth", "order")
 """Values of the observer's record that say where its poles are."""
-MAKER = "from_"
-"""An observer is made by its constructor, or by a class method whose name begins with this."""
 
 
 def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] = ()) -> Controller:
@@ -136,12 +134,12 @@ def _observer(
 ) -> tuple[Observer | None, set[str]]:
     """The observer for a controller, and the names it took; None where the controller's default holds.
 
-    Ways to make it are the constructor and the class methods `from_...` of its class. Of those for which no
-    argument is missing, the one that takes the most values is called.
+    Ways to make it are the constructor and the `MAKERS` of its class. Of those for which no argument is
+    missing, the one that takes the most values is called.
     """
     usual = _default(make)
     kind = type(usual) if o.name is None else find("observer", o.name).load()
-    ways = [*(getattr(kind, name) for name in dir(kind) if name.startswith(MAKER)), kind]
+    ways = [*(getattr(kind, name) for name in getattr(kind, "MAKERS", ())), kind]
     offered = {**settings, **o.own} | ({"m": settings["order"]} if "order" in settings else {})
     if o.name is None and not any(set(offered) & set(takes(way)) for way in ways):
         return (usual if "observer" in lacking(make, ()) else None), set()
