@@ -125,6 +125,8 @@ class Walker(ClosedLoop[Biped]):
     'COMPLETED'
     """
 
+    SUCH_AS = "Walker(biped, controller); a Scenario walks with walk_scenario"
+
     plant: Biped
     model: Biped | None = None
     fall_height: float = 0.35

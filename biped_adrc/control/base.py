@@ -109,6 +109,8 @@ class Controller(Part):
     1
     """
 
+    SUCH_AS = "NPDController(gait.constraint)"
+
     needs_body: ClassVar[bool] = False
     """Whether `Measurement.body` has to be there."""
     reads_impulse: ClassVar[tuple[str, ...]] = ()

@@ -26,6 +26,8 @@ class JointGains(Gains):
     Not those of Table II, which multiply accelerations. The defaults walk RABBIT's published gait.
     """
 
+    SUCH_AS = "JointGains(3000.0, 250.0), K_p [N m/rad] and K_d [N m s/rad]"
+
     K_p: Array | float = 3000.0
     K_d: Array | float = 250.0
 

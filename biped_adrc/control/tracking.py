@@ -58,6 +58,8 @@ class Gains(Shown):
     2
     """
 
+    SUCH_AS = "Gains(5000.0, 50.0), K_p [1/s^2] and K_d [1/s]"
+
     K_p: Array | float = 5000.0
     K_d: Array | float = 50.0
 

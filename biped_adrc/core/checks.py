@@ -76,38 +76,25 @@ NonNegativeFloats = Annotated[_ROW, each("finite numbers, none below 0", _NOT_BE
 TwoFloats = Annotated[tuple[float, float], each("two finite numbers", math.isfinite, 2)]
 
 
-SUCH_AS = {
-    "Mapping": "{'torso': 0.2}",
-    "Biped": "Biped.load('rabbit')",
-    "Controller": "NPDController(gait.constraint)",
-    "Disturbance": "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum of them is a + b",
-    "Gait": "load_gait('published', biped)",
-    "Gains": "Gains(5000.0, 50.0), K_p [1/s^2] and K_d [1/s]",
-    "JointGains": "JointGains(3000.0, 250.0), K_p [N m/rad] and K_d [N m s/rad]",
-    "Observer": "GPIObserver.from_bandwidth(500.0)",
-    "OneStepMethod": "RK4(1e-3)",
-    "Outputs": "LinearOutputs(H0, gait.constraint)",
-    "Reference": "gait.constraint",
-    "SampledTime": "SampledTime(1e-3)",
-    "Scenario": "Scenario('NPD'); a Walker walks with walk(walker, gait)",
-    "VirtualConstraint": "gait.constraint",
-    "Windowed": "a TorquePulse; add up several OnLink for a sum",
-    "Walker": "Walker(biped, controller); a Scenario walks with walk_scenario",
+_NUMBERS: dict[Any, str] = {
+    float: "a number",
+    Integral: "a whole number",
+    str: "a text",
+    Mapping: "a Mapping, such as {'torso': 0.2}",
 }
-"""Name of a class -> an example of it, for the sentence."""
-
-
-_NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number", str: "a text"}
-"""A type of numbers, or of text -> its name in a sentence."""
+"""A type of numbers, of text or of tables -> its name in a sentence."""
 
 
 def check_part(value: object, what: str, *kinds: type) -> None:
-    """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes `kinds`."""
+    """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes `kinds`.
+
+    A class says in SUCH_AS an example of its objects, for the sentence.
+    """
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
     words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
-    examples = [SUCH_AS[kind.__name__] for kind in named if kind.__name__ in SUCH_AS]
+    examples = [vars(kind)["SUCH_AS"] for kind in named if "SUCH_AS" in vars(kind)]
     such_as = f", such as {examples[0]}" if examples else ""
     raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
 

@@ -60,6 +60,8 @@ class SampledTime(Checked):
     True
     """
 
+    SUCH_AS = "SampledTime(1e-3)"
+
     period: PeriodFloat
     restart: bool = True
     delay: float = 0.0

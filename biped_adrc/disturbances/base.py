@@ -43,6 +43,10 @@ class Disturbance(Part):
     array([-0.5, -0.5, -0.5, -0.5, -0.5])
     """
 
+    SUCH_AS = (
+        "TorquePulse([30, 30, 30, 30, 0], step=3, start=0.1, stop=0.3); a sum of them is a + b"
+    )
+
     @abstractmethod
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         """zeta (n,) [N m] at time t [s] in single support `step` (from 1), which began at t_start [s].
@@ -150,6 +154,8 @@ class Windowed(Disturbance):
     Raises InputError for an amplitude that is not one row of finite numbers, a window that is empty or
     begins before 0, and a step below 1.
     """
+
+    SUCH_AS = "a TorquePulse; add up several OnLink for a sum"
 
     amplitude: Array
     step: PositiveInt | None = setup(None)

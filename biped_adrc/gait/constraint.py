@@ -52,6 +52,8 @@ class VirtualConstraint(Reference):
     (4,)
     """
 
+    SUCH_AS = "gait.constraint"
+
     curve: Curve
     """h over s in [0, 1], p rows."""
     phase: Array

@@ -54,6 +54,8 @@ class Gait(Shown):
     0.416
     """
 
+    SUCH_AS = "load_gait('published', biped)"
+
     name: str
     """Name by which `load_gait` finds its file."""
     robot: str

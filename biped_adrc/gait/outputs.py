@@ -66,6 +66,8 @@ class Outputs(Shown, ABC):
     with the name of the class.
     """
 
+    SUCH_AS = "LinearOutputs(H0, gait.constraint)"
+
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         called_checked(cls, OutputPoint)

@@ -60,6 +60,8 @@ class Reference(Part):
     array([0., 0., 0., 0.])
     """
 
+    SUCH_AS = "gait.constraint"
+
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         called_checked(cls, ReferencePoint)

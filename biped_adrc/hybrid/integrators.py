@@ -47,6 +47,8 @@ class Step(NamedTuple):
 class OneStepMethod(ABC):
     """Base of the methods."""
 
+    SUCH_AS = "RK4(1e-3)"
+
     @property
     @abstractmethod
     def label(self) -> str:

@@ -57,6 +57,8 @@ class Biped(Shown):
     ((5, 5), 32.0)
     """
 
+    SUCH_AS = "Biped.load('rabbit')"
+
     description: RobotDescription
     """The record robot.toml: names of joints and feet, limits, phase, presets."""
     tree: Tree

@@ -96,6 +96,8 @@ class Observer(Part):
     array([1., 1., 1., 1.])
     """
 
+    SUCH_AS = "GPIObserver.from_bandwidth(500.0)"
+
     MAKERS: ClassVar[tuple[str, ...]] = ()
     """Class methods by which a scenario may make it, beside the constructor."""
 

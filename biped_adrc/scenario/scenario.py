@@ -266,6 +266,8 @@ class Scenario(Record):
     10
     """
 
+    SUCH_AS: ClassVar[str] = "Scenario('NPD'); a Walker walks with walk(walker, gait)"
+
     SHORT = "controller"
     APART = (("hardware.delay_known", "controller.prediction"),)
     controller: ControllerRecord = field(_USUAL)
