@@ -225,7 +225,8 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
-        getattr(controller, name)(s, other, *method[1:])  # a memory in the object would keep this call
+        # a memory in the object would keep this call
+        getattr(controller, name)(s, other, *method[1:])
         again = getattr(controller, name)(s, *method)
         if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(

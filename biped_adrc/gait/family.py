@@ -128,8 +128,8 @@ class GaitFamily(Part):
     high: Array
     """Largest (speed, step length) (2,)."""
     members: tuple[tuple[float, ...], ...] = setup(())
-    """For each designed gait to which the family is fitted: speed [m/s], step length [m], friction that it needs
-    [1], peak torque [N m], least F_N [N]."""
+    """For each designed gait to which the family is fitted: speed [m/s], step length [m], friction that it
+    needs [1], peak torque [N m], least F_N [N]."""
     provenance: Mapping[str, object] = field(default_factory=dict, metadata=SETUP)
 
     def __post_init__(self) -> None:

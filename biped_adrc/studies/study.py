@@ -191,7 +191,8 @@ class Study(Section):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns of the results that the study uses: that of the table, of the objective, of the limits.
+        """The columns of the results that the study uses: that of the table, of the objective, of
+        the limits.
         """
         return (self.column, *(m.column for m in (self.search.measures if self.search else ())))
 

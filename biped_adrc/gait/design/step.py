@@ -86,7 +86,8 @@ def at_gait(
 
 
 class Node(NamedTuple):
-    """The model at K Gauss nodes, one column each; the fields are in the order of the rows of `node_function`.
+    """The model at K Gauss nodes, one column each; the fields are in the order of the rows of
+    `node_function`.
     """
 
     inertia: ca.MX

@@ -291,13 +291,15 @@ def import_gait(
     except GaitError as error:
         d, hint = biped.description, ""
         presets = [x for x in d.presets if closes(own, _with_preset(biped, x), slopes)]
-        right = closes(own, biped, False)  # the poses fit in this convention, so only the masses differ
+        # the poses fit in this convention, so only the masses differ
+        right = closes(own, biped, False)
         layouts = [x for x in CONVENTIONS if not right and closes(x, biped, False)]
         for word, others in (("preset", presets), ("convention", layouts)):
             if others:
                 hint = f'; it would close in {others}, try {word}="{others[0]}"'
         if isinstance(gait, Samples) and not hint:
-            with suppress(GaitError, InputError):  # poses that are no step of these legs have no such cause
+            # poses that are no step of these legs have no such cause
+            with suppress(GaitError, InputError):
                 hint = explained(gait, biped, layout_of(own, biped), degree, slope)
         raise GaitError(f"{error}{hint}") from error
 
