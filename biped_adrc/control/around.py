@@ -8,8 +8,8 @@ such as a learner's, beside the torque u_i of the controller inside:
 
 The controller inside gets the sum that acts: its observer does not take a for a disturbance, and so does not
 work against it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it
-from its vector K, Python from the array that the wrapper was made with, which its owner may overwrite. So a
-`Stepper` sets another a before each sample, and compiles nothing.
+from its vector of parameters, Python from the array that the wrapper was made with, which its owner may
+overwrite. So a `Stepper` sets another a before each sample, and compiles nothing.
 
 Across a touchdown a policy acts for the time in which contact settles:
 

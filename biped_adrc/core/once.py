@@ -1,6 +1,7 @@
-"""What is computed of a part once, and remembered in it: walks that share a part share what it decides.
+"""Results that depend on a part alone are computed once and kept in the part: walks that share it share them.
 
-Only of a part in which nothing can change. A class of the user's may change, so nothing is remembered there.
+This is done only for a part in which nothing can change. A class of the user's may change, so nothing is kept
+there.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ from biped_adrc.core.part import is_part
 _T = TypeVar("_T")
 _PLAIN = (int, float, complex, str, bytes, Enum, NoneType, type, np.generic)
 _REMEMBERED = 64
-"""Results that a function of `once` keeps of a part, and parts that `shared` keeps."""
+"""Most results that a part keeps, and most parts that `shared` keeps; then the oldest one is dropped."""
 
 
 class _Memory(dict[Hashable, Any]):
-    """The last results by what they were computed of; empty in another process, and in a copy by pickle."""
+    """The last results, by what they were computed from; empty in another process, and in a copy by pickle."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
         if key not in self:
@@ -38,6 +39,7 @@ class _Memory(dict[Hashable, Any]):
 
 
 _SHARED = _Memory()
+"""Copies of parts that `shared` has made, by class and the identities of their fields."""
 
 
 def constant(x: object) -> bool:
@@ -59,9 +61,10 @@ def constant(x: object) -> bool:
 
 
 def once(make: Callable[..., _T]) -> Callable[..., _T]:
-    """The function make(x, *more), computed once for a part x; in no part among them can anything change.
+    """Decorator: make(x, *more) is computed once for a part x and kept in it, so that walks that share the part
+    share the result. It is computed each time if something in x, or in a part among `more`, may change.
 
-    The part x remembers the last results, so that walks that share it share them. more: hashable.
+    more: hashable arguments.
     """
 
     @wraps(make)
@@ -75,7 +78,9 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
 
 
 def shared(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields; the same object for the very same fields, so that it remembers."""
+    """A copy of a part with other fields. Equal calls, with the very same objects, return one object, so that
+    what `once` keeps in it is used again.
+    """
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
     # kept with the fields: while they live nothing else has their identities
