@@ -106,9 +106,9 @@ class StepState(NamedTuple):
     """State w of a `Footstep`."""
 
     begin: float
-    """v- [m/s]."""
+    """v- [m/s]: the speed of the member f of the family, on which the step begins."""
     end: float
-    """v+ [m/s]."""
+    """v+ [m/s]: the speed of the member g, on which it ends."""
     L: float
     """Length of the step [m]."""
     before: float

@@ -1,4 +1,6 @@
-"""A scenario in a file."""
+"""A scenario comes back from its file: texts with quotes, numbers to the last bit, pushes, names
+with blanks.
+"""
 
 import pytest
 

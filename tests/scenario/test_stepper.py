@@ -27,12 +27,13 @@ class InPython(ba.Disturbance):
 
 
 def moved(stepper, samples, **inputs):
-    """Samples one after the other, under the same inputs of all walks."""
+    """The samples of so many sample instants, under the same inputs at each and of all walks."""
     rows = {name: np.tile(x, (len(stepper.walks), 1)) for name, x in inputs.items()}
     return [stepper.step(**rows) for _ in range(samples)]
 
 
 def largest(a, b):
+    """The largest difference between entries of two arrays."""
     return float(np.max(np.abs(a - b)))
 
 
@@ -156,7 +157,7 @@ def test_inputs_act_on_a_plant_that_moves_by_itself(s):
 
 
 def test_signals_are_read_where_the_walks_are():
-    """In machine code and in Python."""
+    """In machine code, and in Python for a method that chooses its steps; the two walks have other torques."""
     found = []
     for s in (NPD, NPD.replace(run={"method": "adaptive"})):
         stepper = ba.Stepper(s, 2)
@@ -169,6 +170,7 @@ def test_signals_are_read_where_the_walks_are():
 
 
 def test_a_walk_that_has_ended_stays_where_it_is():
+    """Pulled back by 400 N it ends before 0.9 s, the time of the samples; a reset begins it again."""
     stepper = ba.Stepper(NPD)
     stepper.reset()
     rows = moved(stepper, 900, force=[-400.0, 0.0])
@@ -177,7 +179,8 @@ def test_a_walk_that_has_ended_stays_where_it_is():
     assert stepper.reset(0).status[0] is ba.Status.COMPLETED
 
 
-def test_what_is_no_step_is_refused(biped, gait):
+def test_a_stepper_is_refused_what_it_cannot_step(biped, gait):
+    """Continuous time, a finer integration at impacts, a step before the start, and inputs of a wrong kind."""
     with pytest.raises(InputError, match=r"give hardware\.period"):
         ba.Stepper(ba.Scenario("NPD"))
     with pytest.raises(InputError, match="fine"):
