@@ -140,8 +140,8 @@ def assignments(
 
 
 def _own(text: str) -> object:
-    """The text of a value that only the user's part knows, as a number, truth value or list if it
-    reads as one.
+    """The text of a value that only the user's part knows, as a number, truth value or list if it reads as
+    one.
     """
     for candidate in (text, f"[{text}]"):
         with suppress(ValueError):

@@ -5,10 +5,10 @@
     (12) q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
 
 zeta (n,) [N m] is the external force, r its estimate, a_d = q_d'' + feedback. r_b is matched, one entry per
-motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot be.
-For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d)
-exactly, under any constant force. Unlike in ADRC the model compensates its own Omega, and the observer
-estimates the remaining force.
+motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot
+be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d) exactly, under any
+constant force. Unlike in ADRC the model compensates its own Omega, and the observer estimates the remaining
+force.
 
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.

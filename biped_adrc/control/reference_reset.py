@@ -11,10 +11,9 @@ the polynomial
 
 is added to h, with a_0, a_1 from c = e and dc/dTheta = de/dTheta at that Theta. c and two of its derivatives
 reach zero at Theta_e, after a share of the step; from there on the reference is h again. The zero set of the
-error becomes
-invariant under the impact for any h; c does not depend on the speed, since the impact is linear in the
-rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback Control of Dynamic Bipedal Robot
-Locomotion, 2007, on transition controllers).
+error becomes invariant under the impact for any h; c does not depend on the speed, since the impact is linear
+in the rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback Control of Dynamic Bipedal
+Robot Locomotion, 2007, on transition controllers).
 """
 
 from __future__ import annotations

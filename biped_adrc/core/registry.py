@@ -72,8 +72,8 @@ REGISTRY: dict[str, dict[str, _Entry]] = {
     kind: {name: _Entry(**values) for name, values in entries.items()}
     for kind, entries in packaged("biped_adrc.core", "registry.toml").items()
 } | {"robot": {}, "gait": {}}
-"""Entries by kind and name, from registry.toml and `register`; `names` also has the files of robots
-and gaits.
+"""Entries by kind and name, from registry.toml and `register`; `names` also has the files of robots and
+gaits.
 """
 
 

@@ -38,8 +38,8 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
 
 def differences(found: Mapping[str, object], expected: Mapping[str, object]) -> str:
-    """Text that lists the values that differ, of `found` ("there") and of `expected` ("here");
-    empty if equal.
+    """Text that lists the values that differ, of `found` ("there") and of `expected` ("here"); empty if
+    equal.
     """
     names = sorted({*found, *expected})
     pairs = [(name, found.get(name), expected.get(name)) for name in names]

@@ -81,8 +81,8 @@ class StepMap(Part):
     to_impact: PolynomialMap
     """(v at the start, v at the end, L of the step before, L) -> 2 W [kg^2 m^4/s^2], J [kg m^2]."""
     to_decision: PolynomialMap
-    """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W' [kg^2 m^4/s^2], J' [kg
-    m^2], and dq_b/dTheta (p,) [rad/rad] just after the impact."""
+    """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W' [kg^2 m^4/s^2],
+    J' [kg m^2], and dq_b/dTheta (p,) [rad/rad] just after the impact."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next decision.

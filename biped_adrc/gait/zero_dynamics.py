@@ -164,8 +164,8 @@ class ZeroDynamics(Shown):
         return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
-        """State (q-, q'-) on the constraint with angular momentum sigma_minus [kg
-        m^2/s], each (n,) [rad, rad/s].
+        """State (q-, q'-), each (n,) [rad, rad/s], on the constraint; its angular momentum is sigma_minus
+        [kg m^2/s].
         """
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))

@@ -80,8 +80,8 @@ def last(name: str, o: Outcome) -> float:
 
 
 def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
-    """The certificates' field `name` in the last walking step, at the integration step used and at
-    half of it.
+    """The certificates' field `name` in the last walking step, at the integration step used and at half of
+    it.
     """
     return at_two(partial(last, name), o)
 
@@ -153,8 +153,8 @@ def error_ratio(o: MemberOutcome) -> AtTwoSteps:
 
 
 def longest(o: MemberOutcome) -> AtTwoSteps:
-    """Duration of the longest walking step [s] under both controllers; infinite if one does not
-    make all steps.
+    """Duration of the longest walking step [s] under both controllers; infinite if one does not make all
+    steps.
     """
     return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 

@@ -158,8 +158,8 @@ def limits_broken(f: Feasibility) -> float:
 
 
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
-    """Walk a member under a controller at both integration steps; values: of the scenario, in place
-    of its own.
+    """Walk a member under a controller at both integration steps; values: of the scenario, in place of its
+    own.
     """
     (numbers, why), (at_half, _) = (_at(member, controller, x, values) for x in (1.0, 0.5))
     return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))

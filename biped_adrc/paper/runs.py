@@ -36,8 +36,8 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
-"""Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than
-the model.
+"""Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than the
+model.
 """
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""

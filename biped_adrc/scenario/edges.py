@@ -33,8 +33,8 @@ _NEAR = 1e-3
 """The usual integration step [s]. Whether an edge this close to an impact acts before or after the impact is
 decided by the error of integration."""
 BURIED = 5e-3
-"""Depth of the swing foot below the ground [m] from which on a start has a remark; a scuffing leg
-is less deep.
+"""Depth of the swing foot below the ground [m] from which on a start has a remark; a scuffing leg is less
+deep.
 """
 LONGER = 1.1
 """Largest integration step over the observer's shortest time constant [1]; a little above 1, since multiple

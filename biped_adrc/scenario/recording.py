@@ -349,8 +349,8 @@ class Walk(Shown):
         return storage.save(self.trajectory, path, {**about, **(settings or {})}, arrays)
 
     def _columns(self) -> dict[str, Any]:
-        """Columns (K,) of the table of `to_csv`, by name with unit; `step` is the number of the
-        single support.
+        """Columns (K,) of the table of `to_csv`, by name with unit; `step` is the number of the single
+        support.
         """
         s, events = self.signals, list[str]()
         for arc in self.trajectory.arcs:

@@ -170,8 +170,8 @@ class Record(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _opened(cls, values: Any) -> Any:
-        """Make a mapping of a text that stands for the record, and check values that only a user's
-        part knows.
+        """Make a mapping of a text that stands for the record, and check values that only a user's part
+        knows.
         """
         if isinstance(values, str) and cls.SHORT in cls.model_fields:
             values = {cls.SHORT: values}

@@ -85,8 +85,8 @@ def interval(x: Interval) -> str:
 
 
 def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
-    """The questions that a study answers, as (question, figure); a question without finite numbers
-    is left out.
+    """The questions that a study answers, as (question, figure); a question without finite numbers is left
+    out.
     """
     lines, measure = found.table(), found.study.measure
     if not lines:

@@ -198,9 +198,7 @@ class Group(NamedTuple):
 
 
 class TableLine(NamedTuple):
-    """A line of the table: a case under a condition. The ends of intervals are NaN where walks are
-    no sample.
-    """
+    """A line of the table: a case under a condition. Ends of intervals are NaN where walks are no sample."""
 
     name: str
     condition: str
@@ -342,8 +340,8 @@ def _name(at: Mapping[str, Any]) -> str:
 
 
 def _by_place(g: Group) -> dict[tuple[str, int | None], Result]:
-    """Walks of a group by (all else that locates them, as text; seed); the seed is None where
-    nothing is drawn.
+    """Walks of a group by (all else that locates them, as text; seed); the seed is None where nothing is
+    drawn.
     """
     apart = ("case", "setting", "candidate", SEED)
     keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)

@@ -229,8 +229,8 @@ def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
 
 
 def _row(known: WalkRow) -> WalkRow:
-    """The row with all columns in the order of columns.toml, None where there is no number or it is
-    not finite.
+    """The row with all columns in the order of columns.toml, None where there is no number or it is not
+    finite.
     """
     row: WalkRow = dict.fromkeys(COLUMNS)
     for k, x in known.items():

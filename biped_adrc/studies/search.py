@@ -146,8 +146,8 @@ class Search(Section):
         return self.budget * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
-        """The variables that may have an effect in a case with these values; other variables may
-        get any value.
+        """The variables that may have an effect in a case with these values; other variables may get any
+        value.
         """
         return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
@@ -227,8 +227,7 @@ _SMALLEST = 10
 _ASKED = 8
 """Most proposals for each place of a generation, since some miss a limit that is known without a walk."""
 _MISSED = 1e30
-"""The sampler minimises; a candidate that misses limits has this number, times 1 + the sum of what
-it misses.
+"""The sampler minimises; a candidate that misses limits has this number, times 1 + the sum of what it misses.
 """
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]

@@ -191,9 +191,7 @@ class Study(Section):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns of the results that the study uses: that of the table, of the objective, of
-        the limits.
-        """
+        """The columns of the results that the study uses, of the table, of the objective and of the limits."""
         return (self.column, *(m.column for m in (self.search.measures if self.search else ())))
 
     @property

@@ -91,8 +91,8 @@ def test_the_velocity_of_the_swing_foot_is_its_slope(biped):
 
 
 def test_published_state_stands_on_the_ground(biped):
-    """And the step length [m], the velocities of foot and hip [m/s] and the rate of Theta [rad/s]
-    that follow.
+    """And the step length [m], the velocities of foot and hip [m/s] and the rate of Theta [rad/s] that
+    follow.
     """
     q, v = X_STAR[:5], X_STAR[5:]
     assert biped.swing_foot(q) == pytest.approx([0.3125, -0.0001], abs=5e-5)

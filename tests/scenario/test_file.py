@@ -1,5 +1,5 @@
-"""A scenario comes back from its file: texts with quotes, numbers to the last bit, pushes, names
-with blanks.
+"""A scenario is read back from a file: texts with quotes, numbers to the last bit, pushes, names
+with spaces.
 """
 
 import pytest

@@ -244,8 +244,8 @@ def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
 
 
 def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
-    """Up to WIDE times the orbit where the domain has no end; from the lowest zeta to the orbit if
-    it is empty.
+    """Up to WIDE times the orbit where the domain has no end; from the lowest zeta to the orbit if it is
+    empty.
     """
 
     def drawn(low: float, high: float) -> tuple[float, float]:

@@ -8,11 +8,10 @@ IPOPT meets the equations to about 1e-9. The Gait handed back is therefore built
 the free coefficients alone (`exact_gait`): impact and zero dynamics are Pinocchio's, so that the constraint is
 hybrid-invariant and the orbit periodic to round-off.
 
-The programme keeps its limits at its Gauss nodes (phases of the step) only. `audit` evaluates the same rows for
-the exact gait at many more; if one is missed there, the programme is solved once more with twice the nodes. A
-programme without a
-solution ends in `nlp.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
-calls `optimise` and then walks the gait in simulation.
+The programme keeps its limits at its Gauss nodes (phases of the step) only. `audit` evaluates the same rows
+for the exact gait at many more; if one is missed there, the programme is solved once more with twice the
+nodes. A programme without a solution ends in `nlp.relaxed`, which names the limits that contradict each
+other. `analysis.gait_design` calls `optimise` and then walks the gait in simulation.
 
 *The cold start* comes, for any planar biped, from its geometry alone.
 

@@ -42,8 +42,7 @@ Panel = Callable[[Axes], object]
 def tracking_figure(
     signals: Signals, title: str, push: Window | None = None, torque_limit: float | None = None
 ) -> Figure:
-    """Draw the paper's figures 4 and 5: references and joint angles [rad], torques [N
-    m], and the tracking error.
+    """Draw the paper's figures 4 and 5: references and angles [rad], torques [N m], and the tracking error.
 
     signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
     time around it, shaded, and the milliseconds after either edge, but for angles, as these do not move within

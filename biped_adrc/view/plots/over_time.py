@@ -274,8 +274,8 @@ FLOOR = 1e-13
 def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
     """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
 
-    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break
-    at impacts. Returns the axes.
+    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break at impacts. Errors
+    below FLOOR are drawn there, as a logarithmic scale has no 0. Returns the axes.
     """
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)

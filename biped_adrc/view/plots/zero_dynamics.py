@@ -126,7 +126,10 @@ def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
 
 
 def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
-    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round."""
+    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round.
+
+    The levels are V_max and others, whose distance from it is a share of that of the periodic orbit.
+    """
     o = report.orbits
     theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
     above = o.delta**2 * report.zeta_star - o.v_max
