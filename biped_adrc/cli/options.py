@@ -42,6 +42,8 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
     words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
+        """The command behind a signature, made here, from which typer reads options, types and help texts."""
+
         @wraps(command)
         def run(**arguments: Any) -> None:
             texts = {TEXTS["values"][name]: arguments.pop(name) for name in names}

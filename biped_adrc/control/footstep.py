@@ -240,6 +240,7 @@ class Footstep(OuterLoop):
         return self.begun(w.end, w.before, w.L, w.r, after)
 
     def own_correct(self, w: StepState, m: Measurement) -> StepState:
+        """Move the estimates of sigma and r on by a sampling period, and compute v+ anew until the decision."""
         T, omega, x = self.period, self.bandwidth, w
         e = m.terms.D[-1] @ m.v - x.sigma
         r = x.r + T * omega**2 * e

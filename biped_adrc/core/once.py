@@ -27,6 +27,9 @@ class _Memory(dict[Hashable, Any]):
     """The last results, by what they were computed from; empty in another process, and in a copy by pickle."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
+        """The result for this key: the one that is kept, or else what make() gives, which is kept
+        from then on.
+        """
         if key not in self:
             result = make()
             while len(self) >= _REMEMBERED:
@@ -43,7 +46,10 @@ _SHARED = _Memory()
 
 
 def constant(x: object) -> bool:
-    """Whether nothing in x can change: a number, text, read-only array, or part of this package with such."""
+    """Whether nothing in x can change: a number, text, read-only array, or part of this package with such.
+
+    For a part the answer "yes" is kept in its attribute `_constant`.
+    """
     if isinstance(x, np.ndarray):
         return not x.flags.writeable and (x.base is None or constant(x.base))
     if isinstance(x, tuple):

@@ -64,7 +64,12 @@ def of_recipe_push(r: Runs) -> dict[str, object]:
 
 
 def of_map(r: Runs) -> dict[str, object]:
-    """Values about the pushes under which NPD falls: how the same pushes end under ADRC."""
+    """Values about the pushes under which NPD falls: how the same pushes end under ADRC.
+
+    lost: how many of these there are; "on" and "feasible" count those among them under which ADRC walks on, and
+    does so feasibly. known: pushes with the same end at both integration steps; doubtful: all others. alone:
+    pushes of the known ones under which ADRC falls and NPD does not.
+    """
     known = [c for c in r.cells if c.certain]
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
     lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]

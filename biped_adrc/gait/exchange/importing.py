@@ -271,6 +271,9 @@ def import_gait(
     own = gait.convention if isinstance(gait, GaitFile) else convention or OWN
 
     def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
+        """The gait, read in this convention for this robot; slopes: whether those at the ends are
+        checked too.
+        """
         if isinstance(gait, Samples):
             layout = layout_of(convention, robot)
             return gait_of_samples(gait, robot, layout, degree, slope, title, source)
