@@ -153,6 +153,7 @@ class Bump(ba.WindowedTorque):
 
 
 def test_a_disturbance_in_plain_python_is_compiled(biped, gait):
+    """Both engines walk alike under it, and otherwise than without it."""
     own = Gust() + Bump([0.0, 0.0, 0.0, 0.0, 9.0], 1, 0.1, 0.2)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), own)
     one, other = (

@@ -117,6 +117,7 @@ def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
 
 
 def test_friction_is_off_by_default_and_takes_energy_when_on(biped):
+    """RABBIT's hips have 16.5 N m s/rad and 15 N m, at 1 rad/s here; its torso has no joint that rubs."""
     v = np.array([1.0, -2.0, 0.5, 3.0, 0.7])
     assert not np.any(biped.friction_torque(v))
     rough = ba.Biped.load("rabbit", friction=True)

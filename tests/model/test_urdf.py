@@ -83,6 +83,7 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
     ):
         with pytest.raises(ModelError, match=known):
             make()
+    # which are these, in the order of their names
     assert robot_names() == ("compass", "rabbit", "rimless_wheel", "simplest", "three_link")
 
 

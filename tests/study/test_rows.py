@@ -347,6 +347,7 @@ def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
 
 
 def test_the_command_walks_writes_and_goes_on(tmp_path):
+    """8 walks are 9 lines of a table; the same command again makes the same page."""
     path, out, table = tmp_path / "walks.toml", tmp_path / "out", tmp_path / "rows.csv"
     path.write_text(
         'name = "a <b> $x$"\nseeds = 2\nbase = { run.impacts = 1, start.rate_spread = 0.05 }\n'

@@ -45,6 +45,7 @@ def test_the_optimum_of_riccati_is_reached():
 
 
 def test_any_workers_give_the_same_bits(tmp_path):
+    """One process, two, and threads. Two walks are those of the test: the choice, and the case itself."""
     tables = plants.tables(budget=30, generation=8)
     with ThreadPoolExecutor(3) as pool:
         one, two, three = (
@@ -60,6 +61,7 @@ def test_any_workers_give_the_same_bits(tmp_path):
 
 
 def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choice(tmp_path):
+    """Seeds 0, 1 and 2 are those of search, choice and test; candidate 0 is the case itself."""
     seen = []
 
     def rows(records):
@@ -91,6 +93,7 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
 
 
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
+    """The ripple, made to be k1 here: candidates above 20 are not walked, and the budget counts walks alone."""
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
     limits = [{"column": "ripple", "most": 20.0, "over": "worst"}]
@@ -197,6 +200,10 @@ walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [
 
 
 def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
+    """At most 7 walks: 3 candidates, the finalist and the case itself on the second set, two on the third.
+
+    The objectives are those of a plain study of the same gains.
+    """
     path, out = tmp_path / "walks.toml", tmp_path / "out"
     path.write_text(WALKS)
 

@@ -143,6 +143,7 @@ def test_what_is_drawn_and_plotted_is_what_the_finished_walk_has(
 
 
 def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict[str, Any]) -> None:
+    """Stiffness and damping on the point that is held; the script pulls hard enough for 100 N at least."""
     plant = RobotAndGait.of(FIRST).biped
     n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
     largest = 0.0
@@ -338,6 +339,7 @@ def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> No
 
 
 def test_the_tour_leads_through_its_stations_and_gives_back_what_walked(browser: Chrome) -> None:
+    """Keys: t begins it, n is the next station, p pushes with the station's 30 N m, which the page draws."""
     before, stations = browser.execute_script("return known[0]"), tour()
     assert browser.execute_script("return scene.tour.length") == len(stations) == 6
     for k, station in enumerate(stations):
@@ -418,6 +420,7 @@ return all.filter(low).map((x) => x.outerHTML.slice(0, 200));
 
 
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
+    """On a telephone, 390 px wide, and two screens; on these no control is below the window either."""
     assert browser.execute_script(NAMELESS) == []
     try:
         for width, height in ((390, 800), (1000, 700), (1400, 900)):
