@@ -115,7 +115,7 @@ class Terminal(Console):
 
 
 class Lasting:
-    """A stream to print to that takes everything, also when nobody reads or the disk is full."""
+    """A stream to print to that never raises: when nobody reads or the disk is full, the text is dropped."""
 
     lost: OSError | None = None
     """Why something could not be written; None while all was."""
@@ -166,10 +166,10 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 
 
 def target(out: _P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> _P:
-    """The path of an output, checked before anything is computed; None for none.
+    """The path of an output file, checked before anything is computed; None stays None.
 
-    A name without a kind has the first of the suffixes put behind it. Raises InputError for a name of another
-    kind or one that is read, and OutputError.
+    A name without a suffix gets the first of the suffixes. read: files that are read, and so cannot be written.
+    Raises InputError for another suffix or a file that is read, and OutputError.
     """
     if out is None:
         return None

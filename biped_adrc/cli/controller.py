@@ -66,7 +66,8 @@ def observer_command(
 
 
 SLOW = 10.0
-"""[1/s]; several integrators in a row seem to grow by less than this, from round-off."""
+"""Growth rate [1/s] above which an exported controller counts as unstable by itself: several integrators in a
+row, which do not grow, have computed rates below this, from round-off."""
 
 
 @app.command("export")

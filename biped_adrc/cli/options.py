@@ -33,14 +33,17 @@ _T = TypeVar("_T")
 
 
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
-    """Decorator: the options and arguments of a command, for typer.
+    """Decorator that gives a command its options and arguments, for typer.
 
-    place: of their texts in options.toml, such as "gait.design". names: of the table `values`, which
-    the command gets in `values`, as texts by dotted name. usual: by name, the default that the help shows.
+    place: of their help texts in options.toml, such as "gait.design". names: short options for values of a
+    scenario (keys of the table `values` there); the command gets them in its argument `values`, as texts by
+    dotted name. usual: short option -> default that the help shows.
     """
     words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
+        """The command behind a signature, made here, from which typer reads options, types and help texts."""
+
         @wraps(command)
         def run(**arguments: Any) -> None:
             texts = {TEXTS["values"][name]: arguments.pop(name) for name in names}
@@ -104,7 +107,9 @@ def scenario_from(
 
 
 def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
-    """The controller where no other one is chosen: "passive" for a robot without motors."""
+    """The controller's name, as a value by dotted name, if none is chosen: `usual`, or "passive" for a robot
+    without motors. Empty if the scenario file chose one.
+    """
     from biped_adrc.core.registry import is_own
     from biped_adrc.model.robots.robot_toml import load_description
 
@@ -137,7 +142,9 @@ def assignments(
 
 
 def _own(text: str) -> object:
-    """A value that only the user's part knows: a number, truth value or list where the text is one."""
+    """The text of a value that only the user's part knows, as a number, truth value or list if it reads as
+    one.
+    """
     for candidate in (text, f"[{text}]"):
         with suppress(ValueError):
             return json.loads(candidate)
@@ -147,10 +154,10 @@ def _own(text: str) -> object:
 def with_sets(
     make: type[_T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
 ) -> _T:
-    """A dataclass of these values, and of what --set NAME=VALUE says of its other fields, read by their types.
+    """An object of the dataclass `make`, with values from --set NAME=VALUE, read by the types of its fields.
 
-    usual: values where --set has none; fixed: values that it may not have. Raises InputError for a name that
-    there is not, and a text of another type.
+    usual: values for fields that --set does not name; fixed: values of fields that --set may not name. Raises
+    InputError for an unknown name, and a text of another type.
     """
     hints, values = get_type_hints(make), dict(usual or {})
     known = [name for name in signature(make).parameters if name not in fixed]

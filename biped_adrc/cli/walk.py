@@ -59,10 +59,11 @@ def simulate(
 def _walk(
     s: ba.Scenario, limits: ba.Limits, end_infeasible: bool, out: Path | None, log: Path | None
 ) -> None:
-    """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
+    """Walk a scenario, print the walk, and write it to `out` and `log`; raises the exit if the robot fell.
 
-    A walk with motors is carried out again at half the step, and from a start aside; only the first one is
-    stored, before the others begin.
+    A walk with motors is made again at half the integration step, for the error of integration, and from a
+    start that differs by ASIDE, to see whether rounding decides it. Only the first walk is stored, before the
+    others begin.
     """
     from biped_adrc.scenario.integration import ASIDE, DECIDES
     from biped_adrc.scenario.walk import halved
@@ -104,7 +105,7 @@ def _walk(
 def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     """Print what every step needed of ground and motors, and how the walk ended.
 
-    half: the same walk at half the step, where there are joints with an error.
+    half: the same walk at half the integration step; None without motors, where there is no tracking error.
     """
     from biped_adrc.analysis.signals import FALLS
     from biped_adrc.paper.two_steps import error_text
@@ -126,7 +127,9 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
 
 
 def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate]) -> None:
-    """Print what steps needed of ground and motors, a row each; those without a certificate have no impact."""
+    """Print what walking steps needed of ground and motors, a row each. A step that was not finished has no
+    certificate, and so no length and no impact.
+    """
     from biped_adrc.analysis.certificate import ratio_text
 
     rows = [

@@ -1,4 +1,4 @@
-"""Active disturbance rejection with an extended observer, eq. (20).
+"""Active disturbance rejection with an extended observer, eq. (20) of the paper.
 
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^)
 

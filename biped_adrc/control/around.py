@@ -8,8 +8,8 @@ such as a learner's, beside the torque u_i of the controller inside:
 
 The controller inside gets the sum that acts: its observer does not take a for a disturbance, and so does not
 work against it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it
-from its vector K, Python from the array that the wrapper was made with, which its owner may overwrite. So a
-`Stepper` sets another a before each sample, and compiles nothing.
+from its vector of parameters, Python from the array that the wrapper was made with, which its owner may
+overwrite. So a `Stepper` sets another a before each sample, and compiles nothing.
 
 Across a touchdown a policy acts for the time in which contact settles:
 
@@ -17,15 +17,16 @@ Across a touchdown a policy acts for the time in which contact settles:
 
 t_step is the time since the last touchdown that the controller knows of; the start of a run counts as one. A
 contact that takes time moves the joints by forces that no observer knows, and an observer takes them for a
-disturbance. While it is held the torque is that of the model on measured rates, as NPD's for ADRC; the
-observer gets the torque of the last such tick, so that from there on it runs as from a start.
+disturbance. While the observer is held in its initial state, the torque is that of the model on measured rates:
+ADRC then is NPD. The last such tick predicts with its torque, so that from there on the observer runs as from a
+start.
 
-Policies act at ticks, so they work in sampled time alone. T = 0 is the controller itself, bit for bit. Around
-an outer loop they would restart that loop; put the outer loop around the policy.
+Policies act at ticks, so they work in sampled time alone. With T = 0 the walk is that of the controller inside,
+bit for bit. Around an outer loop they would restart that loop; put the outer loop around the policy.
 
-`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Another one is
-`impact_invariant`; more, as files that run, are in `examples/policies`. What an observer does at the instant
-of the touchdown itself is its `ResetPolicy`.
+`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. `impact_invariant` is another
+policy; more, as files that run, are in `examples/policies`. What an observer does at the instant of the
+touchdown itself is its `ResetPolicy`.
 """
 
 from __future__ import annotations

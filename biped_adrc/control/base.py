@@ -63,8 +63,9 @@ class Measurement(NamedTuple):
     """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at the same time; None outside of a
     closed loop."""
     impulse: Array | None = None
-    """Changes of the rates (n, 2) [1/(kg m)] for each N s on the striking foot, which errors leave out; None
-    but for a controller inside `ImpactInvariant`, near a touchdown."""
+    """Changes of the rates (n, 2) [1/(kg m)] by an impulse of 1 N s on the striking foot in x and in z: the law
+    leaves these two directions out of its errors. None but for a controller inside `ImpactInvariant`, near a
+    touchdown."""
 
     @property
     def q_b(self) -> Array:
@@ -83,13 +84,13 @@ class Measurement(NamedTuple):
 def measured(m: Measurement) -> Estimate:
     """The measured q_b, q_b' and the nominal model's xi, each (p,), as an `Estimate`.
 
-    It takes the place of an observer's estimates where there is none, and initialises those of an observer.
+    A law without an observer uses it in place of estimates, and an observer starts from it.
     """
     return Estimate(m.q_b, m.v_b, m.terms.xi)
 
 
 _OTHERS = "expected one such as NPDController or ADRCController"
-"""What to do about a controller that lacks something, where nothing else helps."""
+"""End of an error's sentence on a controller that lacks something: which controllers have it."""
 
 
 class Controller(Part):
@@ -114,7 +115,7 @@ class Controller(Part):
     needs_body: ClassVar[bool] = False
     """Whether `Measurement.body` has to be there."""
     reads_impulse: ClassVar[tuple[str, ...]] = ()
-    """The methods, of "output" and "correct", that leave the directions of `Measurement.impulse` out."""
+    """Which of the methods "output" and "correct" leave the directions of `Measurement.impulse` out."""
 
     def output(self, s: Any, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
@@ -183,7 +184,10 @@ class Controller(Part):
         return self
 
     def error_system(self) -> ErrorSystem | None:
-        """Linear error dynamics of an observer that is the whole state s; None otherwise."""
+        """Linear error dynamics of the observer, if the observer is the whole state s; None otherwise.
+
+        The exponential integration method needs them.
+        """
         return None
 
     def _writes(self, name: str) -> bool:
@@ -223,7 +227,8 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
-        getattr(controller, name)(s, other, *method[1:])  # which a memory takes in
+        # a memory in the object would keep this call
+        getattr(controller, name)(s, other, *method[1:])
         again = getattr(controller, name)(s, *method)
         if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(

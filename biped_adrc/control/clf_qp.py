@@ -6,7 +6,8 @@
     s.t. V' <= -c V / eps + delta                 c = 1 / (1 + sqrt 3)
          |u| <= u_max,   F_N >= F_min,   |F_T| <= friction F_N
 
-P solves the Riccati equation of the double integrator for Q = 1, c = 1 / lambda_max(P).
+eps [s] sets how fast V falls, p is the weight of the relaxation delta, (x) the Kronecker product. P solves the
+Riccati equation of the double integrator for Q = I; c = 1 / lambda_max(P).
 V' + c V / eps = psi_0 + psi_1 mu is affine in mu, and so are u = kappa^-1 (a - xi), where
 a = M^-1 (mu + drift + H_N a_N), and the force of the ground F = F_a q'' + F_0 of the nominal model. With no
 limit active it is the law of least norm, which is tried first:
@@ -20,8 +21,9 @@ the defaults; p = 1e9 makes it 1.6e-7 rad.
 
 Ames, Galloway, Sreenath, Grizzle, IEEE TAC 59(4), 2014; Galloway, Sreenath, Ames, Grizzle, IEEE Access 3, 2015.
 
-When nothing fulfils all limits, those on the force of the ground are dropped, and there is always a solution,
-since delta is free; should the solver not find it, the law of least norm is cut off at u_max.
+When no mu fulfils all limits, those on the force of the ground are dropped. The limits on the torque alone can
+always be met, since delta is free; should the solver not find the solution, the torque of least norm is cut off
+at u_max.
 """
 
 from __future__ import annotations
@@ -50,9 +52,9 @@ class Decrease(NamedTuple):
     V: float
     """V [rad^2/s^2]."""
     psi_0: float
-    """Value for mu = 0; above 0, V does not fall fast enough without an input."""
+    """V' + c V / eps for mu = 0 [rad^2/s^3]; above 0, V does not fall fast enough without an input."""
     psi_1: Array
-    """Gradient by mu (p,)."""
+    """Gradient by mu (p,) [rad/s]."""
 
 
 class Affine(NamedTuple):
@@ -69,14 +71,16 @@ class Affine(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    """Constraints G z <= h of the program, for z = (mu, sqrt p delta) (p + 1,); the
-    rows of the ground come last.
+    """Constraints G z <= h of the program, for z = (mu, sqrt p delta) (p + 1,), where p under the root is the
+    weight of delta; the rows of the ground come last.
 
     Scaling delta by the root of its weight makes the cost |z|^2, which needs no matrix.
     """
 
     G: Array
+    """(number of rows, p + 1), p of the joints."""
     h: Array
+    """(number of rows,)."""
     ground: int
     """Number of rows of the ground."""
 
@@ -91,7 +95,9 @@ def decrease(y: Array, dy: Array, eps: float) -> Decrease:
 
 
 def least_norm(d: Decrease, relaxation: float) -> Array:
-    """mu (p,) [rad/s^2] of least norm without limits, p = relaxation: zero where V falls fast enough."""
+    """mu (p,) [rad/s^2] of least norm without limits; zero where V falls fast enough. relaxation: weight of
+    delta^2.
+    """
     return d.psi_1 * (-max(d.psi_0, 0.0) / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
 
@@ -149,9 +155,8 @@ class CLFQPController(Controller):
         return np.clip(u, -limit, limit)
 
     def program(self, d: Decrease, to: Affine) -> _Rows:
-        """Rows of the program from the decrease of V and the limits, for (mu, sqrt p delta).
-
-        Those of the ground come last, so that they can be dropped where nothing fulfils all.
+        """Rows of the program: the first is the decrease of V, then the limits on torque, then those on the
+        force of the ground, which can so be dropped where no mu fulfils all.
         """
         p = len(to.u_0)
         G: list[Array] = [d.psi_1[np.newaxis]]

@@ -9,33 +9,35 @@ by the Pade approximant with a numerator one degree lower than the denominator o
     N(x) = sum_(j<k)  binom(k-1, j) (-x)^j / P_j
     D(x) = sum_(j<=k) binom(k, j)     x^j  / P_j,       P_j = (2k-1) (2k-2) .. (2k-j)
 
-Its error is of order (w d)^(2k), as good as the next one of equal degrees, whose gain at high frequency is
-+-1: a part of the command would act at once and with the wrong sign, and a torque that depends on itself would
-have to be solved for. This one has no direct feedthrough. States per joint R (k,), x' = d x / dt:
+Its error is of order (w d)^(2k) at the frequency w [rad/s]. The approximant with k in both degrees has one
+order more, but its gain at high frequency is +-1: a part of the command would act at once, for odd k with the
+wrong sign, and a torque that depends on itself would have to be solved for. The approximant used here has no
+direct feedthrough. Each joint has the states R (k,); ' is d/dt:
 
     d R_i' = R_(i+1),   d R_k' = (u_c - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
 
 With an unknown delay the inner observer is fed with the command, as if it acted at once; with a known delay,
 with the torque that acts. The legs swap in the delay line as in the controller. A torque limit of the Walker
-acts behind the line; one of the drives' own, `torque_limit`, before it, and with an unknown delay the observer
-is fed with the limited torque.
+acts behind the delay line. A limit of the drives (`torque_limit`) acts before it; with an unknown delay the
+observer is then fed with the limited command.
 
 *Prediction* over a known delay, in sampled time: the controller gets the state at which its torque will act.
 
     q^ = q + d v + d^2/2 a(u_q),   v^ = v + d a(u_v)          a(u): D_s a + Omega = B_s u at (q, v)
 
 u_v is the mean of the torques that act until t + d, and u_q their mean with the weight 2 (t + d - s) / d^2 at
-the instant s. With q'' constant but for the torque, both are exact. The torque computed at a tick acts d
-later, so those on their way are the last N = ceil(d / T), which are a state U (N, p) behind that of the
-controller inside: all act for a period T but the oldest, for d - (N - 1) T.
+the instant s. Both are exact if q'' depends on time through the torque alone. The torque computed at a tick
+acts d later. So the torques on their way are the last N = ceil(d / T), with T the period of the ticks; they are
+a state U (N, p) beside that of the controller inside. Each acts for a period T, but the oldest one only for the
+remaining d - (N - 1) T.
 
 The controller inside gets the nominal model at (q^, v^), t + d, and the torque of this tick: for its observer
 there is no delay. `SampledTime(delay_known=True)` shifts the torque instead and leaves the state as it is
 measured; with both the delay would count twice, so use this wrapper with delay_known=False. After an early
 tick, at an impact, torques act sooner than assumed here.
 
-d is the delay to predict: that of the clock, or more, as half a period for the hold. d = 0 is the
-controller inside, bit for bit.
+d is the delay to predict: that of `SampledTime`, or half a period more for the hold between ticks. With d = 0
+the walk is that of the controller inside, bit for bit.
 """
 
 from __future__ import annotations
@@ -63,16 +65,16 @@ class DelayState(NamedTuple):
     """State of a `Delayed`."""
 
     inner: Any
-    """Of the controller inside."""
+    """State of the controller inside."""
     R: Array
-    """Of the delay (k, p) [N m]."""
+    """States of the delay line (k, p) [N m]."""
 
 
 class QueueState(NamedTuple):
     """State of a `Predicted`."""
 
     inner: Any
-    """Of the controller inside."""
+    """State of the controller inside."""
     U: Array
     """Torques on their way (N, p) [N m], the oldest first."""
 
@@ -82,8 +84,9 @@ class Delayed(Around):
     """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade
     approximant of this order k, 1 to 10.
 
-    known: whether the observer inside is fed with the torque that acts. torque_limit [N m]: of the command. It
-    compiles around whatever compiles in continuous time. Raises InputError for numbers out of range.
+    known: whether the observer inside is fed with the torque that acts, else with the command. torque_limit
+    [N m]: bound on the command, before the delay. It compiles around every controller that compiles in
+    continuous time. Raises InputError for numbers out of range.
     """
 
     reads_impulse: ClassVar[tuple[str, ...]] = ()
@@ -159,7 +162,7 @@ def _weights(d: float, period: float) -> tuple[Array, Array]:
     d [s]: the delay. period [s]: of the ticks.
     """
     count = math.ceil(d / period - WHOLE)
-    # from the torque's first instant to t + d
+    # [s], from the first instant at which each torque acts to t + d
     left = np.minimum(np.arange(count, 0, -1) * period, d)
     after = np.append(left[1:], 0.0)
     return (left - after) / d, (left**2 - after**2) / d**2

@@ -7,7 +7,7 @@ within tol of a path x_c that leaves the reference smoothly and ends on the ston
     x_c = x_r + (L - L_r) beta(x_r / L_r),   e = x - x_c,   b_1 = tol - e >= 0,   b_2 = tol + e >= 0
 
 beta is a polynomial that rises from 0, where the foot passes the stance foot, to 1 at the end of the step. The
-angles q_N without a motor follow the actuated ones q_b, q_N'' = A_N q_b'' + a_N of (12), so that
+angles q_N without a motor follow the actuated ones q_b, q_N'' = A_N q_b'' + a_N of (12) of the paper, so that
 
     e'' = G q_b'' + g,   q_b'' = kappa u + xi^
 
@@ -54,13 +54,14 @@ _ROUND_OFF = 1e-6
 
 
 class FootError(NamedTuple):
-    """e [m], e' [m/s] and e'' = G q_b'' + g [m/s^2] of the module."""
+    """Error of the swing foot from its path: e [m], e' [m/s] and e'' = G q_b'' + g [m/s^2]."""
 
     e: float
     de: float
     G: Array
     """(p,) [m]."""
     g: float
+    """[m/s^2]."""
 
 
 class BarrierState(NamedTuple):
@@ -69,7 +70,7 @@ class BarrierState(NamedTuple):
     inner: Any
     """State of the controller inside."""
     infeasible: float
-    """Number of infeasible instants so far."""
+    """Number of sample instants so far at which the torque that acted broke a bound."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,8 @@ class FootBarrier(Around):
     biped: the robot of the nominal model. stones: L of the steps [m], the first one first; behind the last one
     nothing is filtered. step: L_r [m], None for a reference that steps on the stones, as in `Footstep`.
     tolerance: tol [m], less than that of the stones, since the foot may come down early or late. rate: lambda
-    [1/s]. observed: whether xi^ is the observer's. Raises InputError when `inner` tracks no virtual constraint.
+    [1/s]. observed: whether xi^ is the estimate of the observer inside, else the model's xi. Raises InputError
+    when `inner` tracks no virtual constraint.
 
     >>> inner = FootBarrier(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
     >>> controller = ba.Footstep.on_gait(inner, gait, biped, stones=(0.42, 0.43))
@@ -121,7 +123,7 @@ class FootBarrier(Around):
         return x, J @ v, J, -turning
 
     def corridor(self, x: float, L: float) -> tuple[float, float, float]:
-        """x_c [m] of a stone L [m], and two derivatives by x_r = x [m]."""
+        """x_c [m] for a stone at L [m], and its two derivatives by x_r; x [m] is x_r, the reference's foot."""
         L_r = L if self.step is None else self.step
         z = np.minimum(np.maximum(x / L_r, 0.0), 1.0)
         beta, dbeta = z**3 * (10.0 - 15.0 * z + 6.0 * z**2), 30.0 * (z * (1.0 - z)) ** 2
@@ -129,7 +131,11 @@ class FootBarrier(Around):
         return x + far * beta, 1.0 + far * dbeta / L_r, far * ddbeta / L_r**2
 
     def error(self, m: Measurement) -> FootError:
-        """e at a measurement, of the nominal model."""
+        """e, e' and the terms of e'' by the nominal model at a measurement.
+
+        The reference's posture q_r has the joints q_d and, without a motor, the angle that gives it the
+        measured phase Theta = c q.
+        """
         c, p, terms = self.phase, len(m.terms.kappa), m.terms
         r = own_reference(self.inner)(m.t, m.q, m.v)
 
@@ -149,7 +155,10 @@ class FootBarrier(Around):
         )
 
     def missing(self, s: Any, m: Measurement, u: Array) -> tuple[float, Array]:
-        """d [m/s^2] under the torque u (p,) [N m], and G (p,) [m]; s: state of the controller inside."""
+        """d [m/s^2], by which the torque u (p,) [N m] breaks the bound, and G (p,) [m] of e''.
+
+        s: state of the controller inside. Behind the last stone d is 0.
+        """
         x = self.inner.estimate(s, m) if self.observed else None
         f, xi, k = self.error(m), m.terms.xi if x is None else x.disturbance, self.rate
         y = f.G @ (m.terms.kappa @ u + xi) + f.g + 2.0 * k * f.de + k * k * f.e
@@ -184,7 +193,9 @@ class FootBarrier(Around):
 
 
 def infeasible_instants(s: Any) -> int | None:
-    """How many instants were infeasible until the state s of a controller; None without a barrier."""
+    """Number of infeasible sample instants that a controller's state s has counted; None without a barrier in
+    it, or where the walk left no finite state.
+    """
     while not isinstance(s, BarrierState):
         if not hasattr(s, "inner"):
             return None

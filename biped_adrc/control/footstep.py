@@ -1,24 +1,26 @@
-"""The next footstep, decided in each step: which member of a family of gaits ends it.
+"""The next footstep, decided in each walking step: on which member of a family of gaits the step ends.
 
     h = f + R + b(s) (g - f)
 
-f and g are the members (v-, L) and (v+, L) of the family, functions of Theta; R is a polynomial that brings
-f to the angles after impact, and fades out. v- is the speed of the member on which the step before ended, so
-that a step begins on its curve. L [m] is the length of the step, to the next stone where there are stones. b
-rises from 0 at the decision (`gait.family`) to 1 at SETTLED. Until the decision v+ is computed anew at each
-sample instant, from y = sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot, and from
-the estimate r [N m] of the torque that acts on the unactuated row from outside:
+f and g are the members (v-, L) and (v+, L) of the family, functions of Theta; s is the share of the step in
+Theta, 0 to 1. R is a polynomial that brings f to the angles after impact, and fades out. v- is the speed of the
+member on which the step before ended, so that a step begins on its curve. L [m] is the length of the step, to
+the next stone where there are stones. b rises from 0 at the decision, s = DECISION of `gait.family`, to 1 at
+SETTLED. Until the decision v+ is computed anew at each sample instant, from y = sigma^2, with sigma [kg m^2/s]
+the angular momentum about the stance foot, and from the estimate r [N m] of the torque that acts on the
+unactuated row from outside. v+ is the speed for which y at the next decision is
 
     y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
 
-with y_0 the y of the cycle at the wanted speed, and y_free what comes next at the speed that keeps y_0 under
-r. An error of y at one decision is then `pole` times as large at the next. y_next is kept between those of
-the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map from step to step is used as in
-H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state (Gong,
-Grizzle, arXiv 2008.10763).
+y_0 is the y of the cycle at the wanted speed, and y_free the y at the next decision if v+ is the speed whose
+cycle has y_0 under the torque r. delta^2 is the factor of the cycle's zero dynamics, by which an error of y
+shrinks from step to step if nothing is decided; so it becomes `pole` times as large. y_next is kept between
+those of the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map from step to step is
+used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state
+(Gong, Grizzle, arXiv 2008.10763).
 
-Both come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N gravity's part of the
-unactuated row, in which no motor acts.
+The estimates of sigma and r come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N
+gravity's part of the unactuated row, in which no motor acts.
 """
 
 from __future__ import annotations
@@ -46,15 +48,17 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import length_of
 
 SETTLED = 0.9
-"""Share of a step, in Theta, from which its member is the last one."""
+"""Share of a walking step, in Theta, from which h is the member g alone."""
 EARLY = 0.2
-"""Share of a step up to which a run may start and still have a step of its own."""
+"""Share of a walking step up to which a run may start and still bend the first step to its own posture (R)."""
 SLOWEST, FASTEST = 0.5, 1.1
-"""Of the speeds between whose cycles y at the next decision is kept: the first and the last [m/s]."""
+"""Speeds [m/s] between whose cycles y at the next decision is kept."""
 
 
 def blend(s: float) -> tuple[float, float, float]:
-    """b, db/ds, d2b/ds2 at s: 0 up to DECISION, 1 from SETTLED on, three derivatives continuous."""
+    """b, db/ds, d2b/ds2 at the share s of a step: 0 up to DECISION, 1 from SETTLED on; three derivatives of b
+    are continuous.
+    """
     k = 1.0 / (SETTLED - DECISION)
     x = np.minimum(np.maximum(k * (s - DECISION), 0.0), 1.0)
     z = x * (1.0 - x)
@@ -64,7 +68,7 @@ def blend(s: float) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class StepCurve:
-    """h of one step, the module's first equation; with `base`, c = h - base."""
+    """h of one walking step, the module's first equation; with `base`, the correction c = h - base."""
 
     family: GaitFamily
     begin: float
@@ -72,12 +76,13 @@ class StepCurve:
     end: float
     """v+ [m/s]."""
     L: float
-    """[m]."""
+    """Length of the step [m]."""
     plus: float
     """Theta where the step began [rad]."""
     reset: Array
-    """Of `ResetPolynomial` (2, p)."""
+    """Coefficients of R, a `ResetPolynomial` (2, p)."""
     base: VirtualConstraint | None = None
+    """The constraint to which c is added; None for h itself."""
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
         """h or c, and two derivatives by Theta, each (p,)."""
@@ -101,9 +106,9 @@ class StepState(NamedTuple):
     """State w of a `Footstep`."""
 
     begin: float
-    """v- [m/s]."""
+    """v- [m/s]: the speed of the member f of the family, on which the step begins."""
     end: float
-    """v+ [m/s]."""
+    """v+ [m/s]: the speed of the member g, on which it ends."""
     L: float
     """Length of the step [m]."""
     before: float
@@ -119,9 +124,10 @@ class StepState(NamedTuple):
 
 
 def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
-    """Coefficients (2, p) of the reset: the step along mu begins at q_b (p,) [rad] with dq_b/dTheta = slope.
+    """Coefficients (2, p) of R: with it the step along a member begins at q_b (p,) [rad] with dq_b/dTheta =
+    slope.
 
-    plus: Theta+ [rad]. slope: (p,).
+    mu: the member's (speed [m/s], step length [m]). plus: Theta [rad] where the step begins. slope: (p,).
     """
     h, dh, _ = family.h(mu, plus, plus)
     return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - plus), q_b - h, slope - dh)
@@ -131,11 +137,11 @@ def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Ar
 class Footstep(OuterLoop):
     """The module's controller around `inner`; its state is a `StepState`.
 
-    inner: the controller that tracks h. family: of gaits, from which each step is taken. speed [m/s]: that is
-    kept. step [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the first
-    one first. pole [1]: of the error of y from step to step. bandwidth [rad/s]: omega of its estimator.
-    period [s]: of the ticks, in sampled time. Raises GaitError for a speed, ReachError for a stone that no
-    member reaches.
+    inner: the controller that tracks h. family: of gaits, from which each step is taken. speed [m/s]: the speed
+    to keep. step [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the
+    first one first. pole [1]: factor of the error of y from step to step. bandwidth [rad/s]: omega of the
+    momentum observer. period [s]: of the ticks, in sampled time. Raises GaitError for a speed, ReachError for a
+    stone that no member reaches.
 
     >>> controller = ba.Footstep.on_gait(ba.NPDController(gait.constraint), gait, biped, step=0.3)
     >>> force, clock = ba.HipForce(biped, (-12.0, 0.0), steps=(3, 99)), ba.SampledTime(1e-3)
@@ -176,7 +182,11 @@ class Footstep(OuterLoop):
         pole: float = 0.35,
         bandwidth: float = 20.0,
     ) -> Footstep:
-        """Around `inner`, with a stored family; speed [m/s] and step [m] are the gait's where they are None."""
+        """The controller around `inner`, with a stored family, by name or file.
+
+        speed [m/s], step [m]: those of the gait if None. stones [m]: lengths of the steps. pole [1] and
+        bandwidth [rad/s]: as fields of the class.
+        """
         length = gait.step_length(biped)
         speed = length / gait.period if speed is None else speed
         lengths = tuple(map(float, stones))
@@ -191,7 +201,7 @@ class Footstep(OuterLoop):
 
     @derived
     def gain(self) -> float:
-        """1 - pole / delta^2."""
+        """The factor 1 - pole / delta^2 of the module's equation."""
         return float(1.0 - self.pole / self.family.steps.delta_squared(self.speed, self.step))
 
     @derived
@@ -203,13 +213,14 @@ class Footstep(OuterLoop):
         return StepCurve(self.family, w.begin, w.end, w.L, w.plus, w.reset, self.base)
 
     def length(self, step: int) -> float:
-        """L [m] of a single support: of its stone, or the usual one."""
+        """L [m] of the single support with number `step`: to its stone, or the usual length without stones."""
         return length_of(self.stones, step, self.step)
 
     def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> StepState:
-        """w of a step that begins at m on the member v [m/s], after steps of length `earlier` and `before` [m].
+        """w of a walking step that begins at m on the member v [m/s], after two steps of lengths `earlier` and
+        then `before` [m]; r [N m]: the estimate of the torque from outside.
 
-        The slope after impact is that of the family, since rates measured just after an impact are noisy.
+        The slope dq_b/dTheta after impact is that of the family, since rates measured there are noisy.
         """
         L, plus = self.length(m.step), float(self.family.phase @ m.q)
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
@@ -217,7 +228,9 @@ class Footstep(OuterLoop):
         return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset)
 
     def own_start(self, h: Constraint, m: Measurement) -> StepState:
-        """w at the start of a run; one that starts later than EARLY goes on along the member."""
+        """w at the start of a run. A run that starts in a step, later than EARLY, follows the member itself:
+        its R is zero, and its Theta+ that of the member.
+        """
         w = self.begun(self.speed, self.step, self.step, 0.0, m)
         _, plus, minus = self.family.curve(np.array((self.speed, w.L)))
         early = (w.plus - plus) / (minus - plus) < EARLY
@@ -227,6 +240,7 @@ class Footstep(OuterLoop):
         return self.begun(w.end, w.before, w.L, w.r, after)
 
     def own_correct(self, w: StepState, m: Measurement) -> StepState:
+        """Move the estimates of sigma and r on by a sampling period, and compute v+ anew until the decision."""
         T, omega, x = self.period, self.bandwidth, w
         e = m.terms.D[-1] @ m.v - x.sigma
         r = x.r + T * omega**2 * e
@@ -237,7 +251,9 @@ class Footstep(OuterLoop):
         return x._replace(end=end, sigma=sigma, r=r)  # type: ignore[arg-type]
 
     def decision(self, x: StepState, y: float, r: float, step: int) -> float:
-        """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support `step`, the module's equation."""
+        """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support with number `step`, by the module's
+        equation. x: state of the step.
+        """
         steps, ahead = self.family.steps, self.length(step + 1)
         begin = np.array((x.begin, x.before))
 
@@ -252,12 +268,15 @@ class Footstep(OuterLoop):
         return self.zero(lambda v: following(v) - goal)
 
     def zero(self, f: Callable[[float], float]) -> float:
-        """The speed [m/s] of the family where f is 0, by a parabola through three speeds.
+        """The speed [m/s] in the family's range where f is 0, by the parabola through f at both ends and in the
+        middle of the range. Where that is 0 nowhere in it, the nearer end.
 
-        Where it is 0 nowhere, the end of the range that is nearer to it.
+        A loop to a tolerance would not do, since f has to be straight-line code.
         """
         low, high = self.family.low[0], self.family.high[0]
         f_0, f_1, f_2 = f(low), f(0.5 * (low + high)), f(high)
+        # f = f_0 + b z + c z^2 in z = (v - low) / (high - low), in [0, 1]
         b, c = 4.0 * f_1 - 3.0 * f_0 - f_2, 2.0 * (f_0 + f_2 - 2.0 * f_1)
+        # the floor keeps the root real where the parabola has no zero; y has a size of 100 kg^2 m^4/s^2
         root = np.sqrt(np.maximum(b * b - 4.0 * c * f_0, 1e-6))
         return low + (high - low) * np.minimum(np.maximum(-2.0 * f_0 / (b + root), 0.0), 1.0)

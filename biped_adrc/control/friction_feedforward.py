@@ -3,17 +3,18 @@
     u = u_i + F,   F = share (viscous q_d' + static tanh(q_d' / w))
 
 u_i is the torque of the controller inside, q_d' the rates of a reference at the measured (Theta, Theta'), and
-w the width of the plant's own smoothed sign, `model.biped.STICTION_SPEED`. Measured rates would carry the
-steps of encoders through static friction, which changes its sign with them; those of the reference are smooth,
-and with a small tracking error they are the same.
+w [rad/s] the width of the plant's own smoothed sign, `model.biped.STICTION_SPEED`. Measured rates have the
+noise of encoder counts, and static friction would change its sign with it; the rates of the reference are
+smooth, and equal to the true ones up to the tracking error.
 
 The controller inside gets u - F as the applied torque, where u is the torque that acts. So for it the friction
 is reduced by F, after a saturation too, and its observer estimates the remaining disturbance,
 
     q_b'' = xi + kappa u = (xi + kappa F) + kappa (u - F)
 
-With u instead, its xi^ would contain all of the friction, which would then be compensated twice. `estimate`
-gives xi. share = 1 is the friction of the robot's record, 0 the controller inside, bit for bit.
+If it got u instead, its xi^ would contain all of the friction, which would then be compensated twice.
+`estimate` gives xi, without kappa F. With share = 1 F is the friction of the robot's record; with share = 0 the
+walk is that of the controller inside, bit for bit.
 """
 
 from __future__ import annotations

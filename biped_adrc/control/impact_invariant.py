@@ -1,28 +1,31 @@
-"""Near a touchdown, an error of the feedback without the part that an impulse on the striking foot can change.
+"""Near a touchdown the feedback acts on an error without the part that an impulse on the striking foot can
+change.
 
-An impulse F (2,) [N s] of the ground changes the rates by a F. An error y of the feedback then jumps by N F,
-for any F, and says nothing of how well the robot tracks. P removes these two directions from it:
+An impulse F (2,) [N s] of the ground on the striking foot changes the rates q' by a F, and with them an error y
+of the feedback by N F. That part of y is in the two directions of the columns of N, whatever F is, and says
+nothing of how well the robot tracks. The projection P removes these two directions from y:
 
     q'+ - q'- = a F,     a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)
     y+ - y- = N F,       P = 1 - N (N' N)^-1 N',       P N = 0
 
-    a     (n, 2) change of the rates q' for each N s; a_b (p, 2) its rows of the p joints with motors
-    N     change of the error y for each N s, below; (p, 2), and (n, 2) for the momentum
+    a     (n, 2) change of the rates q' by 1 N s, in x and in z; a_b (p, 2) its rows of the p joints with motors
+    N     change of the error y by 1 N s, in x and in z, below; (p, 2), and (n, 2) where y is the momentum
     D     (n, n) inertia matrix D_s of (11)
     H     (p, n) slope of the reference, q_d'' = drift + H q''
     J     (2, n) Jacobian of the striking foot, J_m that of m p_com, m [kg] the robot's mass
 
-J', N' are transposes, q', e' rates. a follows from the impact (7) where only the foot with the Jacobian J
-strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that struck is then the support,
-and q does not contain its place. While a touchdown is less than T [s] away (field `window`), the law takes
+J', N' are transposes, q', e' rates. The formula of a is that of the impact (7) of the paper, for the striking
+foot alone. Before touchdown J is J_2, of the swing foot. After touchdown J = 0: the foot that struck is then
+the support, on which q does not depend. While a touchdown is less than T [s] away (field `window`), the law
+inside uses
 
-    rates        P e' for its rate error e' = q_b' - q_d', N = a_b - H a, as q_d' of a virtual constraint is a
-                 function of the measured rates and jumps with them
-    innovation   P (y - y^) for its observer's innovation; N = a_b where the observer estimates the joints'
-                 angles, a_b - H a where their error, D a where the momentum D q'
+    rates        P e' in place of its rate error e' = q_b' - q_d', with N = a_b - H a, since q_d' of a virtual
+                 constraint is a function of the measured rates and jumps with them
+    innovation   P (y - y^) in place of its observer's innovation y - y^; N = a_b for an observer of the joints'
+                 angles, a_b - H a for one of their error, D a for one of the momentum D q'
 
-The last touchdown was less than T ago (t_step < T), or the phase says that the next one comes in less than T:
-|Theta- - Theta| < T |Theta'|.
+A touchdown is less than T away if the last one was less than T ago (t_step < T), or if the phase lets the next
+one expect in less than T: |Theta- - Theta| < T |Theta'|.
 
 This wrapper puts a into `Measurement.impulse`. The law inside computes N and P (`control.tracking`), and says
 in `reads_impulse` in which of its methods it does.
@@ -30,9 +33,9 @@ in `reads_impulse` in which of its methods it does.
 The projection of the rate error is that of Yang and Posa, Impact invariant control with applications to
 bipedal locomotion, IROS 2021 (arXiv 2103.06907), and Autonomous Robots 49(35), 2025 (arXiv 2303.00817), shown
 there on a planar biped of five links: the impulse that explains most of the error is removed from it. In the
-code that they published it is faded in and out by a factor; here it is on or off. For the innovation of an
-observer no precedent was found, in three searches for observers of disturbances and states of legged robots
-near an impact.
+code that they published a factor fades the projection in and out; here it is on or off. For the projection of
+an observer's innovation no precedent was found, in three searches for observers of disturbances and states of
+legged robots near an impact.
 """
 
 from __future__ import annotations
@@ -71,8 +74,8 @@ class ImpactInvariant(ContactWindow):
     """A policy that removes from the errors of `inner` what an impulse of the striking foot
     changes, near a touchdown.
 
-    window [s]: on either side of the touchdown. rates: apply it to the controller's rate error.
-    innovation: to that of its observer.
+    window [s]: T, on either side of the touchdown. rates: whether the controller's rate error is projected.
+    innovation: whether its observer's innovation is.
 
     Raises InputError for a controller that tracks no virtual constraint, or lacks the error to be projected.
     """
@@ -133,6 +136,8 @@ class ImpactInvariant(ContactWindow):
         return m._replace(impulse=impulse_response(m.terms.D, body, J))
 
     def near(self, m: Measurement, projected: Any, other: Any) -> Any:
-        """Choose `projected` while a touchdown is less than T away, else `other`; both may be trees."""
+        """Choose `projected` while a touchdown is less than T away, else `other`: torques, or states, which may
+        be trees of arrays.
+        """
         soon = chosen(self.expected(m), projected, other)
         return chosen(self.landed(m), projected, soon)

@@ -1,18 +1,19 @@
 """Feedback linearisation with a momentum-based disturbance observer.
 
     D q'' + Omega = B u + zeta,   r -> zeta              observers/momentum.py
-    u = kappa^-1 (a_d - xi) - r_b - A_N' r_N             NPD (28), less both parts of r through (12)
-    q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
+    u = kappa^-1 (a_d - xi) - r_b - A_N' r_N             NPD (28) of the paper, less both parts of r through
+    (12) q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
 
-r_b is matched, one entry per motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled,
-that on q_N itself cannot be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d)
-exactly, under any constant force. Unlike in ADRC the model compensates its own Omega, and the observer
-estimates the remaining force.
+zeta (n,) [N m] is the external force, r its estimate, a_d = q_d'' + feedback. r_b is matched, one entry per
+motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot
+be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d) exactly, under any
+constant force. Unlike in ADRC the model compensates its own Omega, and the observer estimates the remaining
+force.
 
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
 
-At impact the momentum jumps, about another foot; r is relabelled and kept, see `ChainObserver.reset`.
+At impact the momentum jumps, and is then about another foot; r is relabelled and kept (`ChainObserver.reset`).
 
 Measurement and input of the observer are of all n coordinates, where those of ADRC are of the p joints.
 """
@@ -77,7 +78,10 @@ class MomentumDOBController(ObservingController):
         return beta
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-        """u (p,) [N m] for an estimated force (n,). Raises SingularError as `tracking_torque`."""
+        """u (p,) [N m] for estimates x whose disturbance is a force (n,) [N m].
+
+        Raises SingularError where the loop through Theta'' is singular.
+        """
         terms = _pushed(m.terms, x.disturbance)
         joints = measured(m)._replace(disturbance=terms.xi)
         return tracking_torque(self.gains, r, joints, m._replace(terms=terms), self.solve_theta)

@@ -1,13 +1,13 @@
-"""NPD: feedback linearisation with proportional-derivative action, eq. (28).
+"""NPD: feedback linearisation with proportional-derivative action, eq. (28) of the paper.
 
     u = kappa^-1 (q_d'' - K_d (q_b' - q_d') - K_p (q_b - q_d) - xi)
 
 xi comes from the model, (14) without disturbances. The paper writes estimates x1^, x2^ here, though NPD
 has no observer: the measured state is used.
 
-It is the yardstick of ADRC in the paper: the same gains, and the model's xi in place of an estimated one. With
-a right model and no push both loops have the same error dynamics; an error of the model or a push leaves NPD an
-error of the size xi / K_p.
+The paper compares ADRC with it: the same gains, and the model's xi in place of an estimated one. With a right
+model and no push both loops have the same error dynamics. A push, or an error of the model, that changes xi by
+d xi [rad/s^2] leaves NPD an error of the size d xi / K_p [rad].
 """
 
 from __future__ import annotations

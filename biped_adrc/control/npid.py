@@ -14,8 +14,8 @@ same C(s) with
     w^2 (K_d, K_p, K_i) = (k_p l_1 + k_d l_2 + l_3, k_p l_2 + k_d l_3, k_p l_3),
 
 as eliminating its observer's states shows. In general m extended states make a C(s) of order m + 2 with m
-poles at zero. What tells them apart is not the transfer function: ADRC does without xi of the model, its
-observer is fed with the torque applied, so that it does not wind up, and is reset at impact.
+poles at zero. ADRC and this PID differ in what the transfer function does not show: ADRC does without xi of the
+model, its observer is fed with the torque applied, so that it does not wind up, and is reset at impact.
 Astrom, Hagglund, Advanced PID Control, ISA, 2006.
 """
 
@@ -38,7 +38,7 @@ from biped_adrc.gait.reference import Reference
 
 
 class FilterState(NamedTuple):
-    """State of an `NPIDController`, or its rate; each (p,)."""
+    """State of an `NPIDController`, or (from `flow`) the rate of it; each (p,)."""
 
     e: Array
     """Filtered error e_f [rad]."""
@@ -52,7 +52,7 @@ class FilterState(NamedTuple):
 class NPIDController(Controller):
     """Feedback linearisation with a PID of the filtered error, for a K_i [1/s^3] that leaves the loop stable.
 
-    filter_bandwidth, damping: w [rad/s] and zeta of the filter. period [s]: of the discrete form, in which
+    filter_bandwidth, damping: w [rad/s] and zeta [1] of the filter. period [s]: of the discrete form, in which
     the error is held from tick to tick; set by `sampled`. Raises InputError for numbers that are not
     positive, and for an unstable loop.
     """
@@ -65,7 +65,8 @@ class NPIDController(Controller):
     period: float | None = None
 
     def __post_init__(self) -> None:
-        """Raise InputError unless all roots of the loop with its filter have negative real parts.
+        """Raise InputError unless all roots of the loop, of e'' = a - q_d'' with the filter, have negative real
+        parts.
 
         s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0
         """
@@ -85,7 +86,7 @@ class NPIDController(Controller):
     ) -> NPIDController:
         """The controller with C(s) of the linear ADRC whose three observer poles are at -bandwidth [rad/s].
 
-        gains: that ADRC's, one number for all joints.
+        gains: k_p [1/s^2] and k_d [1/s] of that ADRC, one number for all joints.
         """
         check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
         check_part(gains.K_p, "K_p of the ADRC", float)
@@ -99,8 +100,8 @@ class NPIDController(Controller):
 
     @derived
     def filter(self) -> tuple[Array, Array]:
-        """M (3, 3) and b (3,) of Z' = M Z + b e, or of Z one period later, for the rows
-        e_f, e_f', s of Z (3, p).
+        """M (3, 3) and b (3,) of the filter with Z (3, p), whose rows are e_f, e_f', s: M Z + b e is Z' in
+        continuous time (no period), and Z one period later in sampled time.
         """
         w, zeta = self.filter_bandwidth, self.damping
         A = np.array([[0.0, 1.0, 0.0], [-w * w, -2.0 * zeta * w, 0.0], [1.0, 0.0, 0.0]])

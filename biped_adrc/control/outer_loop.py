@@ -34,9 +34,9 @@ class LoopState(NamedTuple):
     """State of an outer loop."""
 
     inner: Any
-    """Of the controller inside."""
+    """State of the controller inside."""
     own: Any
-    """w, the loop's own."""
+    """The loop's own state w."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +108,7 @@ class OuterLoop(Around):
 
 
 OF_A_LOOP = "an outer loop corrects the virtual constraint of its inner controller"
+"""Begin of an error's sentence, for a controller inside an outer loop."""
 
 
 def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualConstraint:
@@ -141,9 +142,9 @@ def tracking(controller: Controller, reference: Constraint) -> Controller:
 
 
 def reference_in_force(controller: Controller, s: Any) -> Constraint:
-    """The reference that a controller tracks in its state s, all corrections included.
+    """The reference that a controller tracks in its state s, with the corrections of all outer loops in it.
 
-    Raises InputError as `tracked_constraint`.
+    Raises InputError if the controller tracks no virtual constraint.
     """
     if isinstance(controller, OuterLoop):
         h = reference_in_force(controller.inner, s.inner)
@@ -152,14 +153,16 @@ def reference_in_force(controller: Controller, s: Any) -> Constraint:
 
 
 def tracked_by(law: Controller, reference: Reference | OuterLoop) -> Reference | OuterLoop:
-    """The source of a controller's q_d: the outer loop that it is, which corrects the reference, or the
-    reference.
+    """The source of a controller's q_d: the controller itself if it is an outer loop, which corrects the
+    reference in each step; else the reference.
     """
     return law if isinstance(law, OuterLoop) else reference
 
 
 def tracked_point(h: Reference | OuterLoop, s: Any, m: Measurement) -> ReferencePoint:
-    """The point at the measurement m of a reference, or of what an outer loop with state s has in force."""
+    """The point of a reference h at the measurement m; for an outer loop h, of the reference that it has in
+    force in its state s.
+    """
     r = reference_in_force(h, s) if isinstance(h, OuterLoop) else h
     return r(m.t, m.q, m.v)
 

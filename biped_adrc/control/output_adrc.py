@@ -4,8 +4,8 @@
     y'' = L u + xi_y,   L = (I - H_b - H_N A_N) kappa
     u   = L^-1 (-K_p y^ - K_d y'^ - xi_y^)
 
-With q_d'' = drift + H q'' and the split (12), (13) the nominal model gives xi_y = M xi - drift - H_N a_N, with
-M = I - H_b - H_N A_N. It is not used between impacts: the reference's own acceleration, and the effect of the
+With q_d'' = drift + H q'' and the split (12), (13) of the paper the model gives xi_y = M xi - drift - H_N a_N,
+M = I - H_b - H_N A_N. xi_y is not used between impacts: the reference's own acceleration, and the effect of the
 unactuated coordinate on it through Theta'', are estimated together with model error and external forces. In
 the joint form (20) q_d'' comes from the model, and an error of the model's Theta'' is an error of the
 reference that no observer of q_b'' can see. L is J D^-1 B for the Jacobian J of y.
@@ -39,8 +39,8 @@ class OutputADRCController(ObservingController):
     """ADRC of the output y = q_b - q_d, with an observer of y that is the whole state.
 
     gains: K_p [1/s^2] and K_d [1/s] of y'' = -K_p y - K_d y', Table II by default as in the joint form. reset:
-    of the observer at impact, where MODEL takes y, y' from the measurement and xi_y from the model. There is
-    no form for the exponential method: in continuous time with Table I take RK4(5e-5).
+    what happens to the observer at impact; MODEL takes y, y' from the measurement and xi_y from the model. The
+    exponential integration method does not fit: in continuous time with Table I take RK4(5e-5).
     """
 
     reference: Reference

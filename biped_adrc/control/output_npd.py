@@ -3,7 +3,7 @@
     y'' = J q'' + drift = w,   w = -K_p y - K_d y'
     u   = (J D^-1 B)^-1 (w - drift + J D^-1 Omega)
 
-Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative degree two. With the split (12), (13),
+Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative degree two. With (12), (13) of the paper,
 q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
 
     (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)
@@ -30,7 +30,8 @@ from biped_adrc.gait.outputs import OutputPoint, Outputs
 from biped_adrc.model.reduction import Reduction
 
 _SINGULAR = 1e-9
-"""Least reciprocal condition of the decoupling matrix; a Jacobian by differences has errors of 1e-11."""
+"""Least reciprocal condition number [1] of the decoupling matrix: a Jacobian by differences has relative errors
+of 1e-11, which a condition number of 1e9 makes 1e-2 in the torque."""
 
 
 @dataclass(frozen=True)

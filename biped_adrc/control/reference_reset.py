@@ -1,17 +1,19 @@
 """Reference reset: after impact the constraint is bent to the state, so that the error is zero.
 
-The impact leaves the state off a constraint h that is not hybrid invariant, or after a disturbance. With
-the error and its slope just after impact,
+The impact leaves the state off the constraint h if h is not hybrid invariant, or after a disturbance. With the
+error and its slope by Theta just after impact,
 
-    e = q_b - h(Theta),   e' = q_b' / Theta' - h'(Theta),
+    e = q_b - h(Theta),   de/dTheta = q_b' / Theta' - dh/dTheta,
+
+the polynomial
 
     c(Theta) = x^3 (a_0 + a_1 x),   x = (Theta_e - Theta) / (Theta_e - Theta+),   0 past Theta_e
 
-is added to h, with a_0, a_1 from c = e and dc/dTheta = e' at that Theta. c reaches zero at Theta_e, after a
-share of the step, with two derivatives, and the reference is h again. The zero set of the error becomes
-invariant under the impact for any h; c does not depend on the speed, since the impact is linear in the
-rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback Control of Dynamic Bipedal Robot
-Locomotion, 2007, on transition controllers).
+is added to h, with a_0, a_1 from c = e and dc/dTheta = de/dTheta at that Theta. c and two of its derivatives
+reach zero at Theta_e, after a share of the step; from there on the reference is h again. The zero set of the
+error becomes invariant under the impact for any h; c does not depend on the speed, since the impact is linear
+in the rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback Control of Dynamic Bipedal
+Robot Locomotion, 2007, on transition controllers).
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction
 
 LEAST_REACH = 0.2
-"""Least x at impact for a correction: nearer to Theta_e, c would have to fall abruptly."""
+"""Least x just after impact for which a correction is made; nearer to Theta_e c would have to fall abruptly."""
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from biped_adrc.model.biped import Biped
 
 TORSO_LEAN = (1.0, 1.0, 0.0, 0.0)
 """d for RABBIT's joints: both hips turn, so that the legs stay where they were and the torso leans forwards by
-beta in the middle of the step. A lean forwards and back slows the walk: its gains are negative."""
+beta in the middle of the step. To lean forwards and back again slows the walk: the gains are negative."""
 
 
 def bump(s: float) -> tuple[float, float, float]:

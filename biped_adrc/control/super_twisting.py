@@ -8,7 +8,7 @@ leaves sigma' = -k_1 |sigma|^(1/2) sign(sigma) + z + d for an error d [rad/s^2] 
     k_1 = 1.5 L^(1/2),   k_2 = 1.1 L
 
 sigma and sigma' are zero after a finite time, and e falls like exp(-lambda t): Levant, Int. J. Control 58(6),
-1993, and 76(9), 2003. A jump of d starts this anew.
+1993, and 76(9), 2003. After a jump of d, such as the edge of a push, this begins anew.
 
 Here the root and the sign are smooth within a layer delta [rad/s], which gives up the last of the accuracy:
 

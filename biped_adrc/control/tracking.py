@@ -3,8 +3,8 @@ and an observer as the state.
 
     u = kappa^-1 (a - xi),   a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
 
-is shared by (20) and (28). They differ in where x1, x2 and xi come from: an observer in (20), the
-measurement and the model in (28).
+is shared by the laws (20) and (28) of the paper. They differ in where x1, x2 and xi come from: an observer in
+(20), the measurement and the model in (28).
 
 q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows q_N'' = A_N
 q_b'' + a_N of (12) and q_b'' = a,
@@ -19,8 +19,9 @@ ADRC, its output form and DOB have an observer that is their whole state:
     z <- correct(z, y),     z <- predict(z, input)          at a tick
 
 r is the point of the reference, x^ the observer's estimate. An `ObservingController` defines the observer's
-measurement y, its input, and the torque; observer and reference may be any. `adrc` measures the joints or
-the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets and time bases included, is here once.
+measurement y, its input, and the torque, for every observer and every reference. In `adrc` y is q_b, in
+`output_adrc` the error q_b - q_d, in `momentum_dob` the momentum. All else, resets and time bases included, is
+here once.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 
 _HIGHEST = 1e15
-"""Largest gain [1/s^2], [1/s]; above it products of gains and poles overflow."""
+"""Largest gain, K_p in 1/s^2 or K_d in 1/s; above it products of gains and poles overflow."""
 
 
 @dataclass(frozen=True)
@@ -99,8 +100,8 @@ def tracking_torque(
 ) -> Array:
     """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement m.
 
-    solve_theta: whether the loop through Theta'' is solved; else it is drift + f, as the paper prints it,
-    whose error acts as a disturbance. Raises SingularError as `solved_acceleration`.
+    solve_theta: whether the loop through Theta'' is solved for the acceleration a; else a = drift + f, as the
+    paper prints it, whose error acts as a disturbance. Raises SingularError where that loop is singular.
     """
     x2 = x.velocity
     if m.impulse is not None:
@@ -111,12 +112,16 @@ def tracking_torque(
 
 
 def unchanged(r: ReferencePoint, de: Array, a: Array) -> Array:
-    """The part of the rate error de (p,) [rad/s] that no change of the rates along a (n, 2) moves."""
+    """The part of the rate error de (p,) [rad/s] that a change of the rates q' in the two directions a (n, 2)
+    leaves as it is.
+    """
     return orthogonal_to(rate_error_change(r, a)) @ de
 
 
 def rate_error_change(r: ReferencePoint, a: Array) -> Array:
-    """Change of q_b' - q_d' (p, 2) when the rates change by a (n, 2): a_b - H a, as q_d' moves with Theta'."""
+    """Change of q_b' - q_d' (p, 2) when the rates change by each column of a (n, 2): a_b - H a, since q_d' is a
+    function of Theta'.
+    """
     return a[: len(r.q_d)] - r.H @ a
 
 
@@ -154,7 +159,9 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
 
 
 def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
-    """M = I - H_b - H_N A_N (p, p), by which y = q_b - q_d has y'' = M q_b'' - drift - H_N a_N."""
+    """M = I - H_b - H_N A_N (p, p) of the output y = q_b - q_d, whose acceleration is y'' = M q_b'' - drift -
+    H_N a_N.
+    """
     p = len(r.q_d)
     return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
@@ -180,8 +187,8 @@ def body_of(m: Measurement) -> BodyTerms:
 class ObservingController(Controller):
     """Base of the controllers whose state is that of an observer.
 
-    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset:
-    of the observer, at impact.
+    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: what happens to
+    the observer at impact.
 
     >>> controller = ba.ADRCController(gait.constraint)
     >>> isinstance(controller, ba.ObservingController), controller.observer.m
@@ -197,7 +204,9 @@ class ObservingController(Controller):
 
     @abstractmethod
     def measured_output(self, m: Measurement) -> Estimate:
-        """The observer's measurement y, its rate y', and the disturbance by the nominal model."""
+        """The observer's measurement y, its rate y', and the nominal model's value of what the observer takes
+        for a disturbance; in the units of the observer.
+        """
 
     @abstractmethod
     def observer_input(self, m: Measurement, u: Array) -> Array:
@@ -209,7 +218,9 @@ class ObservingController(Controller):
 
     @abstractmethod
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of y' when the rates change by a (n, 2), such as by each component of a contact impulse."""
+        """Changes of y' (one column each) when the rates q' change by each column of a (n, 2), such as by each
+        component of a contact impulse.
+        """
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
         """The observer's estimates x as estimates of the joints, each (p,); x itself by

@@ -46,9 +46,9 @@ def one_of(words: Collection[str]) -> Range:
 
 
 def each(words: str, holds: Callable[[Any], bool], count: int | None = None) -> Range:
-    """Range of a row, or of a mapping of names to values, of which each value `holds`.
+    """Range of a row, or of a mapping of names to values, in which holds(value) is true for each value.
 
-    count: how many there have to be, None for any.
+    words: its name in a message. count: how many values there have to be; None for any number.
     """
 
     def has(x: Any) -> bool:
@@ -102,8 +102,8 @@ def check_part(value: object, what: str, *kinds: type) -> None:
 def check_fields(part: Any) -> None:
     """Check every field of a dataclass that is annotated with a part, a number or a text, perhaps None.
 
-    As `check_part`; a value of any type has to be in the `Range` of its annotation, if that has one. Raises
-    InputError.
+    A value has to be an instance of its annotated type, and in the `Range` of its annotation, if that has one.
+    Raises InputError.
     """
     cls: Any = type(part)
     for name, kinds, typed, range in _expected(cls):
@@ -161,10 +161,11 @@ def returned(
 ) -> Array:
     """Check the result `found` of a method of a user's class; returns it as an array of floats.
 
-    shape: the expected one; None: any row. finite: whether NaN and infinity are refused. field: `method` is
-    the name of one of the arrays that the class returned together. It is called at every tick, so an array
-    that is right already costs less than a microsecond. Raises InputError that names the class for None,
-    complex numbers, text, objects and another shape, and, where `finite`, NotFiniteError.
+    part: object of that class. shape: the expected one; None: any row of numbers. finite: whether NaN and
+    infinity are refused. field: whether `method` is not a method, but the name of one of several arrays that
+    the class returned together. It is called at every tick, so an array that is right already costs less than a
+    microsecond. Raises InputError that names the class for None, complex numbers, text, objects and another
+    shape, and, where `finite`, NotFiniteError.
     """
     if type(found) is not np.ndarray or found.dtype != FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
@@ -197,8 +198,8 @@ def line_of(part: object, method: str) -> str:
 def _numbers_returned(
     found: object, shape: tuple[int, ...] | None, part: object, method: str, field: bool
 ) -> Array:
-    """Convert a result that is no array of floats of this shape, or raise InputError;
-    arguments as for `returned`.
+    """Convert the result `found` of a user's class to an array of floats of this shape, or raise InputError
+    that names the class of `part` and its method (or field, see `returned`).
     """
     try:
         array = np.asarray(found)
@@ -220,8 +221,8 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
     """Check the result of `__call__` of a reference or of outputs: a tuple `kind` of
     arrays (p,), its H or J (p, n).
 
-    p: None takes it from that matrix. Returns it with arrays of floats. Raises as
-    `returned`, with the name of the field.
+    n: number of coordinates. p: number of rows; None takes it from that matrix. Returns the tuple with arrays
+    of floats. Raises InputError and NotFiniteError with the name of the field.
     """
     if not isinstance(found, kind):
         fields = ", ".join(kind._fields)
@@ -238,7 +239,7 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
 def called_checked(cls: Any, kind: type) -> None:
     """Wrap the method `__call__`(t, q, v) of a class, where it writes one, so that its result is checked.
 
-    kind: as for `point_returned`.
+    kind: the NamedTuple that it has to return, `ReferencePoint` or `OutputPoint`.
     """
     own = vars(cls).get("__call__")
     if own is not None:
@@ -314,9 +315,9 @@ def hints_of(cls: type) -> dict[str, Any]:
 
 @lru_cache(maxsize=256)
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None], ...]:
-    """Fields of a class to check: name, allowed types, whether these are checked, and range of each.
+    """The fields of a class that are checked: (name, allowed types, whether these are checked, range) of each.
 
-    Without fields whose annotation cannot be read or contains other types.
+    Left out are fields whose annotation cannot be read, and those with other types and without a range.
     """
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
@@ -330,7 +331,7 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
     each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
     kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
-    if ranges and int in kinds:  # which the range itself looks at
+    if ranges and int in kinds:  # NumPy's whole numbers count too; the range itself refuses True
         kinds = (Integral, *(x for x in kinds if x is not int))
     return kinds, ranges[0] if ranges else None
 

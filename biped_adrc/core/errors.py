@@ -132,7 +132,7 @@ def check_positive(value: float, what: str, hint: str = "") -> None:
 
 
 def _if_text(value: object) -> str:
-    """Says of a text that it is one, since '4' is printed as 4 is."""
+    """A remark on a value that is a text, since '4' is printed as 4 is; empty for other values."""
     return f" ({value!r} is a str)" if isinstance(value, str) else ""
 
 
@@ -141,7 +141,9 @@ MANY = 20
 
 
 def unknown(name: str, known: Iterable[str]) -> str:
-    """The sentence for a name that does not exist: alike ends, near ones, or all of its record."""
+    """The sentence for a name that does not exist; it proposes known names with the same or a similar last
+    part, similar names, or all names beside it in its record.
+    """
     known, (record, dot, last) = list(known), name.rpartition(".")
     beside = [whole for whole in known if dot and whole.startswith(record + dot)]
     ends: dict[str, list[str]] = {}
@@ -162,7 +164,7 @@ def unknown(name: str, known: Iterable[str]) -> str:
 
 
 def complaint(error: Mapping[str, Any]) -> str:
-    """One error of pydantic's as what was found and what was expected."""
+    """Text of one of pydantic's errors: what was found and what was expected."""
     text: str = error["msg"].removeprefix("Value error, ").replace("tuple", "list")
     if text.startswith("Input should"):
         return f"found {error['input']!r}, {text.replace('Input should', 'should')}"

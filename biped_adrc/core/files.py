@@ -41,7 +41,7 @@ _KIND = re.compile(r"\.[A-Za-z]\w*")
 CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 """Characters that no name of an output file contains, such as a line break."""
 _LONGEST = 240
-"""Longest part of a path [bytes]; file systems take 255, and the temporary file beside needs some."""
+"""Longest part of a path [bytes]; file systems take 255, and the name of the temporary file is longer."""
 
 
 def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False) -> Path:

@@ -1,6 +1,7 @@
-"""What is computed of a part once, and remembered in it: walks that share a part share what it decides.
+"""Results that depend on a part alone are computed once and kept in the part: walks that share it share them.
 
-Only of a part in which nothing can change. A class of the user's may change, so nothing is remembered there.
+This is done only for a part in which nothing can change. A class of the user's may change, so nothing is kept
+there.
 """
 
 from __future__ import annotations
@@ -20,14 +21,16 @@ from biped_adrc.core.part import is_part
 _T = TypeVar("_T")
 _PLAIN = (int, float, complex, str, bytes, Enum, NoneType, type, np.generic)
 _REMEMBERED = 64
-"""Results that a function of `once` keeps of a part, and parts that `shared` keeps."""
+"""Most results that a part keeps, and most parts that `shared` keeps; then the oldest one is dropped."""
 
 
 class Memory(dict[Hashable, Any]):
-    """The last results by what they were computed of; empty in another process, and in a copy by pickle."""
+    """The last results, by what they were computed from; empty in another process, and in a copy by pickle."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
-        """The result for a key, made where it is not there."""
+        """The result for this key: the one that is kept, or else what make() gives, which is kept from then
+        on.
+        """
         if key not in self:
             self.keep(key, make())
         return self[key]
@@ -43,10 +46,14 @@ class Memory(dict[Hashable, Any]):
 
 
 _SHARED = Memory()
+"""Copies of parts that `shared` has made, by class and fields."""
 
 
 def constant(x: object) -> bool:
-    """Whether nothing in x can change: a number, text, read-only array, or part of this package with such."""
+    """Whether nothing in x can change: a number, text, read-only array, or part of this package with such.
+
+    For a part the answer "yes" is kept in its attribute `_constant`.
+    """
     if isinstance(x, np.ndarray):
         return not x.flags.writeable and (x.base is None or constant(x.base))
     if isinstance(x, tuple):
@@ -64,9 +71,10 @@ def constant(x: object) -> bool:
 
 
 def once(make: Callable[..., _T]) -> Callable[..., _T]:
-    """The function make(x, *more), computed once for a part x; in no part among them can anything change.
+    """Decorator: make(x, *more) is computed once for a part x and kept in it, so that walks that share the part
+    share the result. It is computed each time if something in x, or in a part among `more`, may change.
 
-    The part x remembers the last results, so that walks that share it share them. more: hashable.
+    more: hashable arguments.
     """
 
     @wraps(make)
@@ -80,7 +88,9 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
 
 
 def shared(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields; the same object for equal fields, so that it remembers."""
+    """A copy of a part with other fields; equal calls return one object, so that what `once` keeps in it is used
+    again.
+    """
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
     # kept with the fields: while they live nothing else has their identities

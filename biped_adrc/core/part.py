@@ -8,7 +8,7 @@ parts. Python calls their methods on numbers. The engine calls them once on symb
     derived                        numbers that are computed once from the fields, such as gains from poles
     setup                          fields for derived numbers and the start alone, such as a seed
 
-A method that decides by a number (`if x > 0`) cannot be compiled; it runs in Python. Write `np.where` instead.
+A method with an `if` on a number (`if x > 0`) cannot be compiled; it runs in Python. Write `np.where` instead.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ _T = TypeVar("_T")
 class derived(cached_property[_T]):
     """A method whose value is computed once for each object, from its fields, and is read-only.
 
-    func: the method, of `self` alone. For numbers that machine code takes as they are: a pole placement is
-    not run on symbols, its gains are used.
+    func: the method, with no argument but `self`. Machine code uses the numbers that it returns: a pole
+    placement, for instance, is not run on symbols, but its gains are used.
 
     >>> @dataclass(frozen=True)
     ... class Damped:
@@ -63,7 +63,7 @@ class Setup:
 
 
 MEMORY = ("_constant", "_hash", "_once")
-"""Names under which a part keeps what was computed of it (`core.once`)."""
+"""Attributes of a part in which `core.once` keeps what was computed from it."""
 SETUP = {"setup": True}
 """Metadata of a field that no method reads on symbols."""
 

@@ -29,8 +29,8 @@ TaskProgress = Callable[[int, int, str], None]
 MOST_WORKERS = 1024
 """Largest number of workers on one machine; more are a mistake, which would take its memory."""
 KEPT = 3 * 2**23
-"""Bytes that a worker takes and gives back at first: glibc then keeps twice as many of those it frees, so that
-a chunk of walks need not ask for its pages anew."""
+"""Number of bytes that a worker allocates and frees at first: glibc then keeps twice as many of the bytes that
+are freed later, so that a chunk of walks need not ask the system for its pages anew."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: new interpreters import nothing from the working directory."""
 
@@ -132,6 +132,6 @@ def _begin() -> None:
             os._exit(1)
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    bytearray(KEPT)
+    bytearray(KEPT)  # allocated and freed at once, for its effect on glibc; see KEPT
     gc.freeze()
     Thread(target=end_with_parent, daemon=True).start()

@@ -39,7 +39,7 @@ _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
 
 FOLDERS: dict[str, str] = {}
-"""By name of a module the folder of the study file that names a class of it; workers are handed a copy."""
+"""Name of a user's module -> folder of the study file that names a class of it; workers are handed a copy."""
 _IMPORTING = RLock()
 """Held while folders are on the path: threads share it, and a module may name others while it is imported."""
 _T = TypeVar("_T")
@@ -48,7 +48,7 @@ _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 @dataclass(frozen=True)
 class _Entry:
-    """One thing of the registry."""
+    """One entry of the registry: a class or function, and what a scenario has to know of it."""
 
     home: str
     """Its class or function as `module:name`."""
@@ -57,9 +57,9 @@ class _Entry:
     defaults: Mapping[str, float] = field(default_factory=dict)
     """Values of a scenario that it takes where the scenario has none."""
     units: Mapping[str, str] = field(default_factory=dict)
-    """Units of the values that it alone takes, and of K_p and K_d where they are others than NPD's."""
+    """Units of the values that only this part takes, and of K_p and K_d if they differ from NPD's."""
     over_steps: bool = False
-    """Of a disturbance: whether it goes on over impacts, with its window in time of the walk."""
+    """For a disturbance: whether it goes on over impacts, with its window in the time of the walk."""
     given: Callable[..., object] | None = None
     """The object itself, where `register` was given it; None: it is imported from `home`."""
 
@@ -72,7 +72,9 @@ REGISTRY: dict[str, dict[str, _Entry]] = {
     kind: {name: _Entry(**values) for name, values in entries.items()}
     for kind, entries in packaged("biped_adrc.core", "registry.toml").items()
 } | {"robot": {}, "gait": {}}
-"""By kind and name, from registry.toml and `register`; `names` has curves and files of robots and gaits too."""
+"""Entries by kind and name, from registry.toml and `register`; `names` also has the files of robots and
+gaits.
+"""
 
 
 def names(kind: str) -> tuple[str, ...]:
@@ -135,7 +137,9 @@ def is_own(name: str) -> bool:
 
 
 def find(kind: str, name: str) -> _Entry:
-    """The entry of a name. Raises InputError with the names there are, the nearest first."""
+    """The entry of a name, whatever its capitals; a new one for `module:Class`. Raises InputError with the
+    known names, the nearest first.
+    """
     return REGISTRY[kind].get(known_name(kind, name)) or _Entry(name)
 
 
@@ -152,7 +156,7 @@ def known_name(kind: str, name: str) -> str:
 
 
 def unit_in(kind: str, name: object, value: str, usual: str) -> str:
-    """The unit of a value of a part of the package; `usual` where its entry states none."""
+    """The unit of the value named `value` of the part `name`, from its entry; `usual` if that states none."""
     entries = REGISTRY.get(kind, {}).items()
     stated = (entry.units for known, entry in entries if _plain(known) == _plain(str(name)))
     return next(stated, {}).get(value, usual)
@@ -217,7 +221,7 @@ def construct(
     kind: type[_T],
     place: str = "",
 ) -> _T:
-    """make(**values) with those of the values that it takes; the result has to be a `kind`.
+    """Call make with those of the values that it takes by name; the result has to be a `kind`.
 
     what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record.
     Raises InputError for values that are missing, an error inside of make, and a result of another class.

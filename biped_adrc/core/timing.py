@@ -15,8 +15,8 @@ from biped_adrc.core.checks import Checked, Range
 from biped_adrc.core.errors import InputError
 
 LEAST_PERIOD, LONGEST_PERIOD = 1e-9, 0.1
-"""Sampling periods accepted [s]: shorter ones could not be counted exactly in floats, and a body with the hip
-0.8 m high falls with sqrt(l / g) = 0.29 s."""
+"""Least and largest sampling period [s]: shorter ones could not be counted exactly in floats; a longer one is
+too long for a body with the hip 0.8 m high, which falls with the time constant sqrt(l / g) = 0.29 s."""
 LONGEST_DELAY = 100
 """Largest computation delay accepted, in periods; a longer one is a mistake of units."""
 WHOLE = 1e-9

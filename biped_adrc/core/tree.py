@@ -1,7 +1,8 @@
 """A state is a tree: a NamedTuple of arrays, of single numbers and of further states, or an array alone.
 
-Laws read and return trees. Integrators, stored runs and machine code know vectors alone: `flatten` joins the
-numbers of a tree in the order of its fields, and its `Layout` makes the tree of a vector again.
+Controllers and observers read and return trees. Integrators, stored runs and machine code use vectors:
+`flatten` joins the numbers of a tree in the order of its fields, and its `Layout` makes the tree of a vector
+again.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def flatten(tree: Any) -> Array:
 
 
 def chosen(which: float, one: Any, other: Any) -> Any:
-    """Choose between two trees of one layout: `one` where `which` is 1, `other` where it is 0."""
+    """Choose between two trees of one layout: `one` if `which` is 1 (true), `other` if it is 0."""
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
         return _like(type(one), parts)
@@ -62,7 +63,7 @@ class Layout(NamedTuple):
     parts: tuple[Any, ...]
     """Layouts of a tuple's parts; for an array its shape."""
     size: int
-    """How many numbers it has."""
+    """Number of numbers in the tree."""
 
     @classmethod
     def of(cls, tree: Any) -> Layout:
@@ -91,7 +92,7 @@ class Layout(NamedTuple):
         return _like(self.kind, parts)
 
     def place(self, *path: str) -> slice:
-        """Where the part at a path of names, such as ("tail", "own"), stands in the vector."""
+        """The slice of the vector that has the part at a path of field names, such as ("tail", "own")."""
         at, part = 0, self
         for name in path:
             i = part.kind._fields.index(name)  # type: ignore[union-attr]
@@ -100,14 +101,14 @@ class Layout(NamedTuple):
         return slice(at, at + part.size)
 
     def starts(self) -> list[int]:
-        """Where in the vector each array or number begins."""
+        """The index in the vector at which each array or number begins."""
         if self.kind is None or self.kind is type(None):
             return [0]
         ends = accumulate((x.size for x in self.parts), initial=0)
         return [at + start for at, x in zip(ends, self.parts, strict=False) for start in x.starts()]
 
     def names(self, name: str = "") -> Iterator[str]:
-        """Iterate over what each number is called, such as line.u[0]."""
+        """Iterate over the names of all numbers, such as line.u[0]."""
         if self.kind is None:
             for i in np.ndindex(*self.parts):
                 yield name + (f"[{', '.join(map(str, i))}]" if i else "")
@@ -122,8 +123,8 @@ def returned_tree(
 ) -> Any:
     """Check a state that a method of a user's class returns, and return it with arrays of floats.
 
-    layout: that of the state at the start of the run; None: any. Raises InputError that names class, method and
-    line for another class, shape or type, and, where `finite`, NotFiniteError.
+    layout: that of the state at the start of the run; None: every layout is right. Raises InputError that names
+    class, method and line for another class, shape or type, and, where `finite`, NotFiniteError.
     """
     kind = None if layout is None else layout.kind
     if layout is not None and kind is None:
@@ -143,7 +144,7 @@ def returned_tree(
 
 
 def _or_none(found: Any, layout: Layout | None, part: object, method: str, finite: bool) -> Any:
-    """As `returned_tree`, of a part of a tree, which may be None."""
+    """Check a part of a tree as `returned_tree` checks the whole; a part may also be None, without numbers."""
     if found is None and (layout is None or layout.kind is type(None)):
         return None
     return returned_tree(found, layout, part, method, finite)

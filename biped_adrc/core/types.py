@@ -53,7 +53,9 @@ def frozen(value: _T) -> _T:
 
 
 def relabelled(rows: Array, swap: Indices) -> Array:
-    """Rows (.., p) of joints in their order after an impact: entry swap[i] of (rows, -rows) for joint i."""
+    """Numbers of the p joints (.., p) in the order of the joints after an impact: joint i gets entry swap[i] of
+    (rows, -rows), so a joint between the legs may change its sign.
+    """
     return np.concatenate((rows, -rows), axis=-1)[..., swap]
 
 

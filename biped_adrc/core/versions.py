@@ -38,7 +38,7 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
 
 def differences(found: Mapping[str, object], expected: Mapping[str, object]) -> str:
-    """Text on the differences of two sets of values, `found` ("there") and `expected` ("here"); empty if
+    """Text that lists the values that differ, of `found` ("there") and of `expected` ("here"); empty if
     equal.
     """
     names = sorted({*found, *expected})

@@ -1,4 +1,4 @@
-"""The virtual holonomic constraint of section IV: q_d = h(Theta(q)).
+"""The virtual holonomic constraint of the paper's section IV: q_d = h(Theta(q)).
 
     Theta = c q,   s = (Theta - Theta+) / (Theta- - Theta+)
     q_d   = h(Theta)
@@ -7,7 +7,7 @@
 
 Theta+ is the phase just after impact, Theta- just before the next one; ' on h is d/dTheta.
 
-Outside [Theta+, Theta-] the curve goes on as it is, and a polynomial leaves its range steeply. A *continued*
+Outside [Theta+, Theta-] the curve goes on as the polynomial it is, and soon grows steeply. A *continued*
 constraint goes on smoothly instead: at a distance y past an end with h_0, h_0', h_0'' there,
 
     h = h_0 + h_0' y + h_0'' (l |y| - l^2 (1 - exp(-|y| / l)))
@@ -110,7 +110,11 @@ class VirtualConstraint(Reference):
 
 
 def past_end(y: float, fade: float, h: Array, dh: Array, ddh: Array) -> tuple[Array, Array, Array]:
-    """The continuation at a distance y in s past an end, with l = fade, from h, h', h'' (p,) at that end."""
+    """The module's continuation, and two derivatives, at a distance y [1] in the normalised phase s past an
+    end.
+
+    fade [1]: l, in s. h, dh, ddh (p,) [rad]: h and its derivatives by s at that end.
+    """
     left = np.exp(-abs(y) / fade)
     h = h + y * dh + (fade * abs(y) - fade * fade * (1.0 - left)) * ddh
     return h, dh + np.sign(y) * fade * (1.0 - left) * ddh, left * ddh
@@ -132,7 +136,9 @@ Correction = Callable[[float], tuple[Array, Array, Array]]
 
 @dataclass(frozen=True)
 class CorrectedConstraint(Reference):
-    """The reference h(Theta) + c(Theta): a constraint with a correction over the same phase."""
+    """The reference h(Theta) + c(Theta): a constraint (`base`, which may be a corrected one) with a correction
+    over the same phase.
+    """
 
     base: VirtualConstraint | CorrectedConstraint
     correction: Correction

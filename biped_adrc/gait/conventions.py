@@ -17,7 +17,7 @@ Entries of a convention in the file, for a robot with knees (five coordinates):
 
     coordinates          names, in the convention's order
     A, half_turns        q = A q' + pi half_turns
-    knees, outputs       places of the knees; coordinates that are a gait's usual outputs
+    knees, outputs       places of the knees, and of the coordinates that are a gait's usual outputs, from 0
     sense                +1 if the phase falls in a walk to +x, -1 if it grows
     source               publication or program
 """

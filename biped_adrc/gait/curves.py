@@ -32,7 +32,7 @@ from biped_adrc.core.types import Array, read_only
 
 @dataclass(frozen=True)
 class Curve(Shown, ABC):
-    """Base of all curves: coefficients (p, M + 1), one row per joint [rad], linear in h.
+    """Base of all curves: coefficients (p, M + 1) [rad], one row per joint; h is linear in them.
 
     Raises GaitError when they are not finite or not 2-D.
     """
@@ -155,7 +155,9 @@ class ControlledCurve(Curve):
     @classmethod
     @abstractmethod
     def abscissae(cls, degree: int) -> Array:
-        """Coefficients (M + 1,) of h(s) = s; the second is the reach of the slope at an end."""
+        """Coefficients (M + 1,) of h(s) = s. The second one is the `reach` of a slope: a curve that begins with
+        the slope dh/ds has alpha_1 = alpha_0 + reach dh/ds.
+        """
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:

@@ -34,7 +34,7 @@ from biped_adrc.model.biped import Biped
 _FORMAT = "biped_adrc family 1"
 """First entry of a family's file."""
 DECISION = 0.35
-"""Share of a step, in Theta, at which the controller decides on the member that ends it."""
+"""Share of a walking step, in Theta, at which `control.footstep` decides on which member the step ends."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +42,13 @@ class PolynomialMap(Part):
     """y(x) = sum_k c_k prod_i z_i^e_ki with z = (x - centre) / scale; x (d,), y (m,)."""
 
     powers: tuple[tuple[int, ...], ...]
-    """e (K, d)."""
+    """Exponents e (K, d) of the K monomials."""
     coefficients: Array
-    """c (K, m)."""
+    """c (K, m), in the units of y."""
     centre: Array
-    """(d,)."""
+    """Middle of the range of x (d,), in its units."""
     scale: Array
-    """(d,)."""
+    """Half width of the range of x (d,), in its units."""
 
     def __post_init__(self) -> None:
         freeze(self, "coefficients", "centre", "scale")
@@ -81,8 +81,8 @@ class StepMap(Part):
     to_impact: PolynomialMap
     """(v at the start, v at the end, L of the step before, L) -> 2 W [kg^2 m^4/s^2], J [kg m^2]."""
     to_decision: PolynomialMap
-    """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W', J', and dq_b/dTheta (p,)
-    just after the impact."""
+    """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W' [kg^2 m^4/s^2],
+    J' [kg m^2], and dq_b/dTheta (p,) [rad/rad] just after the impact."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next decision.
@@ -96,7 +96,9 @@ class StepMap(Part):
         return delta2 * (y + W + 2.0 * r * J) + W_next + 2.0 * r * J_next
 
     def cycle_square(self, v: float, L: float, r: float = 0.0) -> float:
-        """y of the periodic walk of the member (v, L) under r: the fixed point of `next_square`."""
+        """y [kg^2 m^4/s^2] at the decision in the periodic walk of the member (v [m/s], L [m]) under the torque
+        r [N m]: the fixed point of `next_square`.
+        """
         mu = np.array((v, L))
         return self.next_square(0.0, mu, mu, L, r) / (1.0 - self.delta_squared(v, L))
 
@@ -117,7 +119,7 @@ class GaitFamily(Part):
     preset: str
     """Robot and preset that it was made for."""
     curves: PolynomialMap
-    """mu -> alpha (p, M + 1) flat, Theta+ of the periodic gait, Theta- [rad]."""
+    """mu -> Bezier coefficients alpha (p, M + 1) in one row, Theta+ of the periodic gait, Theta- [rad]."""
     steps: StepMap
     phase: Array
     """c (n,) of Theta = c q."""
@@ -126,7 +128,8 @@ class GaitFamily(Part):
     high: Array
     """Largest (speed, step length) (2,)."""
     members: tuple[tuple[float, ...], ...] = setup(())
-    """Of each member at a design: speed, step length, friction, peak torque [N m], least F_N [N]."""
+    """For each designed gait to which the family is fitted: speed [m/s], step length [m], friction that it
+    needs [1], peak torque [N m], least F_N [N]."""
     provenance: Mapping[str, object] = field(default_factory=dict, metadata=SETUP)
 
     def __post_init__(self) -> None:

@@ -60,7 +60,7 @@ class Gait(Shown):
     """Name by which `load_gait` finds its file."""
     robot: str
     preset: str
-    """Name of the preset of the robot it was made for."""
+    """Name of the preset (set of masses) of the robot it was made for."""
     constraint: VirtualConstraint
     """The virtual constraint q_b = h(Theta)."""
     q_minus: Array
@@ -133,7 +133,8 @@ class Gait(Shown):
         ends = ("end", c.theta_minus, q), ("start", c.theta_plus, biped.relabel(q))
         for end, theta, pose in ends:
             angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
-            k = int(np.argmax(np.round(np.abs(angles - goals), 9)))  # joints before Theta
+            # of equal gaps a joint, before Theta
+            k = int(np.argmax(np.round(np.abs(angles - goals), 9)))
             yield (
                 bool(abs(angles[k] - goals[k]) <= CLOSES),
                 f"{(*d.joints[:p], 'Theta')[k]} at the {end} of the curve is {angles[k]:.6g} rad, expected "

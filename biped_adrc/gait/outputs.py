@@ -40,7 +40,7 @@ _BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
 
 
 _H = 4e-3
-"""Half width of the differences [rad]."""
+"""Distance of neighbouring points of the differences [rad]; the outer ones are 2 _H away."""
 
 
 class OutputPoint(NamedTuple):
@@ -154,7 +154,9 @@ class FunctionOutputs(Outputs):
         return OutputPoint(y, J @ v, J, self._bend(q, v))
 
     def _bend(self, q: Array, v: Array) -> Array:
-        """J' v (p,): the second derivative of y along v; the step has the length _H, whatever the speed."""
+        """J' v (p,), with J' = dJ/dt: the second derivative of y along v. The points of the difference are _H
+        apart, whatever the speed; v = 0 has none.
+        """
         speed = math.sqrt(v.dot(v))
         h = _H / np.where(speed > 0.0, speed, 1.0)
         return np.where(speed > 0.0, _along(self.function, q, h * v, _BEND) / h**2, 0.0)

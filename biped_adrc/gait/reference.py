@@ -72,7 +72,7 @@ class Reference(Part):
 
 
 def check_point(reference: Reference, r: object, p: int, n: int) -> None:
-    """Raise InputError unless r is a `ReferencePoint` with the shapes of p joints and n coordinates.
+    """Raise InputError unless r, which `reference` returned, has the shapes of p joints and n coordinates.
 
     Called once before a walk, since a wrong shape would broadcast silently.
     """

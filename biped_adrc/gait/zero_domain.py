@@ -42,6 +42,7 @@ LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"
 """Name of the bound by the highest point of V_zero, which the step has to pass."""
 UNLIMITED = "no limit"
+"""Name of the upper bound where nothing limits zeta."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,9 @@ class Margin(NamedTuple):
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits of the domain, each as a `Margin`."""
+    """All limits of the domain, each as a `Margin`; at a given Theta, forces and torques are affine in
+    Theta'^2, so two rates give them at all speeds.
+    """
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))

@@ -72,7 +72,7 @@ class ZeroDynamicsOrbit(Shown):
     ground_reaction: Array
     """Ground reaction (F_T, F_N) (K, 2) [N]."""
     time_weights: Array
-    """Weights (K,) [s]: their sum with f is the integral of f over the step in time."""
+    """Weights (K,) [s]: time_weights @ f is the integral of f over the time of the step."""
     period: float
     """Duration of the step [s]."""
 
@@ -164,8 +164,8 @@ class ZeroDynamics(Shown):
         return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
-        """State (q-, q'-) on the constraint with angular momentum sigma_minus [kg
-        m^2/s], each (n,) [rad, rad/s].
+        """State (q-, q'-), each (n,) [rad, rad/s], on the constraint; its angular momentum is sigma_minus
+        [kg m^2/s].
         """
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
@@ -178,10 +178,10 @@ class ZeroDynamics(Shown):
         return sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
 
     def orbit(self, sigma_plus: float) -> ZeroDynamicsOrbit:
-        """The step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the nodes.
+        """The walking step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the
+        nodes.
 
-        Raises GaitError when the step does not reach its end, or I changes its sign,
-        so that Theta is no phase.
+        Raises GaitError when the step does not reach its end, or I changes its sign, so that Theta is no phase.
         """
         low, high = np.min(self.inertia), np.max(self.inertia)
         square = self.sigma_squared(sigma_plus)
@@ -248,11 +248,11 @@ def impact_jump(
 def invariant_constraint(
     kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
 ) -> VirtualConstraint:
-    """The hybrid-invariant constraint from a relabelled pre-impact pose to the pose itself.
+    """The hybrid-invariant constraint of a step that ends in the pre-impact pose q (n,) [rad] with the slope
+    dq = dq/dTheta (n,), and so begins in the relabelled pose.
 
-    kind, degree: of its curve. q: pre-impact configuration (n,) [rad], dq (n,): dq/dTheta there. The
-    slopes at both ends are those before and after the impact, which is linear in the rates; coefficients
-    between lie on a straight line.
+    kind, degree: of its curve. The slope at the start is that after the impact, which is linear in the rates,
+    so that dq can stand for them; the coefficients between lie on a straight line.
     """
     p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
     plus, minus = float(c @ impact.q), float(c @ q)

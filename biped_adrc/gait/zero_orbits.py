@@ -6,8 +6,9 @@ negative in a walk towards +x),
     zeta1' = zeta2 / I(zeta1),   zeta2' = -G_N(zeta1)
     V_zero(Theta) = int_{Theta+}^{Theta} G_N I dTheta,   zeta2^2 / 2 + V_zero = const in single support
 
-so one number is a step: zeta = sigma-^2 / 2 before impact. With delta = sigma+ / sigma-, which does not depend
-on the speed, the step after it begins with delta^2 zeta and is finished if that exceeds V_max = max V_zero:
+so one number determines a step: zeta = sigma-^2 / 2 [kg^2 m^4/s^2] just before the impact that begins it. With
+delta = sigma+ / sigma-, which does not depend on the speed, the step begins with sigma+^2 / 2 = delta^2 zeta
+and is completed if that exceeds V_max = max V_zero. rho gives zeta of the next step:
 
     rho(zeta) = delta^2 zeta - V_zero(Theta-)   for   zeta > V_max / delta^2
     zeta* = -V_zero(Theta-) / (1 - delta^2)     exists if  delta^2 / (1 - delta^2) V_zero(Theta-) + V_max < 0
@@ -47,9 +48,10 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
 _GRID = 401
 """Number of phases at which signs and extremes are searched; zeros between two of them are then solved for."""
 _DURATION = 1e-6
-"""Largest relative error of a duration."""
+"""Largest relative error [1] of a duration, by the error estimate of its quadrature."""
 _SADDLE = 1e-6
-"""|dV_zero/dTheta| at V_max over its largest value, below which V_max counts as an equilibrium."""
+"""|dV_zero/dTheta| at the phase of V_max, over its largest value in the step [1], below which that phase counts
+as an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
@@ -180,18 +182,22 @@ class ZeroOrbits(Shown):
         return begin - self.v_end
 
     def iterate(self, zeta: float, steps: int) -> Array:
-        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]. Raises GaitError as rho."""
+        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2] of so many walking steps.
+
+        Raises GaitError for a step that is not completed.
+        """
         result = [zeta]
         for _ in range(steps):
             result.append(self.rho(result[-1]))
         return np.array(result)
 
     def steps_to(self, zeta: float, closeness: float) -> int:
-        """Number of steps until |zeta_k - zeta*| <= closeness * zeta*, from |zeta_k - zeta*| ~ delta^(2 k).
+        """Number of walking steps until |zeta_k - zeta*| <= closeness zeta*, from |zeta_k - zeta*| ~ delta^(2
+        k).
 
-        Raises GaitError as `rho` and `zeta_star`.
+        Raises GaitError for a first step that is not completed, or if there is no stable orbit.
         """
-        self.rho(zeta)
+        self.rho(zeta)  # raises for a step that is not completed; its value is not needed
         ratio = abs(zeta / self.zeta_star - 1.0) / closeness
         if ratio <= 1.0:
             return 0
@@ -199,24 +205,28 @@ class ZeroOrbits(Shown):
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step after zeta; negative
-        behind a phase where it stops.
+        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step that begins after zeta; where it is
+        negative, the step has stopped before.
         """
         return 2.0 * (self.delta**2 * zeta - self.potential(theta))
 
     def period(self, zeta: float) -> float:
-        """Duration [s] of the step after zeta, int |I / sigma| dTheta; also at the lower end of the domain.
+        """Duration [s] of the step that begins after zeta = sigma-^2 / 2: the integral of |I / sigma| over
+        Theta.
 
-        By adaptive quadrature, needed for sigma near 0 at V_max. Raises GaitError as rho, and where its error
-        estimate exceeds _DURATION of it, in a step that nearly comes to rest.
+        Also for zeta = V_max / delta^2, the lower end of the domain, where sigma is 0 at V_max and rho is not
+        defined. The quadrature is adaptive, since sigma may be near 0 at V_max. Raises GaitError for a step
+        that is not completed, and for one that nearly comes to rest: where the quadrature's own estimate of its
+        error exceeds the share _DURATION of the duration.
         """
         if zeta != self.lowest:
-            self.rho(zeta)
+            self.rho(zeta)  # raises for a step that is not completed; its value is not needed
         c, low = self.zero.constraint, self.lowest
 
         def slowness(theta: float) -> float:
             rise = max(0.0, self.v_max - float(self.potential(theta)))
-            square = 2.0 * (self.delta**2 * (zeta - low) + rise)  # no difference of large numbers
+            # sigma^2 = 2 (delta^2 zeta - V_zero), from V_max on: no difference of large numbers
+            square = 2.0 * (self.delta**2 * (zeta - low) + rise)
             return abs(float(self.inertia(theta))) / math.sqrt(square)
 
         ends = sorted((c.theta_plus, c.theta_minus))
@@ -239,7 +249,9 @@ class ZeroOrbits(Shown):
         return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
 
     def speed(self, zeta: float) -> float:
-        """Average speed [m/s] of the step after zeta; its limit at the lower end of the domain."""
+        """Average speed [m/s] of the step that begins after zeta; at the lower end of the domain its limit,
+        which is 0 where the step comes to rest at V_max.
+        """
         if zeta == self.lowest and self._slows_down_for_ever:
             return 0.0
         return self.step_length / self.period(zeta)

@@ -1,6 +1,6 @@
 """The planar biped in the paper's coordinates q_s = (q_b, q_N): single support and impact.
 
-    D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
+    D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1) of the paper
 
 q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N is the
 absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z up; a link of
@@ -40,8 +40,8 @@ from biped_adrc.model.robots.urdf import Inertial, Joint, Tree, absolute_angles,
 STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
 ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1, eps times its condition [1]; feet of 1e-7 of the hip's mass have
-1e-8."""
+"""Largest relative round-off in D_s^-1 [1], the machine epsilon times the condition number of D_s; a robot
+whose feet have 1e-7 of the hip's mass has 1e-8."""
 
 
 @dataclass(frozen=True)
@@ -129,9 +129,10 @@ class Biped(Shown):
 
     @cached_property
     def motor_joints(self) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
-        """The joints whose angles are q_1, ..., q_p, at index step % 2 of the single support `step`.
+        """The joints of the URDF whose angles are q_1, ..., q_p; [k % 2] are those in single support number k.
 
-        In even ones the legs have changed over, and q_i belongs to the twin, with the sign of `swap`.
+        In single supports with even numbers the legs have changed over, and q_i is the angle of the twin in the
+        other leg, with the sign of `swap`.
         """
         joints = {joint.name: joint for joint in self.tree.joints}
         own = [joints[name] for name in self.description.actuated]
@@ -379,8 +380,9 @@ class Biped(Shown):
 def check_numbers(biped: Biped) -> None:
     """Check at random states that D_s is positive definite and well conditioned, Omega and the impact finite.
 
-    Masses and lengths are checked one by one where a file is read; here together, such as a mass beside another
-    1e20 times as large. Raises ModelError with what to look for in the URDF.
+    Masses and lengths are checked one by one where a file is read; this finds those that do not fit together,
+    such as a mass beside another that is 1e20 times as large. Raises ModelError with what to look for in the
+    URDF.
     """
     random, n = np.random.default_rng(5), biped.n
     where = f"'{biped.tree.source}', robot '{biped.description.name}'"

@@ -1,4 +1,4 @@
-"""Double support: the unpinned model (2) and the plastic impact (3)-(9).
+"""Double support: the unpinned model (2) and the plastic impact (3)-(9) of the paper.
 
 q_e = (q_s, p_e) with p_e (2,) [m] the end of the support leg. The floating URDF is rooted at the
 torso, so its own velocity v_float differs from q_e'; the Jacobian of the stance foot gives `v_float
@@ -7,9 +7,10 @@ torso, so its own velocity v_float differs from q_e'; the Jacobian of the stance
     D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
     D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
 
-F_2 = (F_T, F_N) is the impulse of the ground on the swing foot [N s]. The second line says that
-only this impulse acts, and that the new stance foot neither slips nor rebounds. (5) in the paper
-has the sign of E_2' F_2 against (3), (4) and (7); (7) is right.
+M is the inertia matrix of the floating model, J_2 the Jacobian of the swing foot in its velocities. F_2 = (F_T,
+F_N) is the impulse of the ground on the swing foot [N s]. The second line says that only this impulse acts, and
+that the new stance foot neither slips nor rebounds. (5) in the paper has the sign of E_2' F_2 against (3), (4)
+and (7); (7) is right.
 
 `LinkMotion` computes the angular momentum of single links from their own velocities, to test laws
 that these matrices must obey:

@@ -1,10 +1,9 @@
 """The ground: axes along and out of a slope, steps down and up, random ones, and stones.
 
-The slope is constant and tilts the whole ground; a positive one goes downhill in the walking
-direction. Steps are counted in single supports from 1: `StepDown(3, 0.02)` lowers the ground on
-which the third single support ends by 20 mm, and all that comes after it. `Walker` holds the slope
-and the tuple of steps; an impact is where the height of the swing foot over that ground comes down
-to zero.
+The slope is constant and tilts the whole ground; a positive one goes downhill in the walking direction. A step
+of the ground, down or up, is placed by the number of a single support, from 1: `StepDown(3, 0.02)` lowers by 20
+mm the ground on which the third single support ends, and all that comes after it. `Walker` holds the slope and
+the tuple of steps; an impact is where the height of the swing foot over that ground comes down to zero.
 
 All this ground is rigid. `SoftGround` is that of a plant with contact, in MuJoCo.
 """
@@ -57,7 +56,7 @@ class SoftGround(Checked, Shown):
     friction: PositiveFloat = 0.6
     """Coefficient mu of dry friction [1]."""
     time_constant: PositiveFloat = 2e-3
-    """Time constant T [s]; MuJoCo takes two of its steps for any that is shorter."""
+    """Time constant T [s]; MuJoCo uses two of its integration steps in place of a shorter one."""
     damping_ratio: PositiveFloat = 1.0
     """Damping ratio zeta [1]."""
     impedance: Annotated[tuple[float, float], RISING] = (0.95, 0.99)
@@ -112,9 +111,9 @@ class StepUp(GroundStep):
     """A step up: the ground on which single support `step` (from 1) ends lies `height`
     [m] above its stance foot.
 
-    The swing foot starts below that level; impact is where it comes down on it after it has been above. The
-    edge of the step is not part of the model, so whether the foot clears it is not checked. Raises InputError
-    for a height that is not positive; a step down is a `StepDown`.
+    The swing foot starts below that level; an impact is where it comes down on it after it has been above. The
+    vertical face of the step is not part of the model, so whether the foot clears it is not checked. Raises
+    InputError for a height that is not positive; a step down is a `StepDown`.
     """
 
 
@@ -141,7 +140,10 @@ class Stones(Checked):
 
 
 def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
-    """The length [m] of single support `step` to its stone; `usual` [m] where there is none. Takes symbols."""
+    """The length [m] of single support number `step` to its stone; `usual` [m] behind the last stone.
+
+    stones: lengths [m], the first one first. It also runs on symbols, so there is no indexing by `step`.
+    """
     L: Any = usual
     for k, stone in enumerate(stones, 1):
         L = np.where(abs(step - k) < 0.5, stone, L)
@@ -166,7 +168,8 @@ def drop_of(steps: Steps, number: int) -> float:
 
 
 def random_steps(seed: int, height: float, steps: int) -> Steps:
-    """A step down or up in each single support from 1 to `steps`, uniform within `height` [m] either way.
+    """A step of the ground, down or up, in each single support from 1 to `steps`; its height is uniform in
+    -height .. height [m].
 
     The same seed gives the same ground.
     """
@@ -190,7 +193,9 @@ def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
 
 
 def stepped(drops: Array, first: int = 1) -> Steps:
-    """Steps down and up by `drops` [m], one for each single support from `first` on; none for a drop of 0."""
+    """Steps of the ground, down by `drops` [m] (up if negative), one for each single support from `first` on;
+    none for a drop of 0.
+    """
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)
         for step, drop in enumerate(drops.tolist(), first)

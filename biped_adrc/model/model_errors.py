@@ -1,11 +1,12 @@
 """Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
 
-    m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b, F_c -> (1 + e_f) b, F_c
+    m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b -> (1 + e_f) b     F_c -> (1 + e_f) F_c
 
-with J about the COM d, which is measured from the origin of the link's frame. The errors are relative, chosen
-by hand or drawn evenly from +-width with a seed, for studies of robustness. Both legs of a biped get the same
-errors, because relabelling at impact needs equal legs; so errors go by body ("thigh") rather than by link.
-`ModelErrors.apply` makes the plant; the controller keeps the robot it was made with as nominal model.
+m is the mass, d the distance of the COM from the origin of the link's frame, J the inertia about the COM, b and
+F_c the viscous and the static friction. The errors e are relative, chosen by hand or drawn from +-width,
+uniform, with a seed, for studies of robustness. Both legs of a biped get the same errors, because relabelling
+at impact needs equal legs; so errors go by body ("thigh") rather than by link. `ModelErrors.apply` makes the
+plant; the controller keeps the robot it was made with as nominal model.
 """
 
 from __future__ import annotations
@@ -62,11 +63,11 @@ class ModelErrors(Checked, Shown):
         inertia: float = 0.1,
         friction: float = 0.3,
     ) -> ModelErrors:
-        """Draw errors of every body evenly from +-width by a seed.
+        """Draw errors of every body from +-width, uniform, by a seed.
 
-        mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints that have
-        some, where the robot was loaded with friction. The errors depend on the seed and on the bodies, in
-        their order. Raises InputError for widths with which nothing may be left.
+        mass, com, inertia, friction: the widths, dimensionless. Errors of friction are drawn if the robot was
+        loaded with friction, for the joints that have some. The errors depend on the seed and on the bodies, in
+        their order. Raises InputError for widths with which a mass or an inertia may vanish.
         """
         random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)

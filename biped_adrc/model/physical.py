@@ -21,7 +21,7 @@ laws hold for every planar biped, so they need no reference values. They are che
 Also checked are the places of hip and swing foot, and at an impact the angular momentum of the old leg about
 its joints and the linear momentum. That D_s is well conditioned and that the legs are alike is checked for
 every robot, by `Biped.check`. `import_robot.derive` runs these laws; `biped_from_urdf` refuses a robot
-for which one is broken. The reproduction of the paper holds its robot against them too.
+for which one of them is broken. The reproduction of the paper checks them for its robots too.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def largest_gaps(biped: Biped, states: int, seed: int) -> dict[str, float]:
 
 
 def _gap(found: Array, expected: Array) -> float:
-    """Largest difference of two arrays relative to the largest entry of the expected one."""
+    """Largest difference of two arrays over the largest entry of the expected one [1]."""
     return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected)))
 
 

@@ -2,7 +2,8 @@
 
 The pinned tree hangs from the stance foot: its first coordinate is the absolute angle of the stance
 shin. The paper's coordinates count from the torso. Both are angles of the same links, so `q_tree =
-T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`.
+T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`, with M the inertia matrix and nle the
+nonlinear effects (Coriolis and gravity terms) of Pinocchio.
 
 `reroot` makes this tree: it turns the tree of floating.urdf round at its stance foot. All frames
 are parallel at zero angles, so turning the tree round only moves origins. A joint that is walked
@@ -176,10 +177,11 @@ def _moved(link: Link, origin: Triple) -> Link:
 
 
 def reroot(tree: Tree, foot: str, torso: str) -> Tree:
-    """The tree pinned at link `foot` by a revolute joint `stance_pin` with the torso's pitch axis.
+    """The tree turned round: link `foot` hangs from the ground by a revolute joint `stance_pin`, with the
+    torso's pitch axis, and the torso from the leg.
 
-    `torso` is the link that the floating base carries; what is above it is dropped. Raises
-    ModelError when `foot` does not hang below `torso`.
+    `torso` is the link that the floating base carries; the base above it is dropped. Raises ModelError when
+    `foot` does not hang below `torso`.
     """
     chain, pitch = tree.path_below(foot, torso), tree.joint_above(torso)
     if chain is None:

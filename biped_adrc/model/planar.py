@@ -30,7 +30,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
 
 Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
-"""Arrays of numbers, or of symbols; a function that is given one kind returns the same kind."""
+"""Arrays of numbers, or of symbols; a function returns the kind that it takes."""
 
 
 def per_link(z: ComplexArray) -> tuple[Array, Array]:
@@ -41,7 +41,7 @@ def per_link(z: ComplexArray) -> tuple[Array, Array]:
 def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexArray:
     """Fit the vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
 
-    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places (points, 2) [m].
+    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the positions (points, 2) [m].
     Parts of d below `exact` times the largest distance of a place from the origin, or times 1 m where it is
     smaller, are round-off and set to 0.
     """

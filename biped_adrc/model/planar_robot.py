@@ -17,9 +17,10 @@ the product entry by entry. Then in absolute angles, with c = cos a and s = sin 
 and in the coordinates D_s = A^T D_a A + diag rotor, Omega = A^T Omega_a. (C_ij here are cosines, not the
 Coriolis matrix C above.) D_s and Omega are compared to Pinocchio's before anything uses them.
 
-In double support q_e = (q_s, p_e), and with J_m the row of m p_com
+In double support q_e = (q_s, p_e), with the stance foot at p_e, J_m (2, n) the Jacobian of m p_com and J_2 (2,
+n) that of the swing foot,
 
-    D_e = (D_s, J_m'; J_m, m 1),   E_2 = (J_2, 1)                    (2), (4)
+    D_e = (D_s, J_m'; J_m, m 1),   E_2 = (J_2, 1)                    (2), (4) of the paper
 
 and after the plastic impact (7) the swing foot stands, q_e+' = N q+' with N = (1; -J_2), E_2 N = 0.
 N' takes the impulse F_2 out of (7):
@@ -29,7 +30,7 @@ N' takes the impulse F_2 out of (7):
 N' D_e N (n, n) is the inertia about the swing foot: symmetric, positive definite, and n rows in
 place of the n + 4 of (7). D_e itself is singular for a robot whose mass is in one point.
 
-It is a part as all others (`core.part`): the engine runs its methods on symbols.
+It is a part like controllers and observers (`core.part`): the engine runs its methods on symbols.
 """
 
 from __future__ import annotations
@@ -92,11 +93,11 @@ class PlanarRobot:
     """A planar tree with two feet and p motors, with the methods of `Biped` that a closed loop calls."""
 
     A: Indices
-    """Absolute angles of the links a = A q, (n, n) of -1, 0, 1."""
+    """Matrix (n, n) of the links' absolute angles a = A q, with entries -1, 0, 1."""
     K: PlantArrays
     """Masses, lengths and inertias."""
     p: int
-    """Motors."""
+    """Number of motors."""
     R: Indices
     """Relabelling of the coordinates at an impact (n, n)."""
     offset: Array
@@ -162,7 +163,7 @@ class PlanarRobot:
 
     @property
     def n(self) -> int:
-        """Coordinates."""
+        """Number of coordinates."""
         return len(self.A)
 
     @property
@@ -230,24 +231,24 @@ class PlanarRobot:
         return np.array([F_x - x, F_z - z + K.mass * K.gravity])
 
     def momentum(self, q: Array, v: Array) -> Array:
-        """m v_com (2,) [N s]."""
+        """Linear momentum m p_com' (x, z) (2,) [N s]."""
         return jacobian(self.A, turned(self.A, q), self.K.w_re, self.K.w_im) @ v
 
     def swing_foot(self, q: Array) -> Array:
-        """(x, z) from the stance foot (2,) [m]."""
+        """Position (x, z) of the swing foot from the stance foot (2,) [m]."""
         return np.array(point(turned(self.A, q), self.K.foot_re, self.K.foot_im))
 
     def hip(self, q: Array) -> Array:
-        """(x, z) from the stance foot (2,) [m]."""
+        """Position (x, z) of the hip from the stance foot (2,) [m]."""
         return np.array(point(turned(self.A, q), self.K.hip_re, self.K.hip_im))
 
     def kinetic_energy(self, q: Array, v: Array) -> Array:
-        """(1/2) v' D_s v [J], at q (n,) [rad], v (n,) [rad/s]."""
+        """Kinetic energy v^T D_s v / 2 [J], at q (n,) [rad], v (n,) [rad/s]."""
         D, _ = self.inertia_and_bias(q, v)
         return 0.5 * (v @ (D @ v))
 
     def potential_energy(self, q: Array) -> Array:
-        """[J], zero at the height of the stance foot, at q (n,) [rad]."""
+        """Potential energy [J] at q (n,) [rad], zero at the height of the stance foot."""
         return self.K.gravity * point(turned(self.A, q), self.K.w_re, self.K.w_im)[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
@@ -283,4 +284,4 @@ def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
 
 
 robot_of = once(PlanarRobot.of)
-"""As `PlanarRobot.of`, remembered in the robot."""
+"""`PlanarRobot.of`, whose result for a robot is kept and returned again."""

@@ -1,4 +1,4 @@
-"""The split (11)-(15): the nominal model of the actuated joints.
+"""The split (11)-(15) of the paper: the nominal model of the actuated joints.
 
     D_s q'' + Omega = B_s u + xi~                                    (11)
     q_b'' = kappa u + xi                                             (13)
@@ -74,7 +74,7 @@ class BodyTerms(NamedTuple):
 
 @lru_cache(maxsize=16)
 def identity(p: int) -> Array:
-    """The unit matrix (p, p), made once per size and read-only."""
+    """The unit matrix (p, p), read-only; the same array at every call."""
     one = np.eye(p)
     one.setflags(write=False)
     return one

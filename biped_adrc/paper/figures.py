@@ -79,10 +79,11 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
 
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
-    """Draw the map of pushes of one preset, rows as `PushCell.row` has them: a panel for each controller and
-    torque limit, onset [ms] against joints and amplitude [N m].
+    """Draw the map of pushes of one preset: a panel for each controller and torque limit, onset [ms] against
+    joints and amplitude [N m]. rows: cells as `PushCell.row` returns them.
 
-    1: feasible, the impact aside; 0.5: makes all steps otherwise; 0: does not; empty: marginal.
+    A cell is 1 if the walk makes all steps and is feasible, or would be but for the impulses at impact; 0.5 if
+    it makes all steps and is infeasible; 0 if it does not make all steps; empty if it is marginal.
     """
     ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": math.nan}
     panels: dict[str, list[tuple[float, str, float]]] = {}
@@ -98,7 +99,7 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
 
 
 def _rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
-    """A figure as PNG and as SVG, laid out by the first so that both are alike."""
+    """A figure as PNG and as SVG; the layout is computed once, for the PNG, so that both are alike."""
     figure = draw(*arguments)
     png = render(figure, "png")
     figure.set_layout_engine("none")

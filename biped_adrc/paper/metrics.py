@@ -1,7 +1,9 @@
 """The scenarios on which claims are tried, from the results of a reproduction, and the metrics of claims.
 
-Where NaN may occur NumPy's max and min are used, since Python's pass over it and a limit would be kept without
-a number.
+claims.toml and checks.toml name these functions: one that takes `Runs` returns scenarios by name, the others
+compute a metric of one of them. A metric is `AtTwoSteps`: its value at the integration step used, and at half
+of it. Where NaN may occur NumPy's max and min are used, since Python's ignore NaN, and a limit would then count
+as kept by a number that does not exist.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ Pair = tuple[Outcome, Outcome]
 
 
 def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
-    """A number of walks or cycles at the step used and at half of it."""
+    """The number of(*found) of walks or cycles at the integration step used, and of their halves at
+    half of it.
+    """
     return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
@@ -41,7 +45,7 @@ def made(o: Outcome) -> AtTwoSteps:
 
 
 def distance(o: Outcome) -> float:
-    """max |x- - x*| [rad, rad/s] at the last impact; infinite when the robot fell before."""
+    """max |x- - x*| [rad, rad/s] at the last impact, x* of the paper's section VI; infinite after a fall."""
     if not o.walked:
         return math.inf
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
@@ -57,34 +61,42 @@ def error(pair: Pair) -> AtTwoSteps:
 
 
 def largest(name: str, o: Outcome) -> float:
-    """The largest value of all steps; without a step it keeps no limit."""
+    """The largest value of the certificates' field `name` over all walking steps; infinite without a step, so
+    that no limit counts as kept.
+    """
     return float(np.max([getattr(s, name) for s in o.certificates] or [math.inf]))
 
 
 def least(name: str, o: Outcome) -> float:
-    """The least value of all steps; without a step it keeps no limit."""
+    """The least value of the certificates' field `name` over all walking steps; minus infinity without a step,
+    so that no limit counts as kept.
+    """
     return float(np.min([getattr(s, name) for s in o.certificates] or [-math.inf]))
 
 
 def last(name: str, o: Outcome) -> float:
-    """A value of the last step; NaN without one."""
+    """The certificates' field `name` in the last walking step; NaN without a step."""
     return float(getattr(o.certificates[-1], name)) if o.certificates else math.nan
 
 
 def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
-    """`last` at the integration step and at half of it."""
+    """The certificates' field `name` in the last walking step, at the integration step used and at half of
+    it.
+    """
     return at_two(partial(last, name), o)
 
 
 def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) -> AtTwoSteps:
-    """A number of a cycle at both steps; NaN where none was found."""
+    """The number of(orbit) of a walking cycle at both integration steps; NaN for a text, which says why no
+    cycle was found.
+    """
     if isinstance(found, str):
         return AtTwoSteps(math.nan, math.nan)
     return AtTwoSteps(of(found.orbit), of(found.half))
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
-    """The largest |multiplier| of a cycle; NaN where no cycle was found."""
+    """The largest |multiplier| [1] of a cycle; NaN for a text, which says why no cycle was found."""
     return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
 
 
@@ -94,12 +106,14 @@ def second_multiplier(found: PoincareResult) -> float:
 
 
 def off_delta_squared(found: PoincareResult) -> float:
-    """Difference of the largest multiplier and delta^2 of the zero dynamics."""
+    """||largest multiplier| - delta^2| [1], with delta^2 of the zero dynamics."""
     return float(abs(abs(found.orbit.multipliers[0]) - found.delta_squared))
 
 
 def multiplier_change(found: PoincareResult | str) -> float:
-    """Largest change of a multiplier at half the step; infinite where no cycle was found."""
+    """Largest change [1] of a multiplier's magnitude when the integration step is halved; infinite for a text,
+    which says why no cycle was found.
+    """
     return math.inf if isinstance(found, str) else found.gap
 
 
@@ -115,42 +129,52 @@ PRINTED_SPEED = phase_rate(X_STAR)
 
 
 def speed_error(found: PoincareResult | str) -> AtTwoSteps:
-    """Relative difference of Theta' before an impact from that of x*."""
+    """|Theta' / Theta'* - 1|: relative difference of Theta' before an impact from that of the paper's x*; NaN
+    where no cycle was found.
+    """
     return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / PRINTED_SPEED - 1.0), found)
 
 
 def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
-    """A number of a member under one controller."""
+    """The field `name` of a `MemberWalk`: a number of a combination of choices under one controller."""
     return getattr(o.walked[controller], name)
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
-    """Ratio of the error that the push adds under ADRC to the error that it adds under NPD."""
+    """Ratio [1] of the tracking error that the push adds under ADRC to that which it adds under NPD."""
     return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
 
 
 def error_ratio(o: MemberOutcome) -> AtTwoSteps:
-    """Peak error of ADRC over that of NPD, whatever causes it."""
+    """Ratio [1] of the peak tracking error under ADRC to that under NPD, of which a part is not due to the
+    push.
+    """
     return o.walked["ADRC"].peak.over(o.walked["NPD"].peak)
 
 
 def longest(o: MemberOutcome) -> AtTwoSteps:
-    """Longest step under either controller [s], infinite where not all are made."""
+    """Duration of the longest walking step [s] under both controllers; infinite if one does not make all
+    steps.
+    """
     return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 
 
 def reached(start: Start) -> AtTwoSteps:
-    """Share of the impacts asked for, of the controller that makes more."""
+    """Share [1] of the impacts asked for that are made, by the controller that makes more of them."""
     return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
 
 
 def longest_step(multiplier: float) -> float:
-    """Period [s] in which a tracking error, which decays like exp(-K_d t / 2), falls to `multiplier`."""
+    """Time [s] in which a tracking error, which decays like exp(-K_d t / 2), falls to the share `multiplier`: a
+    longer walking step would have a smaller multiplier of the tracking error.
+    """
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
 def period_gap(pair: Pair) -> float:
-    """Largest difference of step times, as a share of a usual step; infinite for another number of steps."""
+    """Largest difference of the durations of walking steps under NPD and ADRC, over the duration of an
+    undisturbed step [1]; infinite if the two make different numbers of steps.
+    """
     npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
         return math.inf
@@ -158,22 +182,24 @@ def period_gap(pair: Pair) -> float:
 
 
 def peak_ratio(pair: Pair) -> float:
-    """Peak error of ADRC over that of NPD."""
+    """Ratio [1] of the peak tracking error under ADRC to that under NPD."""
     return pair[1].peak_error / pair[0].peak_error
 
 
 def change(i: str, j: str, figures: Sequence[float]) -> float:
-    """|figure i / figure j - 1|."""
+    """|figure i / figure j - 1|, of the numbers of `numerics_laws` in their order, from 0."""
     return abs(figures[int(i)] / figures[int(j)] - 1.0)
 
 
 def figure(i: str, figures: Sequence[float]) -> float:
-    """Absolute value of the i-th of the figures that the paper prints for a claim."""
+    """Absolute value of the i-th, from 0, of the numbers of `numerics_laws`."""
     return abs(figures[int(i)])
 
 
 def adrc_counts(cell: PushCell) -> float:
-    """1 where ADRC makes all steps, feasible but for the impact, else 0."""
+    """1 if ADRC makes all steps of this walk and it is feasible, or would be but for the impulses at impact;
+    else 0.
+    """
     return float(cell.adrc.feasibility.outcome in COUNTED)
 
 
@@ -183,13 +209,17 @@ def quotient(pair: tuple[float, float]) -> float:
 
 
 def periods(found: Mapping[str, float]) -> float:
-    """Period over the longest in which a tracking error decays to the least printed multiplier."""
+    """Period of the gait over the time in which a tracking error decays to the least multiplier that the paper
+    prints [1]: above 1 that multiplier is none of the tracking error.
+    """
     return found["period"] / longest_step(LEAST_PRINTED)
 
 
 # -- what of a scenario a verdict may depend on ----- ------------------------------------------------
 def theta_of(o: MemberOutcome) -> str:
-    """The choice of Theta'' of a member: it alone causes the error that remains under ADRC."""
+    """The choice of Theta'' of a member, in words: verdicts may depend on it, since it causes the error that
+    remains under ADRC without a push.
+    """
     return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
 
 
@@ -217,7 +247,7 @@ def all_cycles(r: Runs) -> dict[str, PoincareResult | str]:
 
 
 def laws_of_walks(r: Runs) -> dict[str, Mapping[str, float]]:
-    """Laws of the pushed walks, by controller."""
+    """Violations of physical laws in the headline runs, by controller."""
     return {c: x.laws for c, x in r.headline.items()}
 
 
@@ -281,7 +311,7 @@ def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
 
 
 def below_least(r: Runs) -> dict[str, Start]:
-    """Starts below the least speed."""
+    """Starts below the least speed that reaches the next impact."""
     return {
         f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
         for preset, result in r.starts.items()
@@ -291,7 +321,7 @@ def below_least(r: Runs) -> dict[str, Start]:
 
 
 def gains(r: Runs) -> dict[str, tuple[float, float]]:
-    """Gains of Table I and of one extended state."""
+    """Pairs of gains, of Table I (m = 7) and of an observer with one extended state (m = 1)."""
     result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():
         for name in ("equal bandwidth", "equal delay margin"):

@@ -1,4 +1,4 @@
-"""Laws of physics and orders of convergence that every reproduction is held against.
+"""Laws of physics and orders of convergence by which every reproduction is checked.
 
 None of them was used to derive the model or to choose the methods, so that each could fail:
 
@@ -66,8 +66,8 @@ def walk_laws(full: Walk) -> dict[str, float]:
 
 
 def work_identity(o: Outcome) -> float:
-    """|joint work of a step less the energy lost at its impact|, relative: zero for a periodic gait on level
-    ground; infinite without an impact.
+    """|joint work of the last walking step - energy lost at its impact| over that energy [1]: zero for a
+    periodic gait on level ground; infinite without an impact.
     """
     if not o.certificates:
         return math.inf
@@ -77,7 +77,8 @@ def work_identity(o: Outcome) -> float:
 
 @dataclass(frozen=True)
 class HeldJoint(HybridSystem):
-    """One joint held at zero by ADRC under a sine disturbance: the loop for which (23) has a closed form.
+    """One joint held at zero by ADRC under a sine disturbance: the loop for which (23) of the paper has a
+    closed form.
 
     J q'' = u + J xi(t),   xi = sin(w t) [rad/s^2]
     """
@@ -106,8 +107,8 @@ HELD_STEP = 1e-3
 def held_joint(
     frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = HELD_STEP
 ) -> tuple[float, float, float]:
-    """Steady amplitude of the tracking error per unit of disturbance [s^2]: simulated, (23) corrected, (23) as
-    printed.
+    """Steady amplitude of the tracking error per unit of disturbance [s^2]: simulated, by (23) of the paper
+    corrected, and by (23) as printed.
 
     frequency [Hz], t_end, h [s]. The observer's poles are those of Table I times `factor`: slow enough for the
     error to stand clear of round-off. The amplitude is fitted over the last two periods.
@@ -128,10 +129,10 @@ def held_joint(
 
 
 def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
-    """Order in the period T with which sampled control approaches continuous control.
+    """Order k in the period T with which sampled control approaches continuous control.
 
-    The gaps of (q, q') at the first impact, for each of the periods [s], are fitted by C T^k; k near 1 is that
-    of a zero-order hold.
+    The differences of (q, q') before the first impact, for these periods [s], are fitted by C T^k; a zero-order
+    hold has k near 1.
     """
 
     def end(h: float, period: float | None = None) -> Array:

@@ -1,7 +1,7 @@
 """The stability test of the reproduction: fixed point, multipliers by central differences, delta^2.
 
-A `PoincareResult` at two steps says how far the multipliers are from converged. The paper's own test is linear
-regression (26), (27) through the sampled states:
+A `PoincareResult` has them at two integration steps, which says how far they have converged. The paper's own
+test is a linear regression, its (26), (27), through the states before impacts:
 
     x-(k + 1) - x* = Phi (x-(k) - x*)
 
@@ -35,10 +35,11 @@ class PoincareResult(Shown):
     run: Scenario
     """The walk whose return map was taken."""
     orbit: PeriodicOrbit
-    """At a step of 1 ms."""
+    """Fixed point and multipliers at an integration step of 1 ms."""
     half: PeriodicOrbit
-    """At half of it."""
+    """The same at an integration step of 0.5 ms."""
     delta_squared: float
+    """delta^2 of the zero dynamics [1], the largest multiplier in closed form."""
 
     @property
     def gap(self) -> float:
@@ -79,7 +80,7 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
 
 
 RANK = 1e-8
-"""Relative size below which a direction does not count for the rank."""
+"""Least singular value, over the largest, of a direction that counts for the rank."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +112,8 @@ class Regression(Shown):
 
 
 def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
-    """(27) from states before impact (k, n) [rad, rad/s], k >= 3, and the fixed point (n,).
-
-    Directions below RANK of the largest do not count for the rank.
+    """The regression (27) of the paper, from states before impact (k, n) [rad, rad/s], k >= 3, and the fixed
+    point (n,).
     """
     chi = x_minus - x_star
     before, after = chi[:-1], chi[1:]

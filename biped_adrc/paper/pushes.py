@@ -1,13 +1,13 @@
 """Pushes on the joints, at the declared choices and over the phase of a step, under both controllers.
 
 What a push does is separated from what the controller does anyway: the error of the pushed step is compared
-with that of the same step without a push (`Track.away_from`). The walk starts on the orbit of its gait at the
-pushed step; peaks are taken of an interpolant, since the largest error lies between two nodes.
+with that of the same walking step without a push (`Track.away_from`). The walk starts on the orbit of its gait
+at the pushed step; peaks are taken of an interpolant, since the largest error lies between two stored instants.
 
-The map of section VI's other claim is over onset, amplitude and joint pattern, with and without a torque limit
-(`scenarios.MapPush`): in which phase of the step does a push make which controller fall? Every walk is made at
-two integration steps. A cell in which they end differently is marginal, and no claim rests on it. What a walk
-can be:
+The map of pushes tries another claim of section VI: in which phase of the step does a push make which
+controller fall? It is over onset, amplitude and joint pattern, with and without a torque limit
+(`scenarios.MapPush`). Every walk is made at two integration steps; if the two end differently the cell is
+marginal, and no claim rests on it. The outcomes of a walk:
 
     feasible    makes all steps within friction, torque limits and without scuffing
     but_impact  the same but for the impact, whose impulse asks for more friction
@@ -64,10 +64,11 @@ class Track(NamedTuple):
         return largest(self.t, self.error, self.derror)
 
     def away_from(self, usual: Track, onset: float) -> float:
-        """max |error - that of `usual`| [rad] from the onset [s] on, while both steps last.
+        """max |error - error of `usual`| [rad] from the onset [s] on, while both walking steps last; NaN if
+        they have no common time.
 
-        `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
-        time.
+        `usual` is the same step without a push. Its error is smooth, so a cubic Hermite interpolant between its
+        stored instants gives it at the times of this one.
         """
         counted = (self.t >= onset) & (self.t <= usual.t[-1])
         t, first = np.unique(usual.t, return_index=True)
@@ -94,10 +95,10 @@ def scene_in(preset: str | None, gait: str) -> RobotAndGait:
 
 
 def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
-    """The first single support of a run with steps of share run.h, and the others with share `COARSE`, of which
-    only the ending matters.
+    """Walk the first single support of a run with the integration step share * run.h, and the others, of which
+    only the ending matters, with share * COARSE; returns the two walks, or one.
 
-    zero: the observer starts at xi^ = 0 instead of the model's xi.
+    zero: whether the observer starts at xi^ = 0 instead of the model's xi.
     """
     scene = scene_in(run.robot.preset, run.gait.name)
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
@@ -127,16 +128,16 @@ class MemberWalk(NamedTuple):
     peak: AtTwoSteps
     """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
     deviation: AtTwoSteps
-    """The same of the error less that of the walk without a push, from the onset on [rad]."""
+    """max |error - error of the same step without a push| from the onset of the push on [rad]."""
     rate: AtTwoSteps
-    """|Theta'| at the end of the pushed step less that of the walk without a push [rad/s]; infinite without an
-    impact."""
+    """Difference of Theta' at the end of the pushed step to that of the same step without a push [rad/s];
+    infinite without an impact."""
     longest: AtTwoSteps
-    """Duration of the longest step [s]; infinite where not all steps are made."""
+    """Duration of the longest walking step [s]; infinite if not all steps are made."""
     broken: AtTwoSteps
-    """Limits that it breaks, as `limits_broken`."""
+    """Number of limits of ground and motors that the walk breaks, the impulse at impact aside."""
     infeasible: Mapping[str, str]
-    """What ground or motors could not have given, by the names in `REASONS`."""
+    """Sentences on what ground or motors could not have given, by the names in `REASONS`."""
 
 
 @dataclass(frozen=True)
@@ -157,7 +158,9 @@ def limits_broken(f: Feasibility) -> float:
 
 
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
-    """A member carried out under a controller at both steps; values: of the scenario, in place of its own."""
+    """Walk a member under a controller at both integration steps; values: of the scenario, in place of its
+    own.
+    """
     (numbers, why), (at_half, _) = (_at(member, controller, x, values) for x in (1.0, 0.5))
     return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))
 
@@ -165,7 +168,9 @@ def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
 def _at(
     member: Member, controller: str, share: float, values: Mapping[str, Any]
 ) -> tuple[tuple[float, ...], Mapping[str, str]]:
-    """The numbers of `member_walk` at one step, and what is not feasible."""
+    """The numbers of a `MemberWalk` in their order, at the share (1 or 0.5) of the integration step, and
+    sentences on what is not feasible.
+    """
     run = member.run(controller, **values)
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     walks = in_two(run, member.start == "zero", share)
@@ -188,16 +193,17 @@ def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
 
 # -- the map of pushes ------------------------------------------------------------------------------
 OUTCOME_WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
-"""What a walk of the map can be, and the columns of its table."""
+"""Outcomes of a walk of the map, as the head of this module says them; the columns of its table."""
 FORCES = ("mean_normal_force", "mean_friction", "impulse_ratio")
-"""Numbers of a walk of the map that the summary has."""
+"""Fields of `Feasibility` that the summary has for each walk of the map."""
 LOST = ("fell", "ended")
 """Outcomes of a walk that did not make its steps."""
 
 
 def word_of(o: Outcome) -> str:
-    """The outcome of a walk of the map as one of WORDS; "marginal" where it ends in another way at half of the
-    integration step."""
+    """The outcome of a walk of the map, one of `OUTCOME_WORDS`; "marginal" if it ends in another way at half of
+    the integration step.
+    """
     one, half = ((_at_step(x), x.status) for x in (o, o.half or o))
     return one[0] if one == half else "marginal"
 
@@ -240,5 +246,5 @@ class PushCell(NamedTuple):
 
 
 def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
-    """Both controllers under every push, each at two steps."""
+    """Walk both controllers under every push, each at two integration steps."""
     return [PushCell(x, *(execute_twice(x.run(c)) for c in CONTROLLERS)) for x in pushes]

@@ -188,7 +188,8 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
 
 
 NO_MULTIPLIERS = "of n states on a section of n - 1 dimensions: no multipliers"
-"""Remark on a regression (27) whose samples span all directions, by round-off or an observer."""
+"""Remark on a regression (27) of the paper whose samples span all n directions, which only round-off or an
+observer can make."""
 
 
 def _multipliers(r: Runs) -> Table:
@@ -229,11 +230,11 @@ def _recipe(r: Runs) -> Table:
 
 
 COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step"}
-"""Headings of words of the map that do not speak for themselves."""
+"""Headings in place of those outcomes of the map that do not explain themselves."""
 
 
 def _map(cells: list[PushCell]) -> Table:
-    """How many pushes of the map ended how, by preset, torque limit and controller."""
+    """Numbers of the pushes of the map by outcome, a row for each preset, torque limit and controller."""
     fates = [
         (x.setting, c, word_of(w)) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)
     ]

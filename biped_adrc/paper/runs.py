@@ -1,8 +1,9 @@
 """The work of the reproduction: what a worker computes, tasks of a plan by kind and name, and their results.
 
-The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
-are kept that a figure of merit needs. Tasks have names such as "multipliers/ADRC" or
-"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Runs`.
+The walks are those of `paper.scenarios`; most are made at two integration steps. A node is an instant at which
+a state is stored; of a walk with very many nodes only those are kept that a figure of merit needs. Tasks have
+names such as "multipliers/ADRC" or "cycles/gait (b), tac2003, NPD": the kind, and the key in its mapping of
+`Runs`.
 """
 
 from __future__ import annotations
@@ -35,16 +36,19 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
-"""Walks that are held against one another under both controllers: pushed, sampled, heavier than the model."""
+"""Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than the
+model.
+"""
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
-"""Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
+"""Distance of the nodes that are kept of a walk with short integration steps [s]; between pushes no signal
+changes faster."""
 
 
 def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
-    """The walk without the nodes that no figure of merit needs, all of them where a push acts and in the single
-    support after it.
+    """The walk without the nodes that no figure of merit needs: they are kept at a distance of `apart` [s], and
+    all of them in a single support in which a push acts and in the one after.
     """
     run = walk.scenario
     assert run is not None
@@ -54,7 +58,9 @@ def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
 
 
 def twice(run: Scenario) -> Outcome:
-    """The outcome of a walk, with that at half of its steps in `half`."""
+    """The outcome of a walk, with that at half of its integration steps in `half`; both from sparse nodes if
+    the walk has very many.
+    """
     h = run.run.h
     if h is None or h > 0.2 * NODE_DISTANCE or run.controller.observer.reset != "model":
         return execute_twice(run)
@@ -65,18 +71,22 @@ def twice(run: Scenario) -> Outcome:
 
 @dataclass(frozen=True)
 class Headline:
-    """A pushed run with its nodes, of which it is drawn."""
+    """A pushed run with its trajectory, from which the figures are drawn."""
 
     outcome: Outcome
-    """Its figures of merit, with those at half of the step in `half`, and at a quarter in the half of that."""
+    """Its figures of merit, with those at half of the integration step in `half`, and at a quarter in
+    `half.half`.
+    """
     trajectory: Trajectory
-    """Its nodes, as `sparse` keeps them."""
+    """Its states over time, at the nodes that `sparse` keeps."""
     laws: Mapping[str, float]
-    """What `physical_laws.walk_laws` found."""
+    """Violations of physical laws in it, by name (`physical_laws.walk_laws`)."""
 
 
 def _headline(run: Scenario) -> Headline:
-    """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
+    """Make a pushed run at three integration steps; at a quarter of the step only the two single supports from
+    the push on.
+    """
     walk = sparse(walk_scenario(run))
     half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
     quarter = walk_scenario(halved(half, walk.walker).replace(run=late)).outcome
@@ -86,8 +96,8 @@ def _headline(run: Scenario) -> Headline:
 
 
 def engines(one: Scenario, other: Scenario) -> float:
-    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite where they differ in
-    number, or there is none.
+    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite if they have
+    different numbers of impacts, or none.
     """
     a, b = (walk_scenario(run).outcome.x_minus for run in (one, other))
     n = RobotAndGait.of(one).biped.n
@@ -98,7 +108,10 @@ def engines(one: Scenario, other: Scenario) -> float:
 
 # -- cycles, starts and closed forms ---------------------------------------------------------------
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
-    """A walking cycle at two steps, or why none is found, in words."""
+    """A walking cycle at two integration steps, or the reason, in words, why none is found.
+
+    with_states: whether the observer's states belong to the state of the return map.
+    """
     try:
         return poincare(run, with_states)
     except BipedError as error:
@@ -110,10 +123,10 @@ class Start:
     """A walk that starts on the constraint with a chosen speed after the impact."""
 
     least: float
-    """The speed that just reaches the next impact, relative to the gait's, by one quadrature of the zero
-    dynamics."""
+    """Least speed after the impact with which the next impact is reached, as a share of the gait's, by one
+    quadrature of the zero dynamics [1]."""
     factor: float
-    """Speed of this start relative to the least."""
+    """Speed of this start, as a share of the least [1]."""
     outcomes: dict[str, Outcome]
     """By controller."""
 
@@ -142,10 +155,11 @@ def least_speed(preset: str) -> float:
 
 
 def jumps(preset: str) -> dict[str, float]:
-    """The jumps of signals at an impact, and at the edge of a push of 30 N m on all joints, by name.
+    """Largest jumps of signals over the joints, by name.
 
-    xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
-    references, by gait [rad/s], 0 for a gait that takes the impact into account.
+    "xi_at_impact" and "xi_at_an_edge" [rad/s^2]: of xi of (13), the total disturbance, on gait (a), at an
+    impact and when a push of 30 N m on all joints switches on. By gait [rad/s]: of q_b' - q_d' at an impact, 0
+    for a hybrid-invariant gait. "period" [s]: of gait (a), for comparison.
     """
     walks = {gait: scenarios.loose("NPD", preset, gait=gait) for gait in scenarios.GAITS}
     scenes = {name: RobotAndGait.of(run) for name, run in walks.items()}
@@ -160,12 +174,14 @@ def jumps(preset: str) -> dict[str, float]:
 
 
 class Order(NamedTuple):
-    """An observer, and what its order costs and gives."""
+    """Numbers by which observers of different order m are compared."""
 
     largest_gain: float
-    """max |l_k|, in the units of (17)."""
+    """max |l_k| of the observer (17), each in its own unit [1/s^k]."""
     noise_gain: float
-    """Largest gain from an error of the measured position to the acceleration asked for [1/s^2]."""
+    """Largest gain over all frequencies from an error of the measured angle to the commanded acceleration
+    [1/s^2].
+    """
     bandwidth: float
     """Geometric mean of the poles [rad/s]."""
     delay_margin: float
@@ -189,7 +205,9 @@ def orders(preset: str) -> dict[str, Order]:
 
 
 def bandwidth_with(margin: float, m: int) -> float:
-    """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by roots in log w."""
+    """The bandwidth w [rad/s] of an observer with m + 2 poles at -w whose loop has the delay margin `margin`
+    [s].
+    """
 
     def excess(log_w: float) -> float:
         result = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
@@ -199,7 +217,7 @@ def bandwidth_with(margin: float, m: int) -> float:
 
 
 def _order(preset: str, observer: GPIObserver) -> Order:
-    """The record of one observer: closed forms, and a walk."""
+    """The numbers of one observer, from closed forms of its loop and from a pushed walk."""
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
     member = replace(scenarios.on_the_recipe(preset), gait="published")
@@ -251,7 +269,7 @@ class Runs:
     """The results of a reproduction: for each kind of task a dictionary by name."""
 
     plan: Plan
-    """What was asked for."""
+    """The plan that was carried out."""
     headline: Mapping[str, Headline] = field(default_factory=dict)
     """The pushed walks, by controller."""
     runs: Mapping[str, Outcome] = field(default_factory=dict)
@@ -271,7 +289,7 @@ class Runs:
     starts: Mapping[str, list[Start]] = field(default_factory=dict)
     """Walks around the least speed, by preset."""
     jumps: Mapping[str, dict[str, float]] = field(default_factory=dict)
-    """What is not smooth, by preset."""
+    """Jumps of signals, by preset; see `jumps`."""
     orders: Mapping[str, dict[str, Order]] = field(default_factory=dict)
     """Observers of different order, by preset."""
     model: Mapping[str, dict[str, float]] = field(default_factory=dict)
@@ -301,7 +319,7 @@ class Runs:
         return {name: x for result in self.numerics.values() for name, x in result.items()}
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
-        """A walk under NPD and under ADRC, of the headline where the name is "push"."""
+        """The outcomes of a walk under NPD and under ADRC; the name "push" is that of the headline runs."""
         every = {**self.run_twice, **self.claim_runs}
         npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
@@ -326,6 +344,6 @@ class Runs:
 
     @property
     def run_twice(self) -> dict[str, Outcome]:
-        """Every walk that is checked at two steps, by name."""
+        """Every walk that is checked at two integration steps, by name."""
         heads = {f"push {c}": head.outcome for c, head in self.headline.items()}
         return heads | dict(self.runs)

@@ -26,7 +26,7 @@ CONTROLLERS = ("NPD", "ADRC")
 SOLVED, RESET = "controller.solve_theta", "controller.observer.reset"
 """Names in a scenario of two choices: Theta'' in (20), and what becomes of the observer at an impact."""
 EIGHT = {"impacts": 8}
-"""Of `run`: four steps of the paper."""
+"""Values of `run` for a walk of eight impacts, which are four steps in the paper's count."""
 GAITS = ("published", "recipe")
 """Gait (a), through x*, and gait (b), by the recipe of section IV."""
 MOTORS = ("q1", "q2", "q3", "q4")
@@ -41,13 +41,15 @@ def declared() -> dict[str, Any]:
 PAPER_PUSH, SINE = (Push(**declared()["pushes"][name]) for name in ("paper", "sine"))
 """The push of figures 4 to 6, and a sine."""
 HEAVIER: dict[str, dict[str, Any]] = declared()["heavier"]
-"""What is heavier in the plant: errors of a scenario by name."""
+"""Plants that are heavier than the model, by name: values of `errors` of a scenario."""
 _STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
-"""Steps of RK4 [s]: of the whole walk, and of the single supports where a push switches and the one after."""
+"""Integration steps of RK4 [s]: for the whole walk, and for single supports in which a push switches and the
+ones after."""
 LOOSE = 2e-4
-"""Step of the exponential method [s] under ADRC, where its error is no spike of less than 1e-5 rad."""
+"""Integration step of the exponential method under ADRC [s], for walks whose tracking error has no spike below
+1e-5 rad that has to be resolved."""
 COARSE = 1e-3
-"""Step [s] of walks of which endings and step times are taken."""
+"""Integration step [s] of walks of which only endings and durations of walking steps are used."""
 
 
 @dataclass(frozen=True)
@@ -55,9 +57,9 @@ class Plan:
     """The parts of the paper that a reproduction computes. Raises InputError for `full` with `quick`."""
 
     preset: str = "identified"
-    """Of RABBIT, for the headline runs."""
+    """Preset of RABBIT for the headline runs."""
     pushes: tuple[Push, ...] = (PAPER_PUSH,)
-    """In place of the paper's push."""
+    """The pushes of the headline runs."""
     full: bool = False
     """The whole map of pushes, which takes minutes."""
     quick: bool = False
@@ -83,22 +85,22 @@ class Plan:
 
 
 def on_torso(torque: float) -> Push:
-    """A push of 0.2 s on the torso, which no motor drives [N m]."""
+    """A push on the torso, which no motor drives, with this torque [N m] for 0.2 s."""
     return Push(torque=torque, **declared()["torso"]["push"])
 
 
 def scenario(controller: str, preset: str, **values: Any) -> Scenario:
-    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller."""
+    """A scenario of RABBIT in a preset under a controller; all scenarios of the reproduction are made here."""
     return Scenario(controller, **{"robot.preset": preset, **values})
 
 
 def pushed_steps(run: Scenario) -> set[int]:
-    """The single supports in which a push acts, and those after."""
+    """Numbers of the single supports in which a push acts, and of those after."""
     return {push.step + k for push in run.pushes for k in (0, 1)}
 
 
 def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
-    """A walk with RK4, at the step of its controller."""
+    """A walk with RK4, at the integration step that its controller needs."""
     h = _STEPS[controller][0]
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
@@ -117,7 +119,9 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
-    """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
+    """The pushed single support of the headline run on Pinocchio's dynamics, and on the compiled engine, at the
+    same integration step.
+    """
     first, h = plan.pushes[0].step, declared()["walks"]["engines_step"]
     run = {"first_step": first, "impacts": 1, "h": h}
     one = scenario(controller, plan.preset, pushes=plan.pushes, run=run)
@@ -125,11 +129,12 @@ def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
-    """The walks that are checked at half their step, by name.
+    """The walks that are checked at half of their integration step, by name.
 
-    Undisturbed in every preset on both gaits; the push with slow edges; a sine; a push on the torso; sampled
-    control at 1 kHz; a plant that is heavier than the model; (20) as printed, and every policy of the observer
-    at an impact. Where a walk starts later than in step 1, it starts on the orbit.
+    Undisturbed walks in every preset on both gaits; the push with slow edges; a sine; a push on the torso;
+    sampled control at 1 kHz; a plant that is heavier than the model; (20) as printed, and every policy of the
+    observer at an impact. A walk that begins in a later single support than the first one begins on the orbit
+    too.
     """
     runs: dict[str, Scenario] = {}
     rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
@@ -195,7 +200,9 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
 
 
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
-    """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
+    """The walking cycles of which all multipliers are computed, by controller; "ADRC measured" resets the
+    observer's states at impact by the measurement, and not by the model.
+    """
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
     if plan.quick:
         return {"NPD": npd}
@@ -212,13 +219,13 @@ class Member:
     """One combination of the choices that the paper leaves open."""
 
     preset: str
-    """Of RABBIT."""
+    """Preset of RABBIT."""
     amplitude: float
-    """Of the push [N m]."""
+    """Torque of the push [N m]."""
     onset: float
-    """Of the push [s] after the impact."""
+    """Time from the impact to the push [s]."""
     joints: tuple[str, ...]
-    """On which the push acts."""
+    """Joints on which the push acts."""
     rise: float
     """Time in which the push rises and falls [s]."""
     start: str
@@ -238,7 +245,10 @@ class Member:
         )
 
     def run(self, controller: str, pushed: bool = True, **values: Any) -> Scenario:
-        """The walk from the pushed step on, or the same step without the push; h is that of the pushed step."""
+        """The walk from the pushed single support on, or this one alone without the push (pushed = False).
+
+        Its integration step run.h is that of the pushed single support. values: of the scenario, over these.
+        """
         k, steps, joints = declared()["push"], declared()["steps"], ",".join(self.joints)
         push = Push(joints=joints, torque=self.amplitude, onset=self.onset, rise=self.rise, **k)
         zero = self.start == "zero" and controller == "ADRC"
@@ -280,19 +290,19 @@ class MapPush:
     """One push of the map."""
 
     preset: str
-    """Of RABBIT."""
+    """Preset of RABBIT."""
     onset: float
-    """In the step [s]."""
+    """Time from the impact to the push [s]."""
     amplitude: float
-    """[N m]."""
+    """Largest torque of the push [N m]."""
     pattern: str
-    """One of those in admissible.toml."""
+    """Name of its factors by joint, in admissible.toml."""
     torque_limit: float | None
-    """[N m], None for unlimited."""
+    """Limit of every motor [N m]; None for no limit."""
 
     def run(self, controller: str) -> Scenario:
-        """Four impacts from the push of 0.2 s in single support 19 on, on a reference that goes on past its
-        end, so that a fall is one of the robot and not of a polynomial.
+        """The walk: four impacts from single support 19 on, in which the push acts for 0.2 s. The reference is
+        continued past its end, so that a fall is the robot's and not due to the steep end of a polynomial.
         """
         signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
@@ -303,8 +313,9 @@ class MapPush:
 
 
 def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
-    """The pushes of the map in parts, by preset, torque limit [N m] and pattern; of a plan that is not full
-    the late ones of the largest amplitude within the torque limit alone.
+    """Iterate over the pushes of the map in parts, by preset, torque limit [N m] and pattern.
+
+    A plan that is not full has only pushes at 0.3 s with 150 N m, under a torque limit of 150 N m.
     """
     limits = (None, 150.0) if plan.full else (150.0,)
     k, patterns = declared()["map"], [*declared()["map"]["patterns"]]

@@ -1,16 +1,16 @@
-"""The one table: every claim of the paper, and every law and consistency that its reproduction is held against.
+"""The one table: every claim of the paper, and every law and consistency by which its reproduction is checked.
 
 A case is one scenario with the value of the metric at the integration step used and at half of it; it is
-marginal where the number is not converged, or the limit is kept at one step and not at the other. A claim is a
-statement of the paper, from the abstract to its last section, judged over all its cases. Of these h hold and m
-are marginal:
+marginal if the number is not converged, or the limit is kept at one of the two and not at the other. A claim is
+a statement of the paper, from the abstract to its last section, judged over all its cases, of which h hold and
+m are marginal:
 
     no case, or all marginal    not testable
     h = all cases (m = 0)       replicated
     h = 0                       contradicted
     otherwise                   depends, on the variant of the scenario, which the share names
 
-Of `checks` every scenario is a check of its own, whose kind (`core.verdict`) says what a broken one means:
+In checks.toml every scenario is a check of its own, whose kind (`core.verdict`) says what a broken check means:
 
     law           the program is wrong: physics or numerics
     consistency   a gait does not do what it was designed for
@@ -44,7 +44,7 @@ ROOMS = (metrics, values, two_steps, physical_laws)
 CLAIM = "claim"
 """Kind of a statement of the paper, which is judged over all its cases."""
 _SHOWN = 8
-"""Variants on which a claim may depend that are named."""
+"""Most variants, on which a claim depends, that a text names."""
 _Bound = Callable[[str, str, float], Check]
 """Makes the check of (name, kind, value), such as partial(at_most, limit=0.01)."""
 
@@ -53,23 +53,24 @@ class Probe(NamedTuple):
     """One scenario on which a claim was tried."""
 
     name: str
-    """For a reader."""
+    """Name of the scenario, for a reader."""
     figure: AtTwoSteps
-    """The metric."""
+    """Value of the metric at both integration steps."""
     holds: bool
-    """Whether it keeps the limit, at half of the step."""
+    """Whether the value at half of the integration step keeps the limit."""
     marginal: bool
-    """Whether it is not converged, or keeps the limit at one of the steps alone."""
+    """Whether the value is not converged, or keeps the limit at one of the two integration steps alone."""
     variant: str
-    """What of the scenario the verdict may depend on."""
+    """The choice in the scenario on which the verdict may depend, in words."""
 
     @classmethod
     def of(
         cls, name: str, figure: AtTwoSteps, limit: _Bound, round_off: float, variant: str | None
     ) -> Probe:
-        """A scenario with its metric, held against a limit at both steps.
+        """A scenario with its metric, compared with a limit at both integration steps.
 
-        round_off: change at half of the step that is none, in the unit of the metric. variant: name if None.
+        round_off: largest change by halving the step that counts as none, in the unit of the metric. variant:
+        the scenario's name if None.
         """
         used, half = (limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(round_off)
@@ -86,20 +87,23 @@ class Claim:
     """A claim of the paper with what became of it, in words."""
 
     claim: str
+    """The statement."""
     where: str
+    """Its place in the paper."""
     word: str
+    """The verdict, one of the words in the head of this module."""
     number: str
-    """The numbers found."""
+    """Text with the values of the metric."""
     limit: str
-    """What the metric has to keep."""
+    """Name of the metric, and the limit that it has to keep."""
     share: str
-    """How many cases hold, in words, by variant where it depends."""
+    """Text of how many cases hold; for a claim that depends, for each variant."""
     reason: str
-    """Why the word is what it is."""
+    """Text of why the verdict is this one."""
     finding: str = ""
     """One line for the head of the report and the terminal, of a main finding."""
     asserted: float | None = None
-    """Share of the cases that hold, of a claim that a check asks to hold in all; else None."""
+    """Share of the cases that hold, for a claim of which a check demands that all hold; None for others."""
     marginal: int = 0
     """Number of its cases that are not converged."""
 
@@ -119,7 +123,7 @@ def word_of_claim(cases: Sequence[Probe]) -> str:
 
 
 def share_text(cases: Sequence[Probe], apart: bool) -> str:
-    """Text of how many cases hold, with the marginal ones named; apart: for each variant too."""
+    """Text of how many cases hold, which names the marginal ones; apart: whether it also counts by variant."""
     if not cases:
         return ""
     every = Counter(case.variant for case in cases)
@@ -132,7 +136,9 @@ def share_text(cases: Sequence[Probe], apart: bool) -> str:
 
 
 def limit(text: str) -> _Bound:
-    """The limit "<= 0.01", "in 0.9 1.1", or "<= ratio" by its name in admissible.toml."""
+    """The limit that a text such as "<= 0.01" or "in 0.9 1.1" means; "<= ratio" has its number in
+    admissible.toml.
+    """
     sign, *words = text.split()
     bounds = [_number(word) for word in words]
     if sign == "in":
@@ -146,9 +152,10 @@ def _number(text: str) -> float:
 
 
 def _function(text: str) -> Callable[..., Any]:
-    """A function of `ROOMS` by its name, with the words behind it as its first arguments.
+    """The function of `ROOMS` that the first word of a text names, with the other words as its first arguments.
 
-    Where there is none it is an attribute of what it is called with, with words a method.
+    If no room has it, the name is an attribute of the object that it will be called with; with other words, a
+    method of it.
     """
     name, *words = text.split()
     for room in ROOMS:

@@ -16,7 +16,8 @@ import numpy as np
 from biped_adrc.scenario.recording import Outcome
 
 AGREE, ROUND_OFF = 0.01, 1e-9
-"""A number moves by less than this share when the step is halved, or by less than this [rad], [s], [1]."""
+"""A number has converged if halving the integration step changes it by at most the share AGREE, or by at most
+ROUND_OFF in its unit [rad, s, 1]."""
 
 
 class AtTwoSteps(NamedTuple):
@@ -27,7 +28,7 @@ class AtTwoSteps(NamedTuple):
 
     @classmethod
     def of(cls, x: AtTwoSteps | float) -> AtTwoSteps:
-        """A number; one without a step is the same at both."""
+        """x itself, or a number that needs no integration, which is the same at both steps."""
         return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
 
     def gap(self, resolution: float = 0.0) -> float:
@@ -45,7 +46,7 @@ class AtTwoSteps(NamedTuple):
         return self.value == self.at_half or self.gap(round_off) <= AGREE
 
     def over(self, other: AtTwoSteps) -> AtTwoSteps:
-        """One over the other at either step; infinite over zero."""
+        """This number over the other, at each of the two steps; infinite over zero."""
         return AtTwoSteps(*(a / b if b else math.inf for a, b in zip(self, other, strict=True)))
 
 
@@ -69,18 +70,21 @@ class Extremes(tuple[float, ...]):
 
 
 NEGLIGIBLE = 1e-6
-"""[rad]: a smaller tracking error is none, whatever its digits."""
+"""A tracking error below this [rad] counts as none, so that its digits need not converge."""
 PEAK_RESOLUTION = 1e-9
-"""Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
-steps."""
+"""Peak errors that differ by less than this count as equal [rad]; for undisturbed walks halving the integration
+step changes them by 6e-10 at most."""
 RMS_RESOLUTION = 2e-10
-"""The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
+"""Root mean squares that differ by less than this count as equal [rad]; undisturbed walks change by 1.3e-10 at
+most."""
 
 
 def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
-    """The figures of merit that are compared, each with the resolution within which two values agree.
+    """The figures of merit that are compared at two integration steps, each with the resolution, in its unit,
+    within which two values agree.
 
-    Of forces 0 where no window is long enough to say, and for a ratio at its pole, F_N = 0.
+    A force is 0 here if no single support is long enough for its mean, and a friction is if F_N <= 0, where the
+    ratio F_T / F_N has its pole: such numbers would not converge.
     """
     f, last = o.feasibility, o.certificates[-1] if o.certificates else None
     forces = (f.mean_normal_force, f.mean_friction, f.impulse_ratio) if f.supports else (0.0,) * 3
@@ -100,7 +104,7 @@ def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
 
 
 def largest_gap(o: Outcome) -> float:
-    """The largest relative change of a figure of merit when every step is halved.
+    """The largest relative change [1] of a figure of merit when every integration step is halved.
 
     Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
     falls before its last impact has no figures of merit: only its ending has to be the same.
@@ -130,9 +134,10 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
 
 
 def order_of_error(o: Outcome) -> float:
-    """Order k of the largest error in the step, of a run, its half and its quarter; NaN where two are the same.
+    """Observed order k of the peak tracking error e in the integration step h, NaN if two of the errors are
+    equal.
 
-    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|)
+    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|), from a run, `half` and `half.half`
     """
     assert o.half is not None
     assert o.half.half is not None

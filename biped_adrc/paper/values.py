@@ -1,4 +1,4 @@
-"""The numbers in the texts of the claims, by the names that stand in braces in claims.toml."""
+"""The numbers in the texts of the claims: each function returns them by the names in braces in claims.toml."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def of_headline(r: Runs) -> dict[str, object]:
 
 
 def of_members(r: Runs) -> dict[str, object]:
-    """Extremes over the declared choices."""
+    """Extremes over the declared choices, and reasons why walks of them are not feasible."""
     every = [o for part in r.members.values() for o in part]
     adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
     why = sorted({x for w in adrc for name, x in w.infeasible.items() if name != IMPULSE})
@@ -64,7 +64,12 @@ def of_recipe_push(r: Runs) -> dict[str, object]:
 
 
 def of_map(r: Runs) -> dict[str, object]:
-    """Values about the pushes under which NPD falls: how the same pushes end under ADRC."""
+    """Values about the pushes under which NPD falls: how the same pushes end under ADRC.
+
+    lost: how many of these there are; "on" and "feasible" count those among them under which ADRC walks on, and
+    does so feasibly. known: pushes with the same end at both integration steps; doubtful: all others. alone:
+    pushes of the known ones under which ADRC falls and NPD does not.
+    """
     known = [c for c in r.cells if c.certain]
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
     lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
@@ -79,7 +84,7 @@ def of_map(r: Runs) -> dict[str, object]:
 
 
 def of_torso(r: Runs) -> dict[str, object]:
-    """Up to which push of the torso a walk goes on."""
+    """For each preset the first push on the torso that ends the walk, and whether NPD and ADRC end alike."""
     every = m.torso(r)
     stopped: dict[str, str] = {}
     for name, (_, adrc) in every.items():
@@ -164,7 +169,9 @@ def noise_spectrum() -> Array:
 
 
 def of_printed(r: Runs) -> dict[str, object]:
-    """The printed multipliers, what a tracking error does, and what noise gives."""
+    """The printed multipliers, how far a tracking error decays in 0.4 s, and what the regression makes of
+    noise.
+    """
     return {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
         "decay": math.exp(-0.2 * float(np.max(TABLE_II.K_d))),

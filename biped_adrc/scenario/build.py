@@ -48,9 +48,9 @@ from biped_adrc.scenario.records import Misfit, all_taken, named_part
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
-"""Name of the plant that is the walker's own."""
+"""Name of the plant that a walker has of its own, with a pinned foot and impacts in no time."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
-"""What soft ground takes from the record of the ground."""
+"""Values of the record of the ground that soft ground takes."""
 WITHOUT_MOTORS = ("robot", "controller.name", "run", "limits", "ground.slope")
 """Values and records of a scenario that have an effect for a robot without motors."""
 
@@ -101,9 +101,9 @@ class RobotAndGait:
     def start(self, s: Scenario) -> tuple[Array, Array]:
         """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, with a scenario's offsets.
 
-        Without motors after that of the cycle on this ground's slope, which Newton's method finds. Else first
-        random offsets of every coordinate, then the rates scaled by `speed`, then the values of single
-        coordinates. Raises InputError for a coordinate that the robot does not have.
+        A robot without motors starts after the impact of its cycle on this ground's slope, which Newton's
+        method finds. Else offsets are added in this order: random ones of every coordinate, the rates scaled by
+        `speed`, those of single coordinates. Raises InputError for a coordinate that the robot does not have.
         """
         if self.cycle is not None:
             from biped_adrc.analysis.stability import cycle_start
@@ -136,7 +136,7 @@ class RobotAndGait:
 
     @property
     def walked(self) -> Gait:
-        """The gait, where there has to be one. Raises InputError for a robot without motors."""
+        """The gait of a robot with motors. Raises InputError for a robot without motors, which has none."""
         if self.gait is None:
             raise InputError(
                 f"robot '{self.biped.description.name}' has 0 motors and walks no gait"
@@ -208,11 +208,11 @@ def limits(s: Scenario) -> Limits:
 
 
 def plant_of(s: Scenario, biped: Biped) -> Biped:
-    """The robot that walks: the nominal one with the scenario's model errors, itself where there are none.
+    """The robot that walks (the plant): `biped`, the nominal robot, with the scenario's model errors.
 
-    In this order: errors of mass and inertia by body, a load on the trunk, friction, and errors that are drawn
-    with the widths mass_width, com_width, inertia_width and friction_width. That it is the same object where
-    there are none tells `build` that plant and model agree.
+    They apply in this order: errors of mass and inertia by body, a load on the trunk, friction, and errors that
+    are drawn with the widths mass_width, com_width, inertia_width and friction_width. Without errors the object
+    `biped` itself is returned, by which `build` knows that plant and model agree.
     """
     plant, wrong = biped, s.errors
     if wrong.mass or wrong.inertia:
@@ -228,7 +228,9 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
 
 
 def sensors(s: Scenario) -> Sensor | None:
-    """The sensors of a scenario: encoders, then the one that is named; None where all is measured exactly."""
+    """The sensors of a scenario: encoders, then the sensor that `hardware.sensor` names; None where all is
+    measured exactly.
+    """
     e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
     if e != EncoderRecord(filter_time=e.filter_time):
         noise = (e.noise, e.pitch_noise, e.rate_noise)
@@ -241,9 +243,9 @@ def sensors(s: Scenario) -> Sensor | None:
 
 
 def _touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
-    """How the controller of a scenario notices touchdowns; None for at once.
+    """The detector by which the controller of a scenario notices touchdowns; None if it knows them at once.
 
-    The slope that it takes is the gait's: that of the ground it does not know.
+    The detector assumes the gait's slope, since the controller does not know that of the ground.
     """
     t = s.hardware.touchdown
     if t.name is None:
@@ -253,9 +255,9 @@ def _touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
 
 
 def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
-    """A plant of the registry for a walker's robot on its slope. options: more values by name.
+    """A plant of the registry, by its name, for a walker's robot on its slope. options: more values by name.
 
-    Raises InputError for one that there is not, or that cannot be made.
+    Raises InputError for an unknown plant, or one that cannot be made.
     """
     own = {x: getattr(walker, x) for x in ("max_step_time", "fall_height")}
     values = {**options, **own, "biped": walker.plant, "slope": walker.ground_slope}
@@ -281,10 +283,10 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
 
 
 def _ground(s: Scenario) -> Steps:
-    """Changes of the ground's height: uneven ground, and a step down (or up) at `drop_step`; () if level.
+    """Changes of the ground's height by the values of `ground`; () if level.
 
-    `rms`: random heights [m], drawn for all steps of the walk. `step_height`: largest of the random steps [m].
-    `drop`: depth [m], negative for a step up.
+    They add up: heights drawn with the root mean square `rms` [m] and up to `step_height` [m] for each walking
+    step, and one step of the ground in single support `drop_step`, down by `drop` [m] (up if negative).
     """
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
     seed = drawn(s, "ground")
@@ -293,7 +295,10 @@ def _ground(s: Scenario) -> Steps:
 
 
 def stones(s: Scenario) -> Stones | None:
-    """The stones of a scenario, given or drawn, one for each single support and the one after; None without."""
+    """The stones of a scenario, stated or drawn; None without stones.
+
+    Lengths are drawn for each single support and one more, since a controller looks at the next stone.
+    """
     g = s.ground
     if g.stones is not None:
         return Stones(g.stones, g.stone_tolerance)
@@ -317,7 +322,11 @@ def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Dist
 
 
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
-    """Push number i. Raises InputError for a value that its shape does not take, and where it cannot act."""
+    """Push number i of a scenario, as a disturbance. biped: the nominal robot, for its joints. period [s]: of
+    the gait. plant: the robot that walks, for forces on its links.
+
+    Raises InputError for a value that its shape does not take, and for a push outside of the walk.
+    """
     push = s.pushes[i]
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
     accepted = takes(find("disturbance", push.shape).load())
@@ -350,7 +359,7 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
 
     A push counts from the start of its single support and ends with it at the latest; one that goes on over
     impacts counts from the time at which the gait, of this period [s], would begin that single support. An
-    onset that is not given is drawn so that the push fits into the period.
+    onset that the scenario does not state is drawn so that the push fits into the period.
     """
     push = s.pushes[i]
     begin = push.onset
@@ -370,9 +379,9 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
 
 
 def _torques(s: Scenario, i: int, biped: Biped) -> Array:
-    """Torques (n,) [N m] of push i on the coordinates.
+    """Torques (n,) [N m] of push i on the coordinates; on random joints its torque times factors in -1 .. 1.
 
-    Raises InputError for a joint that there is not.
+    Raises InputError for an unknown joint.
     """
     push, zeta = s.pushes[i], np.zeros(biped.n)
     if push.joints == RANDOM and not isinstance(push.torque, dict):

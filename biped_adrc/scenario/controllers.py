@@ -34,11 +34,13 @@ from biped_adrc.scenario.records import Misfit, named_part
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
 Arguments = dict[str, Any]
+"""Arguments of a constructor by name."""
 _AROUND = ("contact", "prediction", "feedforward", "inner", "name")
 """Values of a controller's record that its constructor does not take."""
 CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
 """Arguments of constructors that come from elsewhere in a scenario."""
 GAINS = ("K_p", "K_d")
+"""Values of a controller's record that change its gains."""
 OF_POLES = ("poles", "bandwidth", "order")
 """Values of the observer's record that say where its poles are."""
 
@@ -63,9 +65,10 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
 
 
 def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
-    """The controller of a record; place: its dotted name, for messages.
+    """The controller of a record c, with its wrappers; place: dotted name of the record, for messages.
 
-    An outer loop stays around the policies of the inner one: its state does not begin anew at a touchdown.
+    known: arguments that the scenario has for every constructor. Policies go around the controller inside an
+    outer loop and not around the loop, whose state would begin anew at each touchdown.
     """
     entry, what = find("controller", c.name), f"controller '{c.name}'"
     make = entry.load()
@@ -89,7 +92,9 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
 
 
 def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) -> Controller:
-    """A controller with the policy across contact around it, and what has a number in the registry."""
+    """Wrap a controller in the policy across contact of its record, and in the registry's wrappers of the kind
+    "around" for which the record has a number other than 0, such as `prediction` [s].
+    """
     contact = c.contact
     if contact.name is not None:
         own = contact.own | ({} if contact.window is None else {"window": contact.window})
@@ -105,10 +110,11 @@ def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) 
 def _values(
     what: str, make: Callable[..., object], c: ControllerRecord, defaults: Mapping[str, Any]
 ) -> tuple[Arguments, set[str]]:
-    """What the constructor takes of a record, and the dotted names of the values that were used.
+    """Arguments for the constructor `make` from a record c, and the dotted names of the values that were used.
 
-    A gain that is given replaces that one of the constructor's default gains. defaults: of the registry's
-    entry, where the record has none; but not with poles, which already say what bandwidth and order would.
+    A gain in the record replaces that one of the constructor's default gains. defaults: the registry's values
+    for what the record leaves out; they are not used beside poles, which already say what bandwidth and order
+    would.
     """
     accepted, o = takes(make), c.observer
     settings = {name: x for name in OF_POLES if (x := getattr(o, name)) is not None}
@@ -132,10 +138,11 @@ def _values(
 def _observer(
     what: str, make: Callable[..., object], o: ObserverRecord, settings: Arguments
 ) -> tuple[Observer | None, set[str]]:
-    """The observer for a controller, and the names it took; None where the controller's default holds.
+    """The observer for a controller, and the names of the values that it took; None if the controller's default
+    observer is used.
 
-    Ways to make it are the constructor and the `MAKERS` of its class. Of those for which no argument is
-    missing, the one that takes the most values is called.
+    settings: poles, bandwidth and order. An observer can be made by its constructor and by the `MAKERS` of its
+    class. Of those for which no argument is missing, the one that takes the most values is called.
     """
     usual = _default(make)
     kind = type(usual) if o.name is None else find("observer", o.name).load()

@@ -4,7 +4,8 @@
                    which Newton's method finds the fixed point
     specified(s)   `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name
 
-A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope.
+A robot with motors walks a stored gait under NPD or ADRC; a robot without motors walks its known cycle down a
+slope.
 
 The controller's states (an observer's) belong to the state of the map unless observer_states is False: then the
 controller starts anew after each impact, and the map has 2 n - 1 coordinates.
@@ -37,12 +38,13 @@ NO_MAP = (
 )
 """Values and records of a scenario that have no effect on a return map."""
 FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
-"""The same of a robot without motors."""
+"""Further values that have no effect on the return map of a robot without motors."""
 
 
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
-    """Return map of a scenario by its own integration method, without its pushes; the guess is the gait's
-    orbit.
+    """The return map of a scenario without its pushes, by its own integration method, and the gait's orbit as
+    the guess of its fixed point. observer_states: whether the controller's states belong to the state of the
+    map.
     """
     scene = RobotAndGait.of(s)
     walker = build(s.replace(pushes=()), scene)
@@ -58,11 +60,11 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
         walking = cycle_of(ba.Scenario("ADRC"), observer_states=False)
         passive = cycle_of(ba.Scenario("passive", robot="compass", ground={"slope": 0.01}))
 
-    observer_states: whether the controller's states belong to the state of the map. By the scenario's method
-    and step where it has them; else RK4 at 0.5 ms, which is within 2e-7 of delta^2 on the published gaits, and
-    for controllers with states, such as ADRC, the exponential method at 1 ms. Raises InputError for values that
-    have no effect on a return map, and for a controller that does not fit the robot; GaitError where no cycle
-    is stored.
+    observer_states: whether the controller's states belong to the state of the map. The map is integrated by
+    the scenario's method and step, if it has them; else by the exponential method at 1 ms for controllers with
+    states, such as ADRC, and by RK4 at 0.5 ms for others, whose largest multiplier is within 2e-7 of delta^2 on
+    the published gaits. Raises InputError for values that have no effect on a return map, and for a controller
+    that does not fit the robot; GaitError where no cycle is stored.
     """
     gait = RobotAndGait.of(s).gait
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
@@ -82,9 +84,9 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
 def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
     """The specification of the walker of a scenario; it needs no walk.
 
-    What the scenario does to the walk, such as pushes, ground and start, has no part in it; what it does to the
-    robot has, as plant beside the model. scene: robot and gait where they are at hand; for many candidates give
-    the same, whose linearisations are kept. Raises InputError for a scenario in continuous time, on another
+    Pushes, ground and start of the scenario have no part in it. Its model errors have: they make the plant
+    differ from the controller's model. scene: robot and gait, loaded if None; with the same object for many
+    candidates the gait is linearised once. Raises InputError for a scenario in continuous time, on another
     plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.ground.plant != RIGID:
@@ -95,9 +97,9 @@ def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specific
 
 @lru_cache(maxsize=16)
 def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
-    """The gait linearised for a plant with the model errors of a scenario.
+    """The gait linearised for a plant with these model errors, drawn from this seed.
 
-    No controller has a part in it, so the candidates of a search share it.
+    It does not depend on the controller, so the candidates of a search share it.
     """
     plant = plant_of(Scenario(errors=errors, run={"seed": seed}), scene.biped)
     return FrozenGait.of(plant, scene.walked, scene.biped)
@@ -105,7 +107,7 @@ def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
 
 def specified(s: Scenario, scene: RobotAndGait | None = None) -> dict[str, float]:
     """The numbers of `specification_of` by name, none of them NaN; of an unstable loop the margins are 0 and
-    the ripple is infinite. Raises InputError as it.
+    the ripple is infinite. Raises InputError for a scenario that has no specification.
 
         specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}, hardware="rabbit"))
     """

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 NAME = ""
-"""Key of a record's obvious name in plain values."""
+"""Key, in nested plain values, of the text that may stand for a whole record (`Record.SHORT`)."""
 
 
 def tables(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,12 +1,14 @@
-"""Remarks on a finished walk: pushes that an impact cut off, steps of integration too long beside their edges,
-the last stone, a gait for another robot, slope or controller, and a controller that does less than was asked.
+"""Remarks on a finished walk: pushes that an impact cut off, integration steps that are too long around the
+switching times of a push, the last stone, a gait for another robot, slope or controller, and a controller that
+does less than was asked.
 
 A window of a push is given in the time of one single support. When the impacts come is known only once the walk
 is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it
 was asked for, since a push that acts for less time than intended spoils a comparison without any other sign.
 
-An edge is an instant at which a disturbance switches (`Disturbance.switches`), by the number of its single
-support and the time [s] from its start; the number 0 is for times from the start of the walk.
+An edge is a switching time of a push: an instant at which a disturbance switches on or off
+(`Disturbance.switches`). It is stated by the number of its single support and the time [s] from the start of
+that; the number 0 stands for times from the start of the walk.
 
     the push from 0.1 to 0.3 s in single support 3 was cut by the impact at 0.2531 s
     the push from 0.6 s on in single support 2 did not begin before the impact at 0.5402 s
@@ -28,22 +30,25 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Trajectory
 
 _NEAR = 1e-3
-"""[s], the usual integration step: whether an edge this close to an impact acts before or after it is decided
-by the error of the method."""
+"""The usual integration step [s]. Whether an edge this close to an impact acts before or after the impact is
+decided by the error of integration."""
 BURIED = 5e-3
-"""Depth of the swing foot below the ground [m] from which a start is named, beyond the scuff of a leg."""
+"""Depth of the swing foot below the ground [m] from which on a start has a remark; a scuffing leg is less
+deep.
+"""
 LONGER = 1.1
-"""Largest step over the observer's shortest time constant; a little above 1 for round-off in its poles."""
+"""Largest integration step over the observer's shortest time constant [1]; a little above 1, since multiple
+poles have round-off."""
 SAME_CURVE = 1e-6
-"""[rad]: curves that nowhere differ by more are one, stored or fitted twice."""
+"""Curves that differ by no more than this [rad] count as the same, stored or fitted twice."""
 
 
 def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on pushes, steps beside their edges, start, last stone, controller and gait (None: no motors).
+    """Sentences on pushes, integration steps around their edges, start, last stone, controller and gait.
 
-    A push is named that did not act, that an impact cuts off, or with an edge at an impact. An edge within
-    `_NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it is how "from
-    the impact on" is written.
+    gait: None for a robot without motors. A push has a remark if it did not act, if an impact cuts it off, or
+    if one of its edges is within `_NEAR` of an impact, before or after it. An edge at the very start of a
+    single support has none: it is how "from the impact on" is written.
     """
     for part in () if walker.disturbance is None else summands(walker.disturbance):
         edges = {k: sorted(s for j, s in part.switches if j == k) for k, _ in part.switches}
@@ -66,7 +71,7 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
 
 
 def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
-    """A sentence for a state that no impact changes, and for a speed that footsteps do not keep."""
+    """A sentence for a controller with a state but no `jump`, and for a speed that `Footstep` does not keep."""
     for law in nested(walker.controller):
         name, kept = type(law).__name__, law._writes("initial_state") and not law._writes("jump")
         if kept and trajectory.events(FOOT_STRIKE):
@@ -76,7 +81,9 @@ def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
 
 
 def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
-    """A sentence for each thing for which the gait was not made: robot and preset, slope, the curve tracked."""
+    """A sentence for each difference to what the gait was made for: robot and preset, slope, and the curve that
+    the controller tracks.
+    """
     name, slope, plant = f"gait '{gait.name}'", walker.ground_slope, walker.plant
     if (gait.robot, gait.preset) != (plant.description.name, plant.preset):
         yield f"{name} was made for {gait.robot} {gait.preset}"
@@ -103,7 +110,9 @@ def _acted(part: Disturbance, steps: set[int], trajectory: Trajectory, n: int) -
 
 
 def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on the edges of one push, times [s] from the start of the single support, of the walk at 0."""
+    """Sentences on the edges of one push in single support `step`, at these times [s] from its start; for step
+    = 0 from the start of the walk.
+    """
     name, arcs = _name(step, times), trajectory.arcs
     starts = [0.0] if step == 0 else [arc.mode.start for arc in arcs if arc.mode.step == step]
     if not starts:
@@ -125,12 +134,13 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
 
 
 def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
-    """A sentence where steps of a fixed length are too long for the observer's transient after an edge.
+    """A sentence if the fixed integration step is too long for the observer's transient after an edge of a
+    push.
 
-    In the coordinates of `Walker.split` the observer's error decays with its poles. Where the step is longer
-    than 1 / |p| of the fastest pole, the error seen after an edge is mostly that of the integration method.
-    Single supports with an edge are looked at, and those after them. Empty for methods that control their
-    error.
+    In the coordinates of `Walker.split` the observer's error decays with its poles. If the integration step is
+    longer than 1 / |p| of the fastest pole p, the tracking error after an edge is mostly an error of
+    integration. Single supports with an edge are looked at, and those after them. Methods that control their
+    error need no remark.
     """
     if walker.disturbance is None or "rtol" in trajectory.settings.get("method", ""):
         return
@@ -139,7 +149,7 @@ def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
         return
     edges = {step for part in summands(walker.disturbance) for step, _ in part.switches}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
-    # an edge of step 0 is in time of the walk: it may be in any single support
+    # the number 0 is for an edge in the time of the walk, which may lie in every single support
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
     longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
     if longest > LONGER * constant:

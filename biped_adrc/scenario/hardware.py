@@ -76,7 +76,7 @@ class HardwareRecord(Record):
     @model_validator(mode="before")
     @classmethod
     def _opened(cls, values: Any) -> Any:
-        """The name of the profile as a record, and values of the profile where none are given."""
+        """Make a mapping of a profile's name, and fill in the profile's values for those that are left out."""
         values = super()._opened(values)  # type: ignore[operator]
         if not isinstance(values, Mapping):
             return values

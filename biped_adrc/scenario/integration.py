@@ -1,8 +1,9 @@
-"""Which method integrates a walk, with which step, and the run of its parts one after the other.
+"""Which method integrates a walk, with which integration step, and the run of its parts one after the other.
 
-ADRC's observer answers the edge of a push by a transient of 1 to 2 ms, far shorter than the step that suffices
-elsewhere. A walk is therefore cut at impacts into parts (`WalkPart`), with a fine step in the single supports
-in which the disturbance switches and a usual one in the others; the trajectories are joined.
+Where a push switches, ADRC's observer has a transient of 1 to 2 ms, not much longer than the integration step
+that suffices elsewhere. A walk is therefore cut at impacts into parts (`WalkPart`): a fine integration step in
+the single supports in which the disturbance switches and those after, a usual one in the others. The
+trajectories of the parts are joined.
 
     refined(walker, 8, 1, RK4(), 5e-5)               # parts: usual, fine where the push switches, usual
 """
@@ -36,7 +37,7 @@ class WalkPart(NamedTuple):
     """Consecutive single supports of a walk that are integrated by one method."""
 
     impacts: int
-    """How many impacts it ends with."""
+    """Number of its single supports; the part ends with the impact of the last one."""
     method: OneStepMethod
 
 
@@ -47,32 +48,36 @@ METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "stiff": Stiff,
 }
 FINE_STEP = 5e-5
-"""[s] of the exponential method where a push switches. After an edge the error of ADRC is a spike of 1 to 2 ms;
-this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five."""
+"""Integration step of the exponential method where a push switches [s]. After a switching time the error of
+ADRC is a spike of 1 to 2 ms; this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of
+five."""
 
 
 HARDWARE_STEP = 2.5e-4
-"""[s] of RK4 behind sensors, motors or a torque limit. Of 200 random walks 191 have the
-same results at a quarter of it; of those at 1 ms, 176."""
+"""Integration step of RK4 for a walker with sensors, motors or a torque limit [s]. Of 200 random walks 191 have
+the same results at a quarter of this step; at 1 ms only 176."""
 STABLE = 2.5
-"""Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""
+"""Largest |lambda| h [1] that is used with RK4, for an eigenvalue lambda and the integration step h; RK4 is
+stable up to 2.78 on the real axis."""
 _RESOLVED = 0.5
-"""Largest |lambda| h [1] at which RK4 follows what decays (static friction around zero rate) within 0.05 %."""
+"""Largest |lambda| h [1] for the fast decay of rates by static friction around zero rate, which RK4 then
+follows within 0.05 %."""
 
 
 ASIDE = 1e-12
 """Offset of a start [rad, rad/s] by which rounding is judged: between round-off and the error of a step."""
 DECIDES = 1e-7
-"""[rad, s]: walks that begin ASIDE of each other and are farther apart at an impact depend on rounding. Smooth
-flows take them some 400 times apart at most (of 22 laws and robots)."""
+"""Largest distance at an impact [rad, s] of two walks that begin ASIDE of each other and do not depend on
+rounding. Without comparisons (encoder counts, limits) the distance grew 400 times at most, for 22 laws and
+robots."""
 
 
 def default_method(walker: Walker) -> OneStepMethod:
-    """The exponential method where the walker has a linear stiff part (an observer), RK4 at 1 ms elsewhere.
+    """The exponential method for a walker with a linear stiff part (an observer), RK4 at 1 ms for others.
 
-    At less behind hardware, whose counts and limits magnify an error of the motion, where a controller's own
-    motion would make that unstable, such as a short line of delay, or where static friction acts on little
-    inertia.
+    RK4 takes a shorter integration step with sensors, motors or a torque limit, whose counts and limits magnify
+    an error of the motion, and where the controller's states are so fast that 1 ms would be unstable, such as
+    those of a short delay. Both take a shorter one where static friction acts on little inertia.
     """
     method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
     hardware = (walker.sensors, walker.motors, walker.torque_limit)
@@ -108,6 +113,7 @@ def rate_of_law(walker: Walker) -> float:
             layout, s, u = Layout.of(state), flatten(state), law.output(state, m)
             if len(s) == 0:
                 return 0.0
+            # half width of the differences: most flows are linear in s, and their slope needs no exact one
             moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
             ahead, behind = (
                 [flatten(law.flow(layout.tree(s + d * side), m, u)) for d in moved]
@@ -120,11 +126,12 @@ def rate_of_law(walker: Walker) -> float:
 
 
 def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | None]:
-    """The integration method of a walk, and its step where a push switches [s]; None for the usual one.
+    """The integration method of a walk, and its integration step [s] where a push switches; None for the usual
+    step.
 
-    The walker's default where the record gives neither method nor step: on the compiled engine with `FINE_STEP`
-    for the exponential method. In Python the fine steps would take minutes; there they have to be asked for,
-    and `Walk.remarks` says so.
+    A record without method and step takes the walker's default, and on the compiled engine `FINE_STEP` for the
+    exponential method. On Pinocchio the fine steps would take minutes; there they have to be asked for, and
+    `Walk.remarks` says so.
     """
     if run.method in STEP_CONTROL:
         return METHODS[run.method](run.tolerance, run.tolerance), None
@@ -138,10 +145,11 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
 def refined(
     walker: Walker, impacts: int, first_step: int, usual: OneStepMethod, fine: float | None
 ) -> tuple[WalkPart, ...]:
-    """Parts with steps of `fine` [s] in the single supports in which the disturbance switches and those after.
+    """Parts of a walk, with the integration step `fine` [s] in the single supports in which the disturbance
+    switches and those after, and the method `usual` in the others.
 
-    Where it switches at times of the walk rather than of a single support, all of the walk is fine, since it is
-    not known beforehand in which single support that will be.
+    first_step: number of the first single support. A disturbance that switches at times of the walk rather than
+    of a single support makes all of the walk fine, since its single support is not known beforehand.
     """
     if fine is None:
         return (WalkPart(impacts, usual),)
@@ -185,7 +193,11 @@ def runs_in_parts(
     progress: Progress | None = None,
     engine: str = COMPILED,
 ) -> Iterator[Trajectory]:
-    """The trajectory of each part from state x (nx,) in a mode on; none after a fall."""
+    """Iterate over the trajectories of the parts, from state x (nx,) in this mode on; the iteration ends after
+    a fall.
+
+    engine: "compiled" or "pinocchio". progress: called with the time [s] and the number of events.
+    """
     done = 0
 
     def shown(t: float, events: int) -> None:
@@ -233,18 +245,19 @@ def _joined(runs: Sequence[Trajectory]) -> Trajectory:
 
 
 def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> float:
-    """How far apart a run in these parts and one from a start ASIDE are, at impacts and the end.
+    """Largest difference at impacts and the end, max |dq| [rad] and |dt| [s], of a run in these parts and one
+    whose start differs by ASIDE; infinite if one of the two makes more impacts.
 
-    max |dq| [rad], |dt| [s]; infinite where one makes more impacts. Where a comparison decides, as in an
-    encoder, neighbours may read other counts and walk apart from then on; around an unstable motion a quantised
-    loop does so by and by (Delchamps, IEEE TAC 35(8), 1990), at any step. Raises InputError for a walk without
-    parts.
+    Where a comparison decides, as in an encoder, the two may read other counts and walk apart from then on;
+    around an unstable motion a quantised loop does so sooner or later (Delchamps, IEEE TAC 35(8), 1990), at
+    every integration step. Raises InputError for a walk without parts.
     """
     if not parts:
         raise InputError("a walk from a file, on another plant or cut has no steps; ask a new one")
     n, first = walker.plant.n, run.arcs[0]
     k = np.arange(len(first.x[0]))
-    x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)  # in no direction of symmetry
+    # cos(k) of the coordinate's number: a direction that no symmetry of the robot prefers
+    x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)
     beside = runs_in_parts(walker, x, first.mode, parts)
     runs = run.arcs, [arc for other in beside for arc in other.arcs]
     a, b = (np.array([(arc.t[-1], *arc.x[-1, :n]) for arc in arcs]) for arcs in runs)

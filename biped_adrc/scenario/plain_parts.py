@@ -39,7 +39,7 @@ PartRecord = dict[str, Any]
 
 
 class MissingPart(InputError):
-    """An object whose class, or that of an object inside of it, is the user's."""
+    """An object cannot be made again, since its class, or that of an object inside it, is the user's."""
 
     def __init__(self, home: str) -> None:
         super().__init__(f"'{home}' is not of this package")
@@ -66,9 +66,9 @@ class Writer:
     """
 
     records: list[PartRecord] = field(default_factory=list)
-    """Of all objects seen, each once; an object is referred to by its place here."""
+    """Records of the objects that were written, each once; other records name an object by its place here."""
     _known: dict[int, tuple[int, object]] = field(default_factory=dict)
-    """By id of an object its place, and the object itself, so that its id is not used again."""
+    """id of an object -> its place, and the object itself, kept alive so that no other one gets its id."""
 
     def plain(self, x: object) -> object:
         """The value as JSON has it; {kind: ...} for arrays, tuples, enums and paths, {"part": place} for

@@ -23,7 +23,7 @@ from biped_adrc.scenario.records import OpenRecord, field
 from biped_adrc.scenario.units import quantity
 
 RANDOM = "random"
-"""Joints of a push with factors that are drawn."""
+"""Value of `joints` for a push on all joints with motors, with factors in -1 .. 1 that are drawn."""
 _NUMBER = r"[0-9.eE+-]+?\s*[^\s@:,=0-9-]*"
 _TORQUE = r"[^@=]+=[^@=,]+"
 _PUSH = re.compile(
@@ -73,7 +73,7 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
 
     @property
     def over_impacts(self) -> bool:
-        """Whether its window goes on over impacts."""
+        """Whether the push goes on over impacts, by the record or, where it does not say, by its shape."""
         by_shape = find("disturbance", self.shape).over_steps
         return by_shape if self.across_impacts is None else self.across_impacts
 
@@ -89,7 +89,9 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
         return torques
 
     def stop(self, onset: float) -> float:
-        """The end of its window [s]: the sum as decimal numbers, so that 0.1 and 0.2 make 0.3."""
+        """The end [s] of a push that begins at `onset` [s]; onset and duration are added as decimal numbers, so
+        that 0.1 and 0.2 make 0.3.
+        """
         if self.onset is None:
             return onset + self.duration
         return float(Decimal(repr(onset)) + Decimal(repr(self.duration)))

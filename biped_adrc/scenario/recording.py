@@ -11,7 +11,7 @@ reproduction of the paper read it.
     walk.certificates    per step: friction, torque, clearance, energy
     walk.soft_steps      per step on soft ground: slip, flight, double support, penetration
     walk.feasibility     could ground and motors have carried it? until_infeasible cuts it where not
-    walk.touchdowns      when each was noticed, where the controller has to
+    walk.touchdowns      when the controller noticed each touchdown, if it has to notice them itself
     walk.remarks         sentences on what was not as it was asked for
     walk.rounding()      does rounding decide its numbers?
     walk.plot, animate   figures and pictures
@@ -69,7 +69,7 @@ _OF_JOINTS = {
     "dq_d": "v_d{} [rad/s]",
     "error": "error{} [rad]",
 }
-"""Signals with a column for each joint in the table of a walk."""
+"""Signals that have several columns in the table of a walk, and the names of these columns by number."""
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ class Outcome(Shown):
     impacts: int
     """Number of impacts made."""
     x_minus: Array
-    """States just before each impact (impacts, states) [rad, rad/s], the controller's behind."""
+    """States just before each impact (impacts, states): q [rad], q' [rad/s], then the controller's states."""
     durations: Array
-    """Durations of the single supports (impacts,) [s]."""
+    """Durations of the finished single supports (impacts,) [s]."""
     peak_error: float
     """max |q_b - q_d| [rad] up to a fall, also between the nodes of the method; 0 where no joint is driven."""
     rms_error: float
@@ -96,16 +96,17 @@ class Outcome(Shown):
     peak_torque: float
     """max |u_i| [N m]; 0 without motors."""
     certificates: tuple[Certificate, ...]
-    """What each finished step would have asked of ground and motors."""
+    """What each finished walking step would have asked of ground and motors."""
     feasibility: Feasibility
     """Whether ground and motors could have carried the walk, within the limits of the robot's record."""
     method: str
-    """Integration method, with its step."""
+    """Integration method, with its integration step [s]."""
     engine: str
     """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
     half: Outcome | None = None
-    """The same run with every step half as long: the difference of the two is an estimate of the error of
-    integration in every number here, since RK4's error falls by 16. Its own half is None."""
+    """The same run with every integration step half as long: the difference of the two estimates the error of
+    integration in every number here, since halving the step makes RK4's error 16 times smaller. Its own half is
+    None."""
 
     def __post_init__(self) -> None:
         freeze(self, "x_minus", "durations")
@@ -139,7 +140,9 @@ class Walk(Shown):
     stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
     parts: tuple[WalkPart, ...] = ()
-    """How it was integrated, on the rigid plant; empty for a walk from a file, and for one that is cut."""
+    """The integration methods of its parts, on the rigid plant; empty for a walk from a file, or one that is
+    cut.
+    """
 
     def __repr__(self) -> str:
         run = self.trajectory
@@ -202,7 +205,9 @@ class Walk(Shown):
         return () if ground is None else recorded_steps(self.trajectory, *ground)
 
     def _soft_ground(self) -> tuple[float, tuple[Array, Array]] | None:
-        """Friction and axes of the soft ground, of a run that says what its feet do there; else None."""
+        """Friction [1] and axes of the soft ground, for a run that recorded what its feet do there;
+        else None.
+        """
         run = self.trajectory
         ground = run.settings.get("plant", {}).get("ground")
         if ground is None or recorded(run, PLACE) is None:
@@ -210,9 +215,9 @@ class Walk(Shown):
         return ground["friction"], ground_axes(self.walker.ground_slope)
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
-        """The certificates for other limits.
+        """The certificates for other limits; None: those of the robot's record.
 
-        There are no certificates of a soft walk: what an impact in no time would need does not apply there.
+        A walk on soft ground has none: what an impact in no time would need does not apply there.
         """
         if self.soft:
             return ()
@@ -234,7 +239,9 @@ class Walk(Shown):
 
     @cached_property
     def touchdowns(self) -> Detections:
-        """When the controller noticed each touchdown. Raises InputError where it knows at once."""
+        """When the controller noticed each touchdown. Raises InputError for a walker without a detector, whose
+        controller knows each touchdown at once.
+        """
         return touchdowns(self.walker, self.trajectory)
 
     @cached_property
@@ -286,8 +293,8 @@ class Walk(Shown):
         return tuple(dict.fromkeys(remarks(self.walker, self.gait, self.trajectory)))
 
     def rounding(self) -> float:
-        """How far [rad, s] a walk from 1e-12 aside ends: above 1e-7 rounding decides. Raises InputError without
-        `parts`.
+        """Largest difference [rad, s] at impacts and the end to the same walk from a start that is 1e-12 off:
+        above 1e-7 rounding decides its numbers. Raises InputError without `parts`.
         """
         return rounding(self.walker, self.trajectory, self.parts)
 
@@ -301,9 +308,8 @@ class Walk(Shown):
         return name.rpartition(":")[2].removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
-        """References against joint angles, and torques, as figures 4 and 5; push is marked [s].
-
-        Of a robot without motors: angles, energies and the phase portrait.
+        """References against joint angles, and torques, as figures 4 and 5 of the paper; for a robot without
+        motors angles, energies and the phase portrait. push: (begin, end) [s] that is marked.
         """
         from biped_adrc.view.plots.figures import walk_figure
 
@@ -343,7 +349,9 @@ class Walk(Shown):
         return storage.save(self.trajectory, path, {**about, **(settings or {})}, arrays)
 
     def _columns(self) -> dict[str, Any]:
-        """Columns (K,) by name with unit: floats, `step` of int, `event` of text, empty elsewhere."""
+        """Columns (K,) of the table of `to_csv`, by name with unit; `step` is the number of the single
+        support.
+        """
         s, events = self.signals, list[str]()
         for arc in self.trajectory.arcs:
             events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]

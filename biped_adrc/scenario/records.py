@@ -42,21 +42,24 @@ _KINDS = {
     object: "a record",
     NoneType: "none",
 }
-"""Words for the types of values."""
+"""Words for the types of values, in error messages."""
 SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
-"""Of the ends of a range, by their names in `operator`."""
+"""Signs of the ends of a range, by their names in `operator`."""
 
 
 def field(default: Any, unit: str = "", kind: str = "", **limits: Any) -> Any:
-    """A field with its unit, "1" for a dimensionless number, and range (ge, gt, le, lt); kind: of the registry.
+    """A field with its unit, "1" for a dimensionless number, and range (ge, gt, le, lt).
 
-    The docstring below the field is its help text.
+    kind: for a name of the registry, which kind of thing it names ("controller"). The docstring below the field
+    is its help text.
     """
     return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
 
 
 class Misfit(InputError):
-    """A value that a record does not take; `place` is its dotted name."""
+    """A value that a record does not take; `place` is its dotted name, `known` whether a record has such a
+    name.
+    """
 
     def __init__(self, place: str, text: str, known: bool = True) -> None:
         super().__init__(f"{place}: {text}" if place else text)
@@ -64,7 +67,9 @@ class Misfit(InputError):
 
 
 def all_taken(place: str, own: Mapping[str, object], known: Collection[str]) -> None:
-    """Raise Misfit for an own value that nothing takes."""
+    """Raise Misfit for a value in `own` (name -> value) whose name is not among the known ones; place: dotted
+    name of their record.
+    """
     for name in own:
         if name not in known:
             raise Misfit(f"{place}.{name}", unknown(name, known))
@@ -79,10 +84,12 @@ def named_part(
     place: str,
     fields: Collection[str] = (),
 ) -> _T:
-    """A thing of the registry, made of what is known of the scenario, of its defaults, and of own values.
+    """Construct the part that the registry has of this kind and name.
 
-    place: the dotted name of its record. fields: of that record. Raises InputError for what is not there or
-    cannot be made, and Misfit for an own value that it does not take.
+    Its constructor takes by name what is known of the scenario, then the registry's defaults, then `own`: the
+    user's own values in its record, which override these. place: the dotted name of that record. fields: the
+    record's declared fields. base: class that the part must have. Raises InputError for a part that is not
+    there or cannot be made, and Misfit for an own value that it does not take.
     """
     entry = find(kind, name)
     make = entry.load()
@@ -92,24 +99,24 @@ def named_part(
 
 
 class Described(NamedTuple):
-    """What is known of one value by its dotted name."""
+    """The description of one value of a record, by its dotted name."""
 
     name: str
     types: tuple[type, ...]
-    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty for one of the user's own."""
+    """float, int, bool, str, tuple, dict, NoneType; object for a record; empty for a value of a user's part."""
     limits: tuple[tuple[str, float], ...] = ()
-    """Of the range: (ge, gt, le or lt, value)."""
+    """Ends of the range, each as ("ge", "gt", "le" or "lt", number)."""
     default: Any = None
     text: str = ""
     choices: tuple[str, ...] = ()
     unit: str = ""
     """"" for a number that takes no unit, `ANY` where only a part of the user's own knows it."""
     kind: str = ""
-    """Of the registry, where it is a name of it."""
+    """Kind in the registry, for a value that is a name of the registry; else empty."""
 
     @property
     def in_brackets(self) -> str:
-        """Its unit behind a name, as " [s]"; empty without one."""
+        """The unit to be put behind a name, such as " [s]"; empty without one."""
         return "" if self.unit in PLAIN else f" [{self.unit}]"
 
     def read(self, x: Any) -> Any:
@@ -126,7 +133,7 @@ class Described(NamedTuple):
         return x
 
     def taken(self, x: Any) -> Any:
-        """The same, with its name in the error: raises Misfit."""
+        """The value as `read` returns it. Raises Misfit, which has the dotted name, where `read` refuses it."""
         try:
             return self.read(x)
         except ValueError as error:
@@ -150,7 +157,7 @@ class Record(BaseModel):
         use_attribute_docstrings=True,
     )
     SHORT: ClassVar[str] = "name"
-    """Field that a text in place of the record stands for."""
+    """Name of the field that a text in place of the record sets; "" for none."""
     APART: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Pairs of values that say the same, or exclude one another, by dotted names."""
 
@@ -163,7 +170,9 @@ class Record(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _opened(cls, values: Any) -> Any:
-        """The name alone as a record, and lists of a part of the user's own as tuples."""
+        """Make a mapping of a text that stands for the record, and check values that only a user's part
+        knows.
+        """
         if isinstance(values, str) and cls.SHORT in cls.model_fields:
             values = {cls.SHORT: values}
         if not isinstance(values, Mapping):
@@ -178,7 +187,7 @@ class Record(BaseModel):
 
     @classmethod
     def own_value(cls, name: str) -> Described:
-        """What is known of a value that only the user's part knows: nothing."""
+        """The description of a value that only the user's part knows: it says nothing but the name."""
         return Described(name, (), unit=ANY)
 
     @classmethod
@@ -249,7 +258,7 @@ class Record(BaseModel):
 
     @model_validator(mode="after")
     def _apart(self) -> Self:
-        """Raise Misfit for both values of a pair."""
+        """Raise Misfit if both values of a pair of `APART` differ from their defaults."""
         usual = by_default(type(self))
         for pair in self.APART:
             values = operator.attrgetter(*pair)
@@ -304,7 +313,7 @@ class Record(BaseModel):
 
 
 class OpenRecord(Record):
-    """A record that keeps other names in `own`."""
+    """A record that takes names that it does not declare, for a part of the user's, and keeps them in `own`."""
 
     model_config = ConfigDict(extra="allow")
 
@@ -319,7 +328,10 @@ def as_python(x: Any) -> Any:
 
 
 def converted(what: Described, x: Any) -> Any:
-    """A value without its unit and in the field's type, where it is a text. Raises ValueError."""
+    """Convert a value that is a text to the type of its field, a number to SI units; other values stay.
+
+    Raises ValueError for a text that does not fit.
+    """
     types = what.types
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
@@ -351,7 +363,7 @@ def by_default(cls: type[Record]) -> Record:
 
 @lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
-    """One field of a record."""
+    """The description of the field `name` of a record; place: its dotted name, if longer."""
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))

@@ -30,11 +30,13 @@ from biped_adrc.scenario.records import Described, Misfit, OpenRecord, Record, b
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
 LONGEST_PLANT_STEP = 2e-4
-"""Default step of an engine with soft ground, where the ground is soft enough [s]."""
+"""Longest default integration step of an engine with soft ground [s]."""
 _RESOLVED = 0.1
-"""Of the ground's time constant: the longest step that resolves contact."""
+"""Default integration step of such an engine as a share of the ground's time constant, so that it resolves
+contact.
+"""
 STEP_CONTROL = ("adaptive", "stiff")
-"""Integration methods that choose their own step."""
+"""Integration methods that choose their own integration step."""
 _Values = Any
 """A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
@@ -139,7 +141,9 @@ class GroundRecord(OpenRecord):
 
     @property
     def engine_step(self) -> float:
-        """Step of the engine of another plant than the rigid one [s]; by default contact is resolved."""
+        """Integration step [s] of the engine of a plant with soft ground; by default short enough for its
+        contact.
+        """
         usual = min(LONGEST_PLANT_STEP, _RESOLVED * self.time_constant)
         return usual if self.plant_step is None else self.plant_step
 
@@ -327,7 +331,8 @@ def read_scenario(path: Path) -> Scenario:
 
 
 def write_scenario(path: Path, s: Scenario, comment: str) -> None:
-    """Write the values of a scenario that differ from the defaults, and whom it is of. Raises OutputError.
+    """Write the values of a scenario that differ from the defaults, and its controller and robot. Raises
+    OutputError.
 
     comment: the line at the top of the file.
     """
@@ -348,7 +353,8 @@ DRAWN = (
     *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
     *("touchdown", "stones"),
 )
-"""What is random in a walk. The place in this list selects the stream, so new names go to its end."""
+"""What is random in a walk. The place in this list selects the stream of random numbers, so a new name goes to
+its end."""
 
 
 def drawn(s: Scenario, what: str, item: int = 0) -> int:
@@ -359,9 +365,9 @@ def drawn(s: Scenario, what: str, item: int = 0) -> int:
 
     start: offsets of coordinates and speed. onset: time of a push. joints: factors of a push on random joints.
     noise: a push that is noise. sensors: noise of encoders. model: errors of masses, centres, inertias and
-    friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that
-    is named by `sensor`, apart from that of the encoders. touchdown: which ones are missed. stones: their
-    places.
+    friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the sensor
+    that `hardware.sensor` names, apart from that of the encoders. touchdown: which touchdowns are missed.
+    stones: lengths of the steps to the stones.
     """
     key = (DRAWN.index(what), item) if item else (DRAWN.index(what),)
     words = np.random.SeedSequence(s.run.seed, spawn_key=key).generate_state(1, np.uint64)

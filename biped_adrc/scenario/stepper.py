@@ -51,16 +51,16 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import Scenario
 
 _STATUS = np.array([*STATUS, None], dtype=object)
-"""By code; the last one is for a walk that has not begun, code -1."""
+"""Status of a walk by its code; the last one is for a walk that has not begun, with the code -1."""
 
 
 class Sample(NamedTuple):
     """N walks, each at its last sample instant, or at its end; all arrays are read-only."""
 
     t: Array
-    """(N,) [s]"""
+    """Times (N,) [s] since the start of each walk."""
     x: Array
-    """States (N, nx): q, q', then what controller and hardware keep; before the sample instant."""
+    """States (N, nx) just before the sample instant acts: q, q', then the states of controller and hardware."""
     step: Ints
     """Numbers of the single supports (N,)."""
     status: NDArray[np.object_]
@@ -71,7 +71,7 @@ class Sample(NamedTuple):
 
 
 Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
-"""A walk where it is, for `Stepper.restore`: with its walker, and the code of its status."""
+"""A walk as `Stepper.save` found it: its walker, the walk, and the code of its status."""
 
 
 class Stepper:
@@ -108,24 +108,26 @@ class Stepper:
         """Why walks are not moved in machine code; empty where they are."""
         self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
         self.walkers: list[Walker | None] = [None] * count
-        """With the inputs, as the scenario makes them."""
-        self.in_python = False  # whether one of them is
+        """Walkers as the scenario makes them, with inputs for torque and force."""
+        self.in_python = False  # whether at least one walk is moved in Python
         self.over: list[tuple[int, Support]] = []
-        """Single supports that ended in the last sample, each with the number of its walk, where judged."""
+        """Single supports that ended in the last sample, each with the number of its walk; empty without
+        `within`.
+        """
         self._kernels = kernels()
         self.addresses = np.zeros(count, dtype=np.int64)
         self._walks = self.addresses.ctypes.data, count
         self.inputs = np.zeros((count, self.p + 2))
         """Torque (p,) [N m] and force (2,) [N] from outside in the next sample."""
         self._impacts = np.zeros(count, dtype=np.int64)
-        """In the last sample; -1 for a walk that did not go on in machine code."""
+        """Impacts of each walk in the last sample; -1 for a walk that machine code did not move."""
         self.codes = np.full(count, -1, dtype=np.int64)
-        """0 for a walk that goes on, -1 for one that has not begun."""
+        """Places in `STATUS`: 0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
-        """t, number of the single support, x of each walk."""
+        """A row for each walk: t [s], number of the single support, x."""
         self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
-        """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
-        `kernels.looks`."""
+        """For each function that `read` was called with: addresses of its machine code for each walk (N,), its
+        results (N, .), and the arguments with both for `kernels.looks`."""
 
     def __repr__(self) -> str:
         return f"Stepper({len(self.walks)} walks of {short(self.what)})"
@@ -142,7 +144,7 @@ class Stepper:
         seed: int | None = None,
         start: tuple[Array, Array] | None = None,
     ) -> Sample:
-        """Walk i anew, or all of them.
+        """Begin walk i anew, or all walks if i is None.
 
         seed: of the scenario; where all begin, walk i has seed + i. None is the scenario's own, for each.
         start: (q, v), each (n,) [rad, rad/s]; None is the scenario's. A walker has no seed, and needs a start.
@@ -155,7 +157,7 @@ class Stepper:
         return self.sample
 
     def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
-        """Walk i as `reset` has it."""
+        """Begin walk i, with seed and start as in `reset`: None takes the scenario's own."""
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
             mode = Mode(s.run.first_step)
@@ -185,7 +187,7 @@ class Stepper:
         self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
-        """A walk in place i."""
+        """Put a walk, with the code of its status, into place i."""
         _, t, x, mode = walk.at
         if not self.rows.size:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
@@ -238,6 +240,7 @@ class Stepper:
             after = plant.momentum(q, v) if len(n.steps) == impacts else None
             judged = supports(walker, n, within.of(plant.description), impacts, after)
             result += [(i, s) for s in judged[: None if ended else impacts]]
+            # the nodes of the single support that goes on are kept, those of finished ones are dropped
             on = n.rows[n.edges[impacts] :]
             walk.run.nodes[: len(on)], walk.run["count"] = on, len(on)
         return result
@@ -250,16 +253,17 @@ class Stepper:
         return walk.feasible_within(cast(Limits, self.within)).supports[0]
 
     def save(self, i: int = 0) -> Snapshot:
-        """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""
+        """A copy of walk i as it is now, for `restore`. Raises InputError for a walk that has not begun."""
         walk, walker = self.walks[i], self.walkers[i]
         if walk is None or walker is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
         return walker, walk.copy(), int(self.codes[i])
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
-        """Walk i goes on from where a walk, this or another one, was saved.
+        """Let walk i go on from where a walk, this or another one, was saved.
 
-        Raises InputError for a walk of another state, and for one whose nodes were not kept, to be judged.
+        Raises InputError for a walk with another number of states, and, if this stepper judges its walks
+        (`within`), for one that was saved by a stepper that does not.
         """
         walker, walk, code = snapshot
         size, expected = len(walk.at[2]), self.rows.shape[1] - 2
@@ -271,9 +275,11 @@ class Stepper:
         self._put(i, walk.copy(), code)
 
     def read(self, view: Reading) -> Array:
-        """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.
+        """The numbers that the function view(loop, t, x, mode, reference), such as `signals_at`, returns for
+        each walk at its present instant: an array with N rows.
 
-        The reference is the scenario's gait. Raises InputError for a walker, and where no walk has begun.
+        The reference is the scenario's gait. Raises InputError for a stepper of a walker, and if no walk has
+        begun.
         """
         if self.curve is None or not self.rows.size:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
@@ -291,13 +297,18 @@ class Stepper:
         return result.copy()
 
     def _law(self, i: int, view: Reading) -> int:
-        """Address of machine code for what `view` says of walk i; 0 for one in Python, or none."""
+        """Address of the machine code of the function `view` for walk i; 0 if the walk is moved in Python, or
+        has not begun.
+        """
         walk = self.walks[i]
         return walk.law(view) if isinstance(walk, CompiledWalk) else 0
 
 
 def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
-    """Values as floats of this shape. Raises InputError for another one, and for what is not finite."""
+    """Values as an array of floats. Raises InputError for another shape, and for numbers that are not finite.
+
+    what: name of the values, for messages.
+    """
     x = numbers(values, f"the {what}")
     if x.shape != shape:
         raise InputError(f"the {what} has shape {x.shape}, expected {shape}")

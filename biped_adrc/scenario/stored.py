@@ -63,9 +63,12 @@ def _again(home: str) -> str:
 
 _OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
 OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u", "zeta_estimate")
-"""Signals with a column for each direction, coordinate and joint, as xi has; others are one number in a row."""
+"""Signals with two columns (x and z), with one for each coordinate, and with one for each joint, as all that
+begin with xi; each other signal has one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
-"""Fields of a walker in which a part of the user's is replaced; other ones are left out."""
+"""Fields of a walker in which a stand-in replaces a part of the user's; in other fields such a part is left
+out.
+"""
 
 
 def load_walk(path: Path | str) -> Walk:
@@ -90,7 +93,8 @@ def load_walk(path: Path | str) -> Walk:
         arrays = {k.removeprefix("signal."): beside[k] for k in names}
         remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
         gait, scenario = reader.made(record["gait"]), None
-        with suppress(KeyError, TypeError, InputError):  # none, or it names what is not at hand
+        # no scenario, or one that names files or classes which are not at hand: the walk has none then
+        with suppress(KeyError, TypeError, InputError):
             scenario = Scenario(**trajectory.settings["scenario"])
         signals = _signals(arrays, walker, trajectory)
         return Walk(walker, gait, trajectory, scenario, signals, remarks)
@@ -128,7 +132,7 @@ def rebuilt_walk(s: Scenario, trajectory: Trajectory) -> Walk:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, by the name of the controller, with that of the file where names repeat."""
+    """The walks in run files, by the name of the controller; if names repeat, by controller and file."""
     walks = [load_walk(path) for path in paths]
     names = [walk.controller_name for walk in walks]
     if len(set(names)) < len(names):

@@ -21,7 +21,7 @@ class Unit(NamedTuple):
     """A unit as its value in SI units and its dimension."""
 
     factor: float
-    """How many SI units one of it is: 1e-3 for g, since the SI unit of mass is kg."""
+    """The unit's value in SI units: 1e-3 for g, since the SI unit of mass is kg."""
     powers: tuple[int, ...]
     """Exponents of (m, kg, s, rad)."""
 
@@ -109,9 +109,9 @@ def unit_of(text: str) -> Unit:
 
 
 def _scaled(number: float, factor: float) -> float:
-    """number x factor. A factor 10^k shifts the decimal point of the text of the number:
-
-    1.5 ms becomes the float nearest to 1.5e-3, where 1.5 * 1e-3 may be its neighbour and another key of a run.
+    """number * factor. For a factor 10^k the decimal point is shifted in the text of the number: so 1.5 ms is
+    the float nearest to 1.5e-3. The product 1.5 * 1e-3 may be the float beside it, which would be another
+    scenario.
     """
     digits = math.log10(factor)
     shift = round(digits)

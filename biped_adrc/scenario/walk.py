@@ -1,8 +1,8 @@
 """Simulation of one walk.
 
 `walk` is for walkers made in Python, from the orbit of a gait, `walk_scenario` for scenarios. Both return a
-`Walk`. `execute_twice` is what a worker process runs: an `Outcome` of a few numbers, with the same walk at half
-the step, whose difference estimates the error of integration.
+`Walk`. `execute_twice` is what a worker process runs: an `Outcome` of a few numbers, with that of the same walk
+at half the integration step; their difference estimates the error of integration.
 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     made = ba.walk(walker, gait, impacts=8)          # a Walk
@@ -48,8 +48,8 @@ from biped_adrc.scenario.scenario import STEP_CONTROL, RunRecord, Scenario
 def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    On the compiled engine. A method that chooses its own step becomes the explicit adaptive one with a
-    hundredth of the tolerance. Steps below the range of a scenario are not refused: its shortest has a half.
+    It runs on the compiled engine. A method that chooses its own step becomes the explicit adaptive one with a
+    hundredth of the tolerance. The half of the shortest step that a scenario may have is not refused here.
     """
     run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
     if ground.plant != RIGID:

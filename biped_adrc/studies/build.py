@@ -50,14 +50,15 @@ NO_WALK = (REFUSED, RAISED, CRASHED)
 SEED, PLANT = "run.seed", "ground.plant"
 """Names of values that a study treats apart."""
 _SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
-"""By value, the suffix of a file in place of a registered name."""
+"""Values that may be a file's name in place of a registered name, and the file's suffix."""
 
 
 def scenario_of(values: PlainValues) -> Scenario:
-    """The scenario of values by name; where they say nothing of sampling, it is sampled at 1 kHz, ideally.
+    """The scenario of values by name; where they say nothing of sampling, it has the hardware profile "ideal",
+    sampled at 1 kHz.
 
-    A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit
-    together.
+    Errors and torques of a row are taken at sample instants, so each walk needs a period. Raises InputError for
+    values that do not fit together.
     """
     return Scenario(**tables({"hardware.profile": "ideal", **values}))
 
@@ -124,7 +125,7 @@ def _scene(
 
 
 class Trial(NamedTuple):
-    """A walk that is ready to be made."""
+    """A walk that is ready to be made: its scenario, robot and gait (`scene`), walker and start (`case`)."""
 
     scenario: Scenario
     scene: RobotAndGait
@@ -134,15 +135,18 @@ class Trial(NamedTuple):
 
 
 def acting(disturbance: Disturbance | None) -> tuple[Disturbance, ...]:
-    """The parts of a disturbance but waves of no amplitude, which are zero whatever their window."""
+    """The parts of a disturbance, without waves whose amplitude is zero: they change nothing, though a seed may
+    shift the times of their window.
+    """
     parts = () if disturbance is None else summands(disturbance)
     waves = ((x, getattr(x, "wave", x)) for x in parts)
     return tuple(x for x, w in waves if not isinstance(w, Windowed) or np.any(w.amplitude))
 
 
 def differ(*trials: Trial) -> bool:
-    """Whether walks of the same values and of different seeds may differ: what a seed can change is compared to
-    the last bit, and so they may where a part of the user's cannot be compared.
+    """Whether walks of the same values and of different seeds may differ.
+
+    All that a seed can change is compared to the last bit. True also where a user's part cannot be compared.
     """
     with suppress(NotCompiled, ModelError):
         known = set()
@@ -155,10 +159,10 @@ def differ(*trials: Trial) -> bool:
 
 
 def trial_of(s: Scenario) -> Trial:
-    """The walk of a scenario with its start and method.
+    """Build the walk of a scenario, with its start and integration method.
 
-    Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
-    steps besides, another engine.
+    Raises InputError for values that do not fit together, or that a study cannot use: continuous time, a second
+    integration step (`run.fine`), another engine.
     """
     wrong = {
         "hardware.period is none, expected a time [s] such as 1 ms": s.hardware.period is None,

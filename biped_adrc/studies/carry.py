@@ -28,7 +28,9 @@ from biped_adrc.studies.search import Candidate, Search, Walks, optuna_library, 
 from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_study, walk_names
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
-"""Candidates to be walked: number, values, and what locates their walks besides."""
+"""Candidates to be walked: number, values of the scenario, and the names that locate their walks (case,
+setting).
+"""
 
 
 def study(
@@ -95,14 +97,20 @@ def study(
 
 
 class _Searched:
-    """The walks of candidates, in places one behind the other: the same each time, whatever is in the store."""
+    """Walks the candidates of a search. Its walks get places in the study one after the other, in an order that
+    does not depend on what is stored already; so a search that was stopped finds its rows again.
+
+    undrawn: pairs (case, condition) in which no part uses the seed, walked once each.
+    """
 
     def __init__(self, study: Study, search: Search, runner: Runner, undrawn: Undrawn) -> None:
         self.study, self.search, self.runner, self.place = study, search, runner, 0
         self.undrawn = undrawn
 
     def choice(self, case: str) -> Choice | str:
-        """Search a case, and choose among the best few; or why none keeps all limits."""
+        """Search a case, and choose among its best few candidates; returns a text with the reason where no
+        candidate keeps all limits.
+        """
         search, base = self.search, self.study.values_of(case)
         best: list[int] = []
 
@@ -143,7 +151,9 @@ class _Searched:
         self.runner.tell()
 
     def walk(self, kind: str, candidates: Candidates) -> list[Walks]:
-        """The walks of each candidate on a set; one without a seed counts for each of them."""
+        """The walks of each candidate on a set of walks (kind "search", "choice" or "test"); a walk without a
+        seed, in which nothing is drawn, stands for the walks of all seeds.
+        """
         walks = getattr(self.search.walks, kind)
         conditions = self.study.conditions_of(walks)
         first, points = self.place, list[Point]()
@@ -181,7 +191,7 @@ class _Searched:
 
 
 def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
-    """The best few, settings that come twice once, and the case itself."""
+    """The best few candidates, without a second one of the same values, and the case itself."""
     some: dict[str, Candidate] = {}
     for c in search.ranked(found):
         some.setdefault(repr(sorted(c.values.items())), c)

@@ -1,10 +1,11 @@
 """One number of many walks, from a column of their rows: what a search minimises, limits, and a page shows.
 
-Some columns need no walk: numbers of the linear loop of a scenario without seed and condition, in some 40 ms;
-on soft ground those of the rigid plant, which is linearised.
+Some columns need no walk: they are numbers of the linearised loop of a scenario without its seed and condition,
+which takes some 40 ms. On soft ground they are those of the rigid plant.
 
-A walk that is not feasible (the impact at most aside), or has no number in the column, ranks worst: it counts
-as plus infinity where less is better and as minus infinity where more is better, and is never left out.
+A walk that is not feasible, or has no number in the column, ranks worst: it counts as plus infinity where less
+is better and as minus infinity where more is better, and is never left out. A walk of which only the impulses
+at impact ask for more than the friction of the ground (column `but_impact`) counts as feasible here.
 """
 
 from __future__ import annotations
@@ -30,11 +31,11 @@ from biped_adrc.studies.space import Section
 OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
 """Columns that every walk has, however it ended."""
 SMALLEST_SCALE = 1e-12
-"""Of a limit: below this a bound counts as 0, and what is beyond it is not divided by it."""
+"""A limit's bound smaller than this counts as 0: the distance from it is then not divided by it."""
 MOST_EXCESS = 1e6
-"""Of a limit that is missed: more counts as this, so that sums are finite."""
+"""Largest share [1] by which a limit counts as missed, so that sums are finite."""
 WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
-"""Such columns: numbers of a `Specification`."""
+"""Columns that need no walk: numbers of a `Specification`."""
 MEASURED = (*(name for name in COLUMNS if name not in WORDS), *WITHOUT_WALK)
 """Columns with numbers, of walks and of linear loops."""
 
@@ -48,12 +49,14 @@ def is_made(row: Row) -> bool:
 
 
 def is_counted(row: Row) -> bool:
-    """Whether the walk is feasible, the impact at most aside, so that its error enters the statistics."""
+    """Whether the walk is feasible, or would be but for its impulses at impact, so that its error counts in the
+    statistics.
+    """
     return is_made(row) and 1 in (row.get("feasible"), row.get("but_impact"))
 
 
 def _known(column: str) -> str:
-    """Raises ValueError for a column that there is not."""
+    """The column's name itself. Raises ValueError for a column that does not exist."""
     if column not in MEASURED:
         raise ValueError(f"'{column}' is an {unknown(column, MEASURED)}")
     return column
@@ -61,18 +64,21 @@ def _known(column: str) -> str:
 
 Column = Annotated[str, AfterValidator(_known)]
 Over = Literal["median", "mean", "worst"] | Annotated[float, Field(gt=0.0, lt=1.0)]
-"""What is taken over all walks: a float is a quantile, of which the next worse walk counts."""
+"""What is taken over all walks; a float in (0, 1) is that quantile: the number of the walk that is at least as
+bad as this share of them, not interpolated."""
 
 
 class Measure(Section):
-    """A column, and how many walks become one number of it."""
+    """A column, and how its numbers in many walks become one number."""
 
     column: Column
     over: Over = "median"
     condition: str | None = None
-    """The walks under this condition alone; None for all."""
+    """The measure is of the walks under this condition alone; None for all."""
     counts: Literal["feasible", "made"] = "feasible"
-    """Walks that count with their number; all others rank worst."""
+    """Which walks count with their number: the feasible ones, or all that made their last step; others rank
+    worst.
+    """
 
     @property
     def sign(self) -> float:
@@ -99,7 +105,9 @@ class Measure(Section):
         return float(x) if fine and isinstance(x, int | float) else self.worst
 
     def of(self, walks: Sequence[tuple[str, Row]], known: Mapping[str, float | None]) -> float:
-        """The measure of walks, each under a condition. known: columns that need no walk; None ranks worst."""
+        """The measure of walks, (condition, row) each. known: values of columns that need no walk, used in
+        place of the walks; None ranks worst.
+        """
         if self.column in known:
             x = known[self.column]
             return self.worst if x is None else x
@@ -141,12 +149,12 @@ class Limit(Measure):
 
     @property
     def bound(self) -> float:
-        """The one of both that there is."""
+        """The bound of the limit, `least` or `most`, in the unit of the column."""
         return float(self.least if self.most is None else self.most)  # type: ignore[arg-type]
 
     @property
     def sentence(self) -> str:
-        """ "mean feasible at least 0.9"."""
+        """The limit in words, such as "mean feasible at least 0.9"."""
         return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
@@ -157,9 +165,11 @@ class Limit(Measure):
 
 @lru_cache(maxsize=128)
 def _specification(text: str) -> Specification:
-    """The specification of a scenario whose values are this JSON, cached for the columns that need it.
+    """The numbers of the linearised loop of a scenario whose values are this JSON, cached for all columns of
+    them.
 
-    Raises InputError.
+    The ground keeps its shape, and is made rigid, since a loop on soft ground is not linearised. Raises
+    InputError.
     """
     s = scenario_of(json.loads(text))
     g = s.ground

@@ -60,9 +60,9 @@ def choices(found: Results) -> dict[str, str]:
 
 
 def texts(line: TableLine, short: bool = False) -> tuple[str, ...]:
-    """A line of the table as text: "17 of 20 (0.64 to 0.95)", and a dash for what there is not.
+    """A line of the table as text: "17 of 20 (0.64 to 0.95)", and a dash for a number that does not exist.
 
-    short: with the interval of the ratio alone.
+    short: whether to leave out the intervals but that of the ratio.
     """
     count = f"{round(line.feasible.value * line.walks)} of {line.walks}"
     middle, ratio, p = interval(line.median), "–", "–"
@@ -85,7 +85,9 @@ def interval(x: Interval) -> str:
 
 
 def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
-    """The questions that a study answers, each with its picture."""
+    """The questions that a study answers, as (question, figure); a question without finite numbers is left
+    out.
+    """
     lines, measure = found.table(), found.study.measure
     if not lines:
         return
@@ -119,7 +121,11 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
 
 
 def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) -> Figure:
-    """A map over the two fields with the most levels; a third one, or case and condition, make the panels."""
+    """A map of `number` over the two fields of grid and draws that have the most levels.
+
+    A condition, a case and a third field make panels; with one field alone the second axis is the case.
+    number: from a row to what is drawn. log: whether its colours have a logarithmic scale.
+    """
     study, groups = found.study, found.groups
     levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
     axes = sorted(levels, key=lambda name: -levels[name])
@@ -137,7 +143,7 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
 
 
 def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
-    """The panel in which a walk is drawn."""
+    """Title of the panel in which a walk is drawn: its condition, case, and level of the third of the axes."""
     words = [g.condition, *([g.name] if len(axes) > 1 else [])]
     words += [f"{name} = {at[name]}" for name in axes[2:3]]
     return ", ".join(filter(None, words))

@@ -1,17 +1,17 @@
 """What a study found: its rows in one SQLite file, and the table of its cases under its conditions.
 
-    study    name, hash, the study and the versions of all that decides its numbers, as JSON; its only row
-    walks    by place in the study: what locates the walk, the values of its scenario, its row, as JSON, its
-             status, and a checksum of all of these
+    study    one row: name, hash, the study and the versions of all that decides its numbers, as JSON
+    walks    one row for each walk: its place in the study; what locates it, the values of its scenario and its
+             results, as JSON; its status; and a checksum of all of these
 
 The file can be opened after a kill at any moment: rows that are handed in together are one transaction. Nothing
 is written into a file before it is known to be of the same study and the same versions. A row that does not fit
 its checksum is walked again; a file that SQLite finds damaged is refused.
 
 Walks of two cases under the same condition with the same values and the same seed are a pair. A walk that is
-not feasible counts as an infinite error. Rows that are equal to the last bit are one walk. Intervals are those
-of `analysis.statistics`, where walks were drawn; over walks that were declared, and of one walk, there is a
-count and no interval.
+not feasible counts as an infinite error. Rows that are equal to the last bit count as one walk. Confidence
+intervals are those of `analysis.statistics`. They exist only where the walks are a sample, by seeds or by
+draws; the walks of a declared grid are no sample, so a number over them, or of one walk, has no interval.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.study import Point, Study
 
 MARKS = {"application_id": 0x62614453, "user_version": 1}
-"""Of SQLite: a number by which a results file is told from other databases, and the form of its tables."""
+"""Two numbers that SQLite keeps: the mark of a results file among databases, and the form of its tables."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
 _TABLES = [
@@ -74,7 +74,8 @@ class Store:
             self.db.executemany(text, [(*row, checksum(row)) for row in rows])
 
     def mend(self) -> dict[int, bool]:
-        """Take out the rows that do not fit their checksums; whether it fits, for each place that had a row.
+        """Delete the rows that do not fit their checksums; returns, for each place that had a row, whether it
+        fits.
 
         Raises InputError for a file that SQLite finds damaged.
         """
@@ -89,7 +90,7 @@ class Store:
         return fits
 
     def results(self, first: int = 0, count: int = 2**62) -> Iterator[Result]:
-        """Finished walks in the order of the study, read one after the other."""
+        """Finished walks of the places first .. first + count - 1, in their order, read one after the other."""
         text = "SELECT * FROM walks WHERE place >= ? AND place < ? ORDER BY place"
         with _errors(self.path):
             for *row, x in self.db.execute(text, (first, first + count)):
@@ -105,10 +106,9 @@ def checksum(row: Sequence[object]) -> str:
 
 @contextmanager
 def opened(folder: Path, study: Study) -> Iterator[Store]:
-    """The results file of a study in a folder, made where it is not there.
+    """Open the results file of a study in a folder, as a context; it is made where there is none.
 
-    Raises InputError for a file of another study, of other versions, or that is none of results, and
-    OutputError.
+    Raises OutputError, and InputError for a file of another study, of other versions, or of another kind.
     """
     check_folder(folder)
     path = folder / RESULTS
@@ -128,8 +128,8 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
-    """Write the tables into an empty file; returns what is wrong with a file of another kind, else an empty
-    text.
+    """Write the tables into an empty file; check a file that has some. Returns what is wrong with it, as the
+    rest of a sentence; an empty text if nothing is.
     """
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
     tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
@@ -177,9 +177,11 @@ class Choice(NamedTuple):
     """The result of a search for one case: all candidates, and the best of them, walked again."""
 
     candidates: tuple[Candidate, ...]
-    """All of them by number, judged on the first set of walks."""
+    """All candidates by number, judged on the first set of walks ("search")."""
     selected: tuple[Candidate, ...]
-    """Those of the second set, as judged there, best first: the first one was chosen."""
+    """The candidates that were walked on the second set ("choice"), as judged there, best first: the first one
+    was chosen.
+    """
 
     @property
     def values(self) -> dict[str, Any]:
@@ -188,7 +190,7 @@ class Choice(NamedTuple):
 
 
 class Group(NamedTuple):
-    """The walks of a case under a condition."""
+    """The walks of a case (`name`, in tables) under a condition, one row each."""
 
     name: str
     condition: str
@@ -196,17 +198,22 @@ class Group(NamedTuple):
 
 
 class TableLine(NamedTuple):
-    """A line of the table; intervals are NaN where nothing was drawn."""
+    """A line of the table: a case under a condition. Ends of intervals are NaN where walks are no sample."""
 
     name: str
     condition: str
     walks: int
-    """Different ones: rows that are equal to the last bit are one walk."""
+    """Number of different walks: rows that are equal to the last bit count as one."""
     feasible: Interval
+    """Share of these walks that count as feasible, in 0 .. 1."""
     made: int
+    """How many of these walks were made to their last step, feasible or not."""
     median: Interval
+    """Median of the study's measure over these walks, in the unit of its column."""
     ratio: Paired | None
-    """To the first case, walk by walk; None of the first case itself."""
+    """Measure of this case over that of the first case under the same condition, walk by walk; None for the
+    first case itself.
+    """
 
 
 @dataclass(frozen=True)
@@ -218,7 +225,9 @@ class Results(Shown):
     choices: Mapping[str, Choice] = field(default_factory=dict)
     """What the search found, by name of the case; empty without a search."""
     failures: tuple[str, ...] = ()
-    """Of the cases of which no candidate keeps all limits, which are not tested."""
+    """A sentence on each case of which no candidate keeps all limits; such a case is not walked on the test
+    set.
+    """
 
     def results(self) -> Iterator[Result]:
         """Finished walks in the order of the study."""
@@ -226,9 +235,9 @@ class Results(Shown):
             yield from store.results()
 
     def rows(self) -> Iterator[dict[str, Any]]:
-        """For each finished walk what varies, and its results.
+        """For each finished walk the values that vary and its results, by name.
 
-        A field of the same name as a result has "parameter." before it.
+        A value that varies and has the name of a column of results has "parameter." before its name.
         """
         for at, row in self.results():
             yield {f"parameter.{k}" if k in COLUMNS else k: x for k, x in at.items()} | row
@@ -244,16 +253,25 @@ class Results(Shown):
         return [Group(*where, tuple(rows)) for where, rows in results.items()]
 
     def _same(self, *walks: Result) -> str:
-        """A text that walks have in common whose rows are equal to the last bit, in one cell of a grid."""
+        """A text that is the same for walks (or pairs of walks) whose rows are equal to the last bit, if they
+        also have the same levels of the grid; the seed, as an axis of a grid, does not count.
+        """
         cell = [name for name in self.study.grid if name != SEED]
         return repr([([x.at.get(name) for name in cell], x.row) for x in walks])
 
     def different(self, g: Group) -> list[Result]:
-        """One walk of all that are equal to the last bit, in each cell of a grid."""
+        """The walks of a group that differ: of those with equal levels of the grid and rows that are equal to
+        the last bit (seeds that changed nothing) one is kept.
+        """
         return list({self._same(x): x for x in g.rows}.values())
 
     def table(self) -> list[TableLine]:
-        """A line for each case and condition."""
+        """A line for each group, that is for each case under each condition.
+
+        The first group under a condition is that of the first case: it is the reference to which the ratios of
+        all groups under this condition are taken, and has no ratio itself. Where the walks are no sample
+        (`Study.drawn`) numbers stand without interval and p-value.
+        """
         first, lines = dict[str, Group](), []
         for g in self.groups:
             reference, rows = first.setdefault(g.condition, g), self.different(g)
@@ -272,10 +290,10 @@ class Results(Shown):
         pair.
 
         A pair is a walk of a and a walk of b with the same condition, levels and seed; case, setting and
-        candidate may differ. A walk in which nothing is drawn has no seed, and is a partner for each. A walk
-        without a partner is left out, and so are pairs that are equal to the last bit to another one. A value
-        is infinite, on the worse side of the measure, for a walk that ended early or, unless the measure takes
-        all walks that were made, is infeasible.
+        candidate may differ. A walk in which nothing is drawn has no seed: it is a partner for the walk of each
+        seed. A walk without a partner is left out, and so is a pair equal to the last bit to another one. A
+        value is infinite, on the worse side of the measure, for a walk that ended early or, unless the measure
+        takes all walks that were made, is infeasible.
         """
         number, one, other = self.study.measure.number, _by_place(a), _by_place(b)
         pairs: dict[str, tuple[float, float]] = {}
@@ -314,18 +332,22 @@ class Results(Shown):
 
 
 def _name(at: Mapping[str, Any]) -> str:
-    """Name in tables of the walks of a case, or of one setting of it."""
+    """The name that tables show for a walk: its case, and after it "before" for the case as it was before a
+    search; without cases "chosen" or "before".
+    """
     case, setting = str(at.get("case", "")), str(at.get("setting", ""))
     return ", ".join(x for x in (case, "" if case and setting == "chosen" else setting) if x)
 
 
 def _by_place(g: Group) -> dict[tuple[str, int | None], Result]:
-    """Walks of a group by their condition and levels, and by their seed, None where nothing is drawn."""
+    """Walks of a group by (all else that locates them, as text; seed); the seed is None where nothing is
+    drawn.
+    """
     apart = ("case", "setting", "candidate", SEED)
     keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
     return {(key, x.at.get(SEED)): x for key, x in zip(keys, g.rows, strict=True)}
 
 
 def _alone(x: Interval) -> Interval:
-    """The number without an interval."""
+    """The number alone: NaN for both ends of its interval, since walks that are no sample have none."""
     return Interval(x.value, float("nan"), float("nan"))

@@ -4,12 +4,14 @@ Nothing raises: values that do not fit give a row with the status REFUSED, a con
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
 which JSON and SQL do not have.
 
-A walk is counted at its nodes, or in the table of a compiled walk. On the rigid plant it is judged by its
-certificate, on soft ground by how far its feet slip (`analysis.feasibility`). There a friction is what the
-ground gave, so it is never above that of the ground, and the impulses of an impact are among the forces.
+The columns are computed at the nodes of a walk (its sample instants and events): from its signals, or from the
+table that the compiled walk fills at the same instants. On the rigid plant a walk is judged by its certificate,
+on soft ground by how far its feet slip (`analysis.feasibility`). On soft ground the friction is the ratio of
+the forces of the ground itself, so it is never above the ground's coefficient, and an impact is part of the
+forces.
 
-`rows_of(run_trials, records)` is what `studies.runner` hands to workers. The meaning of the columns is in
-columns.toml.
+`rows_of(run_trials, records)` is what `studies.runner` hands to workers. The meaning and the unit of each
+column are in columns.toml.
 """
 
 from __future__ import annotations
@@ -58,13 +60,13 @@ WORDS = ("status", "detail", "outcome", "engine")
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 Function = Callable[[Sequence[PlainValues]], Sequence[Any]]
-"""What workers run: a row of plain values for each record, in their order."""
+"""What workers run: from records (values of one walk each) to a row of plain values for each, in order."""
 JUDGED = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing", "peak_torque")
 """Columns that `Feasibility` has under the same names."""
 OF_TOTALS = ("peak_error", "rms_error", "rms_torque", "work", "net_work")
 """Columns of `analysis.ground_force.totals`."""
 _AT_ONCE = 160
-"""Impacts of the walks that are in memory together: the nodes of a walk take some 80 kB for each."""
+"""Most impacts, over all walks in memory together: the nodes of a walk take some 80 kB for each impact."""
 _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
 
@@ -74,7 +76,7 @@ def rows_of(
 ) -> list[tuple[str, str | None]]:
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
-    folders: in which modules of the user's lie, by name (`registry.FOLDERS` of who calls).
+    folders: name of a module of the user's -> its folder, as `registry.FOLDERS` has it in the calling process.
     Where the function raises on a chunk it is called again with one record at a time; a record on which it
     raises has a row with the status RAISED, so that one bad record spoils no other.
     """
@@ -91,10 +93,10 @@ def rows_of(
 
 def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[WalkRow]:
     """Walk the trials, and return a row for each in their order. aside: whether rows have the column
-    `rounding`.
+    `rounding`, which takes a second walk.
 
-    All trials take a step before the first one takes the next, as many as memory holds well: so a processor
-    finds the code of a step in its cache, and takes a fifth less time than trial by trial.
+    Stage by stage (build, walk, measure) all trials that memory holds well are worked on together: the code of
+    one stage stays in the processor's cache, which takes a fifth less time than trial by trial.
     """
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
@@ -112,7 +114,7 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
 
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
-    """The function that carries a trial out, in any thread."""
+    """The function that walks a trial; unlike building and measuring, it may run in several threads at once."""
     c, loop = t.case, t.loop
     if loop is None:
         return run_case(c)
@@ -120,8 +122,8 @@ def _run_of(t: Trial) -> Callable[[], BatchWalk]:
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
-    """Apply one step of a study to each trial. An item that is a row already, because an earlier step raised,
-    is passed on unchanged.
+    """Apply one stage of a study (`step`) to each trial. An item that is a row already, because an earlier
+    stage raised, is passed on unchanged.
     """
     return [x if isinstance(x, dict) else _attempt(step, x) for x in items]
 
@@ -139,7 +141,8 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
 def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
-    The cost of transport, work / (weight x distance), is None without forward motion.
+    aside: whether to walk once more for the column `rounding`. The cost of transport, work [J] over weight [N]
+    times distance [m], is None without forward motion.
     """
     s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
     plant = walker.plant
@@ -208,9 +211,9 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
 
 
 def _on_the_ground(walk: Walk) -> WalkRow:
-    """The errors that touchdowns and pushes leave, and what the feet did, of the step in which it was largest.
-
-    The latter is missing on a plant that does not say it.
+    """Columns of a walk on soft ground: the errors that touchdowns and pushes leave, and the largest slip,
+    penetration [m], flight and double support [s] of all walking steps; these four only if the plant records
+    them.
     """
     row, steps = contact_errors(walk.signals.before_fall)._asdict(), walk.soft_steps
     if not steps:
@@ -224,10 +227,8 @@ def _on_the_ground(walk: Walk) -> WalkRow:
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
-    """Distance [m], mean speed and speed of the last two steps [m/s], relative change of speed against the
-    gait's.
-
-    Without an impact there is a distance of 0 and no speed.
+    """Distance [m], mean speed and speed of the last two walking steps [m/s], and the mean speed's difference
+    from the gait's speed, as a share of it. Without an impact the distance is 0 and there is no speed.
     """
     if walked.impacts == 0:
         return {"distance": 0.0}
@@ -241,7 +242,9 @@ def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
 
 
 def _row(known: WalkRow) -> WalkRow:
-    """All columns in order, None where there is no number or it is not finite."""
+    """The row with all columns in the order of columns.toml, None where there is no number or it is not
+    finite.
+    """
     row: WalkRow = dict.fromkeys(COLUMNS)
     for k, x in known.items():
         if not isinstance(x, float):

@@ -31,7 +31,7 @@ LARGEST_CHUNK = 32
 _AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 MOST_CRASHED = 20
-"""Walks that kill their workers one after the other, and so end the study."""
+"""A study ends once so many walks, one after the other, have killed their workers."""
 
 
 class WorkersError(SimulationError):
@@ -41,7 +41,7 @@ class WorkersError(SimulationError):
 
 
 class StudyProgress(NamedTuple):
-    """How far a study is: walks done and in all, and what is new."""
+    """How far a study is: the number of walks done, the number in all, and a note on what has just happened."""
 
     done: int
     total: int
@@ -53,7 +53,7 @@ class Crew:
     """Who walks: processes of this machine, or an executor of the user's, such as that of a Dask client.
 
     workers: a number of processes, one per core if None, or an executor, which is used as it is and not ended.
-    A context manager; processes begin to load the package before.
+    As a context manager it ends its processes; they begin to load the package as soon as it is constructed.
     """
 
     workers: Executor | int | None = None
@@ -90,9 +90,10 @@ class Crew:
 
 @dataclass
 class Runner:
-    """Walks points and stores their rows; counts over all of its calls.
+    """Walks points and stores their rows; `done` counts walks over all calls of `run`.
 
-    total: walks of the study. progress: called with how far it is.
+    function: computes rows from records. total: number of walks of the study. progress: called after each
+    chunk. crashed: walks in a row that killed their workers. pending: chunks that the executor has.
     """
 
     function: Function
@@ -109,7 +110,8 @@ class Runner:
     def run(self, points: Iterable[Point], count: int | None = None) -> None:
         """Walk those of the points that have no row yet; they may come from a generator.
 
-        count: how many they are. Raises OutputError, and WorkersError where one worker dies after the other.
+        count: number of points, `total` if None; chunks are a fraction of it. Raises OutputError, and
+        WorkersError where MOST_CRASHED workers die one after the other.
         """
         workers = self.crew.count
         size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
@@ -128,7 +130,7 @@ class Runner:
             self.progress(StudyProgress(self.done, max(self.total, self.done), note))
 
     def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
-        """The points without a row."""
+        """Iterate over the points without a row, and count those that have one as done."""
         for p in points:
             if p.place not in self.there:
                 yield p
@@ -136,7 +138,9 @@ class Runner:
                 self.done += 1
 
     def _send(self, chunk: Sequence[Point]) -> Sequence[Point]:
-        """Hand a chunk to the executor; one of which a process has died takes none, and all are lost."""
+        """Hand a chunk to the executor; returns the points that it did not take: all of them where one of its
+        processes has died.
+        """
         try:
             records, folders = [p.record for p in chunk], dict(FOLDERS)
             future = self.crew.executor.submit(rows_of, self.function, records, folders)
@@ -146,7 +150,9 @@ class Runner:
         return ()
 
     def _collect(self, when: str) -> list[Point]:
-        """Wait until `when`, and store finished chunks; the points of those whose worker died."""
+        """Wait for the first chunk or for all (`when`), store the finished ones, and return the points of
+        chunks whose worker died.
+        """
         lost: list[Point] = []
         for future in futures.wait(self.pending, return_when=when).done:
             chunk, error = self.pending.pop(future), future.exception()

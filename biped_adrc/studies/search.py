@@ -52,11 +52,11 @@ from biped_adrc.studies.measure import Aim, Limit, Measure, Row, numbers_without
 from biped_adrc.studies.space import Section, Seeds, Span, by_entry, read_list, read_range, table
 
 Walks = Sequence[tuple[str, Row]]
-"""Walks of a candidate: the name of the condition of each, and its row."""
+"""Walks of a candidate: for each the name of its condition, and its row of results."""
 
 
 class WalkSet(Section):
-    """On what candidates are walked: each of the seeds under each of the conditions."""
+    """The walks by which candidates are judged: one for each seed under each condition."""
 
     seeds: Seeds = Field(min_length=1)
     conditions: tuple[str, ...] = ()
@@ -75,11 +75,11 @@ class Variable(Section):
     """One thing that the search may change: the numbers of a range, or one of several choices."""
 
     range: Span | None = None
-    """Of a number; None for choices."""
+    """The interval of a variable that is a number; None for one with choices."""
     choices: tuple[Any, ...] = ()
     """Values to choose from; empty for a range."""
     when: dict[str, tuple[Any, ...]] = Field(default_factory=dict)
-    """By name of another field: those of its values with which this variable has an effect. Empty: always."""
+    """Name of another field -> those of its values with which this variable has an effect. Empty: always."""
 
     @property
     def middle(self) -> Any:
@@ -87,8 +87,8 @@ class Variable(Section):
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
-        """Whether the variable has an effect beside these values of a scenario; free: names that may have any
-        value.
+        """Whether the variable has an effect in a scenario with these values; free: names of fields that may
+        still get any value, so that conditions on them count as met.
         """
         return all(
             name in free or values.get(name, Scenario.field_of(name).default) in those
@@ -130,7 +130,7 @@ class Search(Section):
     finalists: int = Field(default=5, ge=1)
     """Candidates that are walked on the second set."""
     seed: int = Field(default=0, ge=0)
-    """Of the sampler."""
+    """Seed of the sampler."""
 
     @property
     def measures(self) -> tuple[Measure, ...]:
@@ -138,16 +138,23 @@ class Search(Section):
         return (self.objective, *self.limits)
 
     def count(self, sets: Mapping[str, int]) -> int:
-        """Largest number of walks of one case. sets: name of a set -> walks of one candidate in it."""
+        """Largest number of walks of one case. sets: name of a set of walks -> walks of one candidate in it.
+
+        The case itself is walked beside the finalists, and on the test set beside the chosen one: + 1, and 2.
+        """
         again = (self.finalists + 1) * sets["choice"] + 2 * sets["test"]
         return self.budget * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
-        """The variables that may have an effect beside these values, which no variable changes."""
+        """The variables that may have an effect in a case with these values; other variables may get any
+        value.
+        """
         return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
-        """The values of a candidate's scenario: the base, and what was chosen that has an effect."""
+        """The values of a candidate's scenario: those of the case (`base`), and over them the chosen values of
+        the variables that have an effect.
+        """
         candidate = {**base, **chosen}
         acts = {n: v.acts for n, v in self.variables.items() if n in chosen}
         while idle := [n for n in acts if n in candidate and not acts[n](candidate)]:
@@ -158,7 +165,11 @@ class Search(Section):
     def judged(
         self, base: Values, number: int, chosen: dict[str, Any], walks: Walks | None = None
     ) -> Candidate:
-        """The candidate of a case with the values `base`, by its walks; None where it is not walked."""
+        """The candidate, with its objective and by how much it misses each limit.
+
+        base: values of the case. chosen: values of the variables. walks: its walks; None for a candidate that
+        has not been walked, of which only limits on columns that need no walk are judged.
+        """
         values = self.values(base, chosen)
         known = numbers_without_walk([m.column for m in self.measures], values)
         missed = (
@@ -174,7 +185,8 @@ class Search(Section):
         return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
     def some(self, values: Values) -> Iterator[dict[str, Any]]:
-        """Candidates that stand for all: the middle of all variables, and each choice with the others there.
+        """Candidates that stand for all: the middle of all variables, and each choice beside the others'
+        middle.
 
         Corners of ranges may be refused, as gains that do not go together are: their walks rank worst.
         """
@@ -194,13 +206,13 @@ class Candidate(NamedTuple):
     chosen: dict[str, Any]
     """A value of every variable; empty for number 0."""
     values: dict[str, Any]
-    """Of its scenario, without condition and seed."""
+    """All values of its scenario, without condition and seed."""
     objective: float
-    """Infinite where walks that rank worst decide."""
+    """In the unit of its column; infinite, on the worse side, where walks that are infeasible decide it."""
     missed: tuple[float, ...]
     """By how much each limit is missed, as a share of its bound; 0 where it is kept."""
     walked: bool
-    """False where it missed a limit that needs no walk."""
+    """False where it missed a limit that is known without a walk, so that no walk was spent on it."""
 
     @property
     def feasible(self) -> bool:
@@ -209,16 +221,17 @@ class Candidate(NamedTuple):
 
 
 FIRST_PART = 0.4
-"""The share of the budget that TPE has."""
+"""The share of the budget that TPE proposes."""
 _SMALLEST = 10
-"""Candidates of TPE below which it goes on alone; CMA-ES begins from the best tenth."""
+"""Least number of candidates of TPE before CMA-ES takes over, which begins from the best tenth of them."""
 _ASKED = 8
-"""How often a generation asks again in place of candidates that miss a limit without a walk."""
+"""Most proposals for each place of a generation, since some miss a limit that is known without a walk."""
 _MISSED = 1e30
-"""What the sampler is told of a candidate that misses limits, times 1 + what it misses."""
+"""The sampler minimises; a candidate that misses limits has this number, times 1 + the sum of what it misses.
+"""
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
-"""From candidates to their walks, in the same order."""
+"""A function that walks candidates, and returns their walks in the same order."""
 
 
 def optuna_library() -> Any:
@@ -276,7 +289,7 @@ class _Proposals:
         self.study = optuna.create_study(sampler=sampler)
 
     def _distribution(self, variable: Variable) -> Any:
-        """One variable as Optuna has it."""
+        """The distribution of Optuna from which a variable's values are proposed."""
         of, r = self.optuna.distributions, variable.range
         if r is None:
             return of.CategoricalDistribution(variable.choices)
@@ -285,23 +298,31 @@ class _Proposals:
         return of.FloatDistribution(r.low, r.high, log=r.scale == "log")
 
     def ask(self, number: int) -> dict[str, Any]:
-        """The next candidate, with a value of every variable."""
+        """Values of all variables that may have an effect, proposed for the candidate with this number."""
         trial = self.open[number] = self.study.ask(self.space)
         return {**self.fixed, **trial.params}
 
     def tell(self, c: Candidate) -> None:
-        """Tell Optuna how a candidate was judged; that of the case itself was not asked for."""
+        """Tell Optuna how a candidate was judged; nothing for number 0, the case itself, which it did not
+        propose.
+        """
         if c.number in self.open:
             self.study.tell(self.open.pop(c.number), self.score(c))
 
     def score(self, c: Candidate) -> float:
-        """A number by which candidates have their order."""
+        """The number that Optuna minimises: the objective with its sign, or above all of them for missed
+        limits.
+        """
         if any(c.missed) or not c.walked:
             return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
         return min(self.search.objective.sign * c.objective, _MISSED)
 
     def refine(self, found: Sequence[Candidate]) -> None:
-        """Go on with CMA-ES, once TPE's part of the budget is spent and where there is something to refine."""
+        """Change from TPE to CMA-ES, once TPE's part of the budget is spent; later calls do nothing.
+
+        CMA-ES needs two variables with ranges and generations of four; else TPE goes on. It keeps the choices
+        of the best candidate (`fixed`).
+        """
         best = [c for c in self.search.ranked(found) if c.number]
         if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
             return

@@ -1,6 +1,8 @@
 """What a study varies: ranges, samples and seeds, as pydantic reads them from the tables of a file.
 
-p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale,   w in [0, 1)
+    p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale
+
+w in [0, 1) is a uniform random number or a point of a Sobol sequence; low and high are in the SI unit of p.
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ _MOST = 1_000_000
 
 
 class Section(BaseModel):
-    """A part of a study: it cannot be changed, and takes no other keys."""
+    """Base class of the tables of a study: an object cannot be changed, and an unknown key is refused."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True
@@ -57,13 +59,13 @@ class Span(Section):
     low: float = Field(alias="from", strict=True)
     high: float = Field(alias="to", strict=True)
     scale: Literal["linear", "log"] = "linear"
-    """Equal steps of w are equal steps, or equal ratios."""
+    """Equal differences of w are equal differences of p ("linear"), or equal ratios ("log")."""
     whole: bool = False
     """Integers only, both ends included."""
 
     @model_validator(mode="after")
     def _ordered(self) -> Span:
-        """Raises ValueError for ends in another order, and whole or negative numbers on a log scale."""
+        """Raises ValueError for low >= high, and for integers or numbers <= 0 on a log scale."""
         log = self.scale == "log"
         if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
             raise ValueError(
@@ -138,12 +140,12 @@ Sets = dict[str, Named]
 Grid = Annotated[
     dict[str, tuple[Any, ...]], BeforeValidator(lambda value: by_entry(value, _levels))
 ]
-"""Levels by name."""
+"""Levels of the grid, by name of the field."""
 Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
 Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
 Ranges = Annotated[dict[str, Span], BeforeValidator(lambda value: by_entry(value, read_range))]
-"""Ranges by name."""
+"""Ranges, by name of the field."""
 
 
 class Draw(Section):

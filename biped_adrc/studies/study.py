@@ -41,16 +41,16 @@ from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
 Undrawn = frozenset[tuple[str, str]]
 """Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
 MOST_LEVELS = 200
-"""Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
+"""Most levels of one axis, most samples, and most combinations of text values that a rehearsal builds."""
 _LONGEST = 100
 """Letters of the name of a file that a search writes."""
 
 
 def walk_names(**names: object) -> dict[str, Any]:
-    """The names that tell a walk from others with the same values, without those that are empty.
+    """The names that say to what a walk belongs, without those that are empty.
 
-    case, condition; of a search also set (of walks), candidate, and on the test set setting, "chosen" or
-    "before" (the case as it was).
+    case, condition; in a search also set ("search", "choice", "test"), candidate (its number), and on the test
+    set setting: "chosen" (what the search chose) or "before" (the case as it was).
     """
     return {name: x for name, x in names.items() if x != ""}
 
@@ -61,7 +61,9 @@ def place_of(names: Mapping[str, Any]) -> tuple[str, str]:
 
 
 class Point(NamedTuple):
-    """A walk of a study: its place, the values that locate it, and those of its scenario."""
+    """A walk of a study: its place (number in the order of the study), `at` (case, condition, and the values
+    that vary, by name), and `record` (all values of its scenario).
+    """
 
     place: int
     at: PlainValues
@@ -77,7 +79,7 @@ class Study(Section):
     description: str = ""
     """A text for the reader; it takes no part in the hash."""
     column: Column = "rms_error"
-    """Of the results: whose median the table and the page show."""
+    """The column of the results whose median the table and the page show."""
     base: Named = Field(default_factory=dict)
     cases: Sets = Field(default_factory=dict)
     conditions: Sets = Field(default_factory=dict)
@@ -88,7 +90,7 @@ class Study(Section):
 
     @model_validator(mode="after")
     def _together(self) -> Study:
-        """Raises ValueError with what no single entry shows."""
+        """Check entries against each other. Raises ValueError with all that do not go together."""
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
         if wrong:
             raise ValueError("; ".join(wrong))
@@ -131,16 +133,21 @@ class Study(Section):
                     yield f"'{m.words}': the walks of {kind} have no condition '{m.condition}'"
 
     def conditions_of(self, walks: Any) -> tuple[str, ...]:
-        """The conditions of a set of walks; one without a name where the study has none."""
+        """The conditions under which a set of walks of a search is walked: its own, else all of the study; one
+        without a name where the study has none.
+        """
         return tuple(walks.conditions or self.conditions or ("",))
 
     @property
     def count(self) -> int:
-        """The number of its walks, one for each seed."""
+        """The number of walks of the study, if each is walked once per seed."""
         return self.count_of(frozenset())
 
     def count_of(self, undrawn: Undrawn) -> int:
-        """The number of walks of a study; for a search the largest number that it may need."""
+        """The number of walks of a study; for a search the largest number that it may need.
+
+        undrawn: pairs (case, condition) in which no part uses the seed: one walk stands for all their seeds.
+        """
         if self.search is not None:
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
@@ -150,18 +157,20 @@ class Study(Section):
 
     @property
     def every_seed(self) -> tuple[int, ...]:
-        """The seeds of the study, and those of the sets of a search."""
+        """The seeds of the study, and those of the three sets of walks of a search."""
         sets = () if self.search is None else self.search.walks
         return (*self.seeds, *(seed for _, walks in sets for seed in walks.seeds))
 
     def seeded(
         self, seeds: Sequence[int], at: PlainValues, undrawn: Undrawn
     ) -> list[dict[str, int]]:
-        """The values of each seed; of one walk without one, where there is none or nothing is drawn from it."""
+        """{"run.seed": seed} for each seed; one empty table, for one walk, without seeds, or where `at` names a
+        case and condition of `undrawn`, in which no part uses the seed.
+        """
         return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
 
     def walked_once(self, undrawn: Iterable[tuple[str, str]]) -> str:
-        """A sentence on cases under conditions in which nothing is drawn; empty for none."""
+        """A sentence that names the pairs (case, condition) in which nothing is drawn; empty for no pairs."""
         words = "; ".join(", ".join(filter(None, one)) or self.name for one in sorted(undrawn))
         return words and f"Walked once, as nothing that acts is drawn from the seed: {words}."
 
@@ -182,7 +191,7 @@ class Study(Section):
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns that it asks for."""
+        """The columns of the results that the study uses, of the table, of the objective and of the limits."""
         return (self.column, *(m.column for m in (self.search.measures if self.search else ())))
 
     @property
@@ -210,13 +219,15 @@ class Study(Section):
                 yield from ((name, x) for x in variable.choices)
 
     def sets(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """For each case under each condition: the values that its walks share, and its names."""
+        """For each case under each condition: the values that its walks share, and {"case": .., "condition":
+        ..} (not the sets of walks of a search).
+        """
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
             values = self.values_of(case_) | self.conditions.get(condition, {})
             yield values, walk_names(case=case_, condition=condition)
 
     def values_of(self, name: str) -> dict[str, Any]:
-        """The values of a case, "" for none."""
+        """The values of the base and, over them, of a case; name "" is the base alone."""
         return {**self.base, **self.cases.get(name, {})}
 
     def points(self, undrawn: Undrawn = frozenset()) -> Iterator[Point]:
@@ -234,9 +245,9 @@ class Study(Section):
     def rehearse(self) -> Undrawn:
         """Build the walkers of points that stand for all, without walking them, and again with another seed.
 
-        Case by case under each condition: each level of each axis, and combinations of texts; of a search the
-        values of the case, the middle of all variables, and each choice. Returns where the other seed changed
-        nothing. Raises InputError, with the point.
+        Case by case under each condition it builds each level of each axis, and combinations of values that are
+        texts; of a search the values of the case, the middle of all variables, and each choice. Returns the
+        pairs (case, condition) in which the other seed changed nothing. Raises InputError that names the point.
         """
         other = [{SEED: seed} for seed in self.every_seed[1:2]]
         result = {place_of(names) for _, names in self.sets() if other}
@@ -247,7 +258,7 @@ class Study(Section):
                     if place_of(names) in result:
                         again = trial_of(scenario_of(values | at | other[0]))
                         result -= {place_of(names)} if differ(trial, again) else set()
-                except ReachError:  # of this walk alone, whose row says so
+                except ReachError:  # a stone out of reach: the row of this one walk will say so
                     result.discard(place_of(names))
                 except BipedError as error:
                     where = ", ".join(f"{k} = {x}" for k, x in (names | at).items()) or "base"
@@ -255,7 +266,7 @@ class Study(Section):
         return frozenset(result)
 
     def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-        """Points of one case and condition, as values by axis."""
+        """The points that `rehearse` builds of one case under one condition: the values that vary, by name."""
         if self.search is not None:
             seed = {SEED: self.search.walks.search.seeds[0]}
             yield seed
@@ -276,7 +287,7 @@ class Study(Section):
 def read_study(source: Path | str | Mapping[str, Any]) -> Study:
     """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it.
 
-    What a file names, modules of the user's and a scenario, may stand beside it.
+    Modules of the user's and a scenario file that a study file names are looked for in its folder.
     """
     where, tables, here = "the study", source, Path()
     if not isinstance(source, Mapping):

@@ -47,8 +47,8 @@ HEIGHT = 480
 def rendered(template: str, package: str = _HERE, **values: object) -> str:
     """Fill in a page's template; returns the text of the page.
 
-    template: name of the file, in `package` or here. values: for the names in it. Every value is escaped as
-    HTML, and written by `as_text`: floats with four significant digits.
+    template: name of the file, in `package` or in `view`. values: by the names in the template. Every value is
+    escaped as HTML, and written by `as_text`: floats with four significant digits.
     """
     return _environment(package).get_template(f"{template}.html.j2").render(values)
 

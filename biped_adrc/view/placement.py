@@ -15,8 +15,8 @@ The ground is a slope with steps down and up,
 
     z(x) = -tan(slope) x - sum of the drops of the steps behind x, negative for a step up
 
-A step's edge is drawn half way between the footholds on either side of it; where it is has no part
-in the walk.
+The vertical face of a step of the ground ("edge" here) is drawn half way between the footholds on either side
+of it; the walk does not depend on where it is.
 """
 
 from __future__ import annotations
@@ -119,7 +119,9 @@ def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
 
 
 def link_placement(tree: Tree, values: dict[str, float], link: str) -> Array:
-    """World placement (4, 4) of one link; values as for `link_placements`."""
+    """World placement (4, 4) of one link; values: joint name -> [rad] or [m], 0 for joints that it does not
+    name.
+    """
     M = np.eye(4)
     for joint in tree.path_to_root(link):
         M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
@@ -186,11 +188,7 @@ def joint_values(
 class Clip(Checked):
     """The part of the walks that is shown, and how; None leaves the choice to the kind of picture.
 
-    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its last two steps
-    for a strip. fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture. view: camera of
-    a page at the start, one of `VIEWS`; all else is from the side. apart: moving picture with the walks side
-    by side and their errors below, instead of over one another. slower [1]: how many times slower than the
-    walk a moving picture plays.
+    x
 
     Raises InputError for values that do not fit.
     """
@@ -279,7 +277,7 @@ class WalkScene:
         return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
     def arc_at(self, t: float) -> int:
-        """Index, from 0, of the arc that is shown at t [s]; at an impact, the one after it."""
+        """Index, from 0, of the arc (single support) that is shown at t [s]; at an impact, of that after it."""
         ends = [arc.t[-1] for arc in self.trajectory.arcs]
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
@@ -301,10 +299,10 @@ class WalkScene:
 
 
 class DrawnLoads(NamedTuple):
-    """Forces on the drawn robot at one stored node."""
+    """Forces on the drawn robot at one stored node, an instant at which the walk's state is stored."""
 
     ground_reaction: Array
-    """(2,), F_T and F_N on the stance foot [N], along x and z of the world."""
+    """Force (2,) of the ground on the stance foot [N], along x and z of the world."""
     zeta: Array
     """External torque (n,) on the drawn joints of q1..qn [N m]."""
     other: Array = np.zeros(2)
@@ -314,9 +312,10 @@ class DrawnLoads(NamedTuple):
 
 
 def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
-    """Forces and torques on the robot at the last stored node up to t [s]; of the ends of the run outside it.
+    """Forces and torques on the robot at the last stored node up to t [s]; before and after the run, at its
+    ends.
 
-    They are not interpolated between nodes: for a fast observer the result would be far from the truth.
+    They are not interpolated between nodes: under a fast observer they change faster than nodes follow.
     """
     assert scene.walk is not None
     arcs, at, s = scene.trajectory.arcs, scene.arc_at(t), scene.walk.signals

@@ -1,7 +1,9 @@
-"""What is asked of every leaf: what it promises in both time bases and in both engines.
+"""What is asked of every leaf, that is, every class that fills one place of a walker.
 
-`conforms(thing)` runs it over one thing, of the package (rows of test_conformance.py) or of one's own: a
-controller, an observer, a reference, outputs, a disturbance, a sensor, motors, a curve or a method.
+Leaves are controllers, observers, references, outputs, disturbances, sensors, motors, curves and methods of
+integration. Each has to keep the promises of its base class in continuous and in sampled time, in Python and
+as machine code. `conforms(thing)` asks one of them, of the package (rows of test_conformance.py) or of one's
+own.
 """
 
 import atexit
@@ -70,7 +72,7 @@ def outputs(h):
 # -- what is asked of a thing --------------------------------------------------------------------
 @singledispatch
 def conforms(thing):
-    """Run the suite over one thing; raises TypeError for what is no leaf."""
+    """Ask one leaf all that its kind has to keep; raises TypeError for what is no leaf."""
     raise TypeError(f"{thing!r} is no leaf")
 
 
@@ -269,7 +271,7 @@ def _(motors: Motors):
 
 
 def unless(words, call):
-    """What a call gives, None where it is refused in these words."""
+    """What a call gives, None where it is refused with this message."""
     try:
         return call()
     except ba.BipedError as error:
@@ -296,7 +298,7 @@ def pure(function, *given):
 
 
 def moved(function, m, a, s):
-    """The first two of what it gives s seconds on, under the acceleration a."""
+    """The first two of what the function gives s seconds on, under the acceleration a."""
     return function(m.t + s, m.q + s * m.v + 0.5 * s * s * a, m.v + s * a)[:2]
 
 
@@ -316,7 +318,7 @@ def point_is_consistent(reference):
 
 
 def measurements(count):
-    """About the orbit, with what a body measures; and the generator."""
+    """States about the gait's orbit, with what a sensor on the body would measure; and the random generator."""
     walker, random = ba.Walker(robot(), ba.Passive()), np.random.default_rng(3)
     q, v = gait().start(robot())
     for _ in range(count):

@@ -42,7 +42,7 @@ def test_disturbance_estimate_follows_the_push(biped, gait):
     assert np.max(np.abs(s.xi_external[middle])) > 1.0
 
 
-def test_a_law_that_does_not_fit_is_refused(biped, gait):
+def test_gains_and_torque_limits_that_are_not_positive_are_refused(biped, gait):
     for gains in ({"K_p": -1.0}, {"K_d": 0.0}, {"K_p": float("nan")}):
         with pytest.raises(InputError, match="expected positive"):
             Gains(**gains)

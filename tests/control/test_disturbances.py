@@ -51,7 +51,8 @@ def placement(biped, q, link):
 
 
 # -- windows ---------------------------------------------------------------------------------------
-def test_windows_close_where_they_say():
+def test_a_pulse_acts_from_its_start_to_just_before_its_stop_in_its_single_support_alone():
+    """Times count from the touchdown that begins the step; a step function goes on in all later steps."""
     pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
     q = np.zeros(5)
     assert not np.any(pulse.zeta(1.05, 2, 1.0, q, q))
@@ -156,6 +157,7 @@ class Bump(ba.WindowedTorque):
 
 
 def test_a_disturbance_in_plain_python_is_compiled(biped, gait):
+    """Both engines walk alike under it, and otherwise than without it."""
     own = Gust() + Bump([0.0, 0.0, 0.0, 0.0, 9.0], 1, 0.1, 0.2)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), own)
     one, other = (

@@ -159,6 +159,7 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
 
 
 def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds(biped, gait):
+    """20 N m are too few for the corridor, 10 kN m never are. 0.65 s have 651 ticks, both ends counted."""
     inner = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step=0.4)
     counts = []
     for limit in (20.0, 1e4):
@@ -172,7 +173,8 @@ def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds
     assert infeasible_instants(np.zeros(0)) is None
 
 
-def test_a_row_of_a_study_has_them(gait):
+def test_a_row_of_a_study_counts_the_infeasible_instants_of_a_barrier(gait):
+    """None where no controller has one."""
     values = {"controller.name": "footstep", "controller.inner.name": "foot barrier"}
     values |= {
         "hardware.period": 1e-3,

@@ -54,7 +54,8 @@ def test_a_member_ends_at_its_step_length(preset):
             assert abs(z) < 3e-3
 
 
-def test_a_family_is_what_was_saved(biped, tmp_path):
+def test_a_family_comes_back_from_its_file(biped, tmp_path):
+    """The gait of 0.7 m/s and 0.35 m steps, which lies between members that are stored."""
     family = load_family("flat", biped)
     family.save(tmp_path / "mine.json")
     again = load_family(tmp_path / "mine.json", biped)
@@ -64,7 +65,7 @@ def test_a_family_is_what_was_saved(biped, tmp_path):
     assert again.steps.cycle_square(0.7, 0.35) == family.steps.cycle_square(0.7, 0.35)
 
 
-def test_mistakes_with_a_family(biped, tmp_path):
+def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_path):
     path = tmp_path / "mine.json"
     load_family("flat", biped).save(path)
     with pytest.raises(GaitError, match=r"no family 'steep'.*stored are \['flat'\]"):
@@ -156,6 +157,10 @@ def test_a_speed_below_the_slowest_cycle_is_remarked(biped, slow):
 
 
 def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
+    """r, what the controller takes for the force's moment about the stance foot, is force times hip height.
+
+    The hip's height, which varies over a step, is read at the walk's end: hence 10 %.
+    """
     gait = ba.load_gait("v0.5", biped)
     push = ba.HipForce(biped, (-14.4, 0.0), steps=(5, 99))
     walk = ba.walk(walker(biped, gait, push, step=0.25), gait, impacts=20)
@@ -191,6 +196,7 @@ def test_steps_onto_stones_at_random_distances(inner):
 
 @pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
+    """NPD steps 438.8 mm whatever the stones are: the first, at 500 mm, reaches 25 mm to each side."""
     course = Stones((0.5, 0.44))
     npd = ba.Walker(biped, ba.NPDController(slow.constraint), stones=course)
     walk = ba.walk(npd, slow, impacts=3)

@@ -74,6 +74,10 @@ def test_what_is_known_of_the_momentum_is_its_rate(biped, gait):
 
 
 def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
+    """Under all policies but "none"; "measured" and "model" set the momentum, "model" the slopes to 0.
+
+    The states are five momenta of 1, the five forces 1 to 5, and their slopes, 9 each.
+    """
     q, v = gait.start(biped)
     law = MomentumDOBController(gait.constraint, MomentumObserver.from_bandwidth(50.0, 3))
     walker = Walker(biped, law)

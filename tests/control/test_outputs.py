@@ -75,7 +75,7 @@ def torques(biped, controllers, q, v):
     return [c.output(np.zeros(0), m) for c in controllers]
 
 
-def test_joint_outputs_are_npd(biped, gait, state):
+def test_outputs_that_are_the_joints_give_the_torque_of_npd(biped, gait, state):
     gains = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], [50.0, 60.0, 70.0, 80.0])
     joints = LinearOutputs(np.eye(4, 5), gait.constraint)
     pair = (OutputNPDController(joints, gains), ba.NPDController(gait.constraint, gains))
@@ -91,7 +91,8 @@ def hip_height(biped, q, v):
     return -0.4 * np.sum(np.cos(angle)), 0.4 * np.sin(angle) @ rows, 0.4 * np.cos(angle) @ rate**2
 
 
-def test_derivatives_of_a_function_of_ones_own(biped, state):
+def test_derivatives_of_a_function_of_ones_own_are_those_by_hand(biped, state):
+    """The height of the hip: its rate, its Jacobian, and the drift, which is quadratic in the rates."""
     q, v = state
     y, J, drift = hip_height(biped, q, v)
     made = FunctionOutputs(lambda q: biped.hip(q)[1:])
@@ -123,7 +124,8 @@ def test_outputs_that_the_motors_cannot_move_apart(biped, gait, state):
             torques(biped, [OutputNPDController(y)], at, v)
 
 
-def test_outputs_that_do_not_fit(biped, gait, state):
+def test_outputs_that_do_not_fit_are_refused(biped, gait, state):
+    """Three for four motors; four with the phase among them; a number; three of a function; no numbers."""
     q, v = state
     phase_itself = np.vstack((np.eye(3, 5), gait.constraint.phase))
     for wrong in (

@@ -58,7 +58,7 @@ def test_wrong_files_of_recordings_are_refused_by_name(biped, text, message):
     assert "given.csv" in str(raised.value)
 
 
-def test_by_name_and_without_its_file():
+def test_a_recording_is_named_in_a_scenario_and_refused_without_its_file():
     file, named = (
         str(written("t,q1\n0,0\n0.1,20\n0.3,0\n")),
         {"shape": "recorded", "step": 1, "onset": 0.05},

@@ -60,7 +60,7 @@ def test_a_design_says_its_numbers_and_one_that_falls_is_refused(level: Designed
     [("level", "tac2003", 0.8, 0.0), ("downhill", "identified-bare", 0.7, 0.06)],
 )
 def test_speed_slope_energy_and_limits(name, preset, speed, slope, request) -> None:
-    """Joint work and gravity pay for what the impact takes; the walk comes back to its orbit."""
+    """Of each design; joint work and gravity pay for what the impact takes, and the orbit is stable."""
     found, biped = request.getfixturevalue(name), Biped.load("rabbit", preset)
     gait = found.gait
     x, z = biped.swing_foot(gait.q_minus)

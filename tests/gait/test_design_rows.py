@@ -103,6 +103,7 @@ def test_limits_are_of_pinocchio_s_numbers_with_their_reserve(robot, gait, rows,
 
 @pytest.mark.parametrize(("objective", "low"), [("torque", 0.9), ("peak", 0.0)])
 def test_the_peak_keeps_the_reserve(robot, limits, unknowns, objective, low):
+    """At most 0.9 of the torque limit, by the reserve of 0.1; fixed there unless it is to be minimised."""
     numbers, direction = unknowns
     asked = replace(ASKED, objective=type(ASKED.objective)(objective))
     _, symbols = transcribe(robot, asked, limits, direction)

@@ -264,7 +264,8 @@ def test_cut_off_mat_files_are_input_errors(gait, tmp_path):
             read_record(cut)
 
 
-def test_run_as_mat_comes_back_equal(biped, gait, tmp_path):
+def test_a_run_comes_back_from_its_mat_file_with_units_and_note(biped, gait, tmp_path):
+    """MATLAB reads vectors as columns: a row per time."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     columns = vars(ba.walk(walker, gait, 1).signals)
     assert set(columns) == set(RUN_UNITS)

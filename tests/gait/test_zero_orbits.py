@@ -45,7 +45,7 @@ def fast_walk(orbits, published):
     return walk_from(orbits, published, 1.8 * orbits.zeta_star, 5)
 
 
-def test_the_map_is_the_walk(orbits, bare, fast_walk):
+def test_the_map_from_step_to_step_is_that_of_the_simulated_walk(orbits, bare, fast_walk):
     """zeta, the duration and the energy of each step of the simulated five-link robot."""
     zeta = orbits.iterate(1.8 * orbits.zeta_star, 5)
     x = fast_walk.trajectory.before("foot_strike")
@@ -125,7 +125,7 @@ def wheel(slope):
 
 
 @pytest.mark.parametrize("slope", [0.08, 0.2])
-def test_rimless_wheel(slope):
+def test_the_rimless_wheel_has_its_closed_forms(slope):
     """McGeer 1990, unit mass and spokes: an inverted pendulum between impacts that take 1 - cos^2 2 alpha."""
     orbits = orbits_of(*wheel(slope))
     d2 = math.cos(2 * ALPHA) ** 2
@@ -233,6 +233,7 @@ settled         to 0.1% of zeta* after 18 steps from the lower end, 20 from the 
 
 # -- report, picture, command ----------------------------------------------------------------------------
 def test_report_says_what_does_not_hold(bare, published):
+    """A torque limit that the gait exceeds; a gait that is not hybrid invariant. Another slope is refused."""
     good = zero_report(bare, published.constraint, DomainLimits(0.6, 150.0))
     assert good.walkable
     assert good.text() == REPORT

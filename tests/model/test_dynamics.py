@@ -26,7 +26,7 @@ def test_inertia_rate_minus_twice_coriolis_is_skew(any_biped):
         assert np.allclose(b.coriolis(q, v) @ v + b.gravity(q), b.bias(q, v), atol=1e-9)
 
 
-def test_power_balance(any_biped):
+def test_the_energy_grows_by_the_power_of_the_motors(any_biped):
     """dE/dt = q_s'^T B_s u along the forward dynamics."""
     b, h = any_biped, 1e-5
     random = np.random.default_rng(3)
@@ -91,6 +91,9 @@ def test_the_velocity_of_the_swing_foot_is_its_slope(biped):
 
 
 def test_published_state_stands_on_the_ground(biped):
+    """And the step length [m], the velocities of foot and hip [m/s] and the rate of Theta [rad/s] that
+    follow.
+    """
     q, v = X_STAR[:5], X_STAR[5:]
     assert biped.swing_foot(q) == pytest.approx([0.3125, -0.0001], abs=5e-5)
     assert biped.swing_foot_velocity(q, v) == pytest.approx([1.564, -0.436], abs=5e-4)
@@ -114,6 +117,7 @@ def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
 
 
 def test_friction_is_off_by_default_and_takes_energy_when_on(biped):
+    """RABBIT's hips have 16.5 N m s/rad and 15 N m, at 1 rad/s here; its torso has no joint that rubs."""
     v = np.array([1.0, -2.0, 0.5, 3.0, 0.7])
     assert not np.any(biped.friction_torque(v))
     rough = ba.Biped.load("rabbit", friction=True)

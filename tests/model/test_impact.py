@@ -22,6 +22,7 @@ def states(n, count):
 
 
 def test_momentum_equation_and_standing_foot(any_biped):
+    """The impulse changes the momentum, the foot that landed stands; then left and right change their names."""
     b = any_biped
     for q, v in states(b.n, 300):
         hit = b.impact(q, v)
@@ -47,6 +48,7 @@ def test_angular_momentum_about_the_new_contact_is_kept(any_biped):
 
 
 def test_impact_at_the_published_state(any_biped):
+    """Impulse ratio and delta^2 as in NOTES; Theta [rad] after it follows from the published angles."""
     b = any_biped
     q, v = X_STAR[:5], X_STAR[5:]
     hit = b.impact(q, v)

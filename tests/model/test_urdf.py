@@ -88,10 +88,11 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
     ):
         with pytest.raises(ModelError, match=known):
             make()
+    # which are these, in the order of their names
     assert robot_names() == ("compass", "rabbit", "rimless_wheel", "simplest", "three_link")
 
 
-def test_states_that_are_no_states(biped):
+def test_states_of_a_wrong_size_or_that_are_not_finite_are_refused(biped):
     with pytest.raises(InputError, match=r"shape \(5,\)"):
         biped.inertia(np.zeros(4))
     with pytest.raises(ModelError, match="foot 'torso' does not hang below 'left_thigh'"):

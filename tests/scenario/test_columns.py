@@ -56,7 +56,7 @@ def test_events_are_where_they_happen(walk):
     assert table.attrs["note"] == walk.note
 
 
-def test_a_fall_has_its_event(biped, gait):
+def test_the_last_row_of_a_fall_names_what_ended_it(biped, gait):
     weak = ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=5.0)
     fallen = ba.walk(weak, gait, 4)
     assert not fallen.trajectory.status.ok

@@ -1,4 +1,6 @@
-"""A scenario in a file."""
+"""A scenario is read back from a file: texts with quotes, numbers to the last bit, pushes, names
+with spaces.
+"""
 
 import pytest
 

@@ -18,6 +18,7 @@ def peak(**values: object) -> float:
 
 
 def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
+    """`Mine` is NPD by other words; half its gain is half of K_p and K_d."""
     usual = peak(controller="NPD")
     assert peak(controller=f"{own}:Mine") == pytest.approx(usual, rel=1e-6)
     softer = peak(controller={"name": f"{own}:Mine", "gain": 0.5})
@@ -27,7 +28,7 @@ def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
     assert softer > 1.2 * usual
 
 
-def test_on_the_command_line(own: str) -> None:
+def test_an_own_controller_and_its_gain_are_taken_on_the_command_line(own: str) -> None:
     name = f"{own}:Mine"
     done = command(
         "simulate", "--controller", name, "--set", "controller.gain=0.5", "--impacts", "1", "--engine",
@@ -39,7 +40,9 @@ def test_on_the_command_line(own: str) -> None:
     assert record["hardware"]["delay"] == 1e-3
 
 
-def test_an_observer_and_a_push_of_ones_own(own: str) -> None:
+def test_a_push_of_ones_own_and_an_observer_of_the_package_are_built_by_their_names(
+    own: str,
+) -> None:
     push = build(ba.Scenario(pushes=[{"shape": f"{own}:Shove", "torque": 3.0}])).disturbance
     assert type(push).__name__ == "Shove"
     assert push.amplitude[0] == 3.0
@@ -110,7 +113,7 @@ def test_wrong_classes_of_the_user_s_are_refused_with_the_reason(
         ba.walk_scenario(ba.Scenario(**values))
 
 
-def test_what_is_made_of_the_scenarios_values() -> None:
+def test_a_controller_is_made_of_the_scenarios_values_and_of_its_own_defaults() -> None:
     def made(**values):
         return build(ba.Scenario(**values)).controller
 
@@ -137,7 +140,7 @@ def test_what_is_made_of_the_scenarios_values() -> None:
     assert (late.order, late.inner.observer.m) == (2, 1)
 
 
-def test_a_robot_and_a_gait_of_ones_own(own: str, tmp_path) -> None:
+def test_a_robot_and_a_gait_may_come_from_functions_of_ones_own(own: str, tmp_path) -> None:
     (tmp_path / f"{own}_parts.py").write_text(
         "import biped_adrc as ba\n"
         "def robot(preset=None, friction=False):\n"

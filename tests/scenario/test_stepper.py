@@ -28,12 +28,13 @@ class InPython(ba.Disturbance):
 
 
 def moved(stepper, samples, **inputs):
-    """Samples one after the other, under the same inputs of all walks."""
+    """The samples of so many sample instants, under the same inputs at each and of all walks."""
     rows = {name: np.tile(x, (len(stepper.walks), 1)) for name, x in inputs.items()}
     return [stepper.step(**rows) for _ in range(samples)]
 
 
 def largest(a, b):
+    """The largest difference between entries of two arrays."""
     return float(np.max(np.abs(a - b)))
 
 
@@ -142,6 +143,7 @@ def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python
         alone = replace(alone, disturbance=InPython())
     pushed = replace(alone, disturbance=push if not in_python else InPython() + push)
     arc = ba.walk(pushed, gait, 1).trajectory.arcs[0]
+    # samples 10 to 49 of 1 ms are the time from 0.01 to 0.05 s of the pulse
     stepper = ba.Stepper(alone)
     stepper.reset(start=gait.start(biped))
     assert bool(stepper.why) is in_python
@@ -170,7 +172,7 @@ def test_inputs_act_on_a_plant_that_moves_by_itself(s):
 
 
 def test_signals_are_read_where_the_walks_are():
-    """In machine code and in Python."""
+    """In machine code, and in Python for a method that chooses its steps; the two walks have other torques."""
     found = []
     for s in (NPD, NPD.replace(run={"method": "adaptive"})):
         stepper = ba.Stepper(s, 2)
@@ -183,6 +185,7 @@ def test_signals_are_read_where_the_walks_are():
 
 
 def test_a_walk_that_has_ended_stays_where_it_is():
+    """Pulled back by 400 N it ends before 0.9 s, the time of the samples; a reset begins it again."""
     stepper = ba.Stepper(NPD)
     stepper.reset()
     rows = moved(stepper, 900, force=[-400.0, 0.0])
@@ -191,7 +194,8 @@ def test_a_walk_that_has_ended_stays_where_it_is():
     assert stepper.reset(0).status[0] is ba.Status.COMPLETED
 
 
-def test_what_is_no_step_is_refused(biped, gait):
+def test_a_stepper_is_refused_what_it_cannot_step(biped, gait):
+    """Continuous time, a finer integration at impacts, a step before the start, and inputs of a wrong kind."""
     with pytest.raises(InputError, match=r"give hardware\.period"):
         ba.Stepper(ba.Scenario("NPD"))
     with pytest.raises(InputError, match="fine"):

@@ -31,7 +31,7 @@ class Nothing(ba.Disturbance):
 
 
 def same(one: ba.Walk, other: ba.Walk) -> None:
-    """Signals to the last bit, limits, certificates."""
+    """Two walks have equal signals, to the last bit, limits, certificates and remarks."""
     for f in fields(Signals):
         a, b = getattr(one.signals, f.name), getattr(other.signals, f.name)
         np.testing.assert_array_equal(a, b, err_msg=f.name)
@@ -132,7 +132,10 @@ def test_a_disturbance_of_ones_own_is_absent_when_it_is_read_again(biped, gait, 
 
 
 def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
-    """Of a controller of one's own, which is forgotten then."""
+    """A walk, saved as mine.npz, of a controller of one's own, whose module is forgotten then.
+
+    own: the module's name. period [s] of the clock; None for continuous time.
+    """
     s = ba.Scenario({"name": f"{own}:Mine", "gain": 0.8}, hardware={"period": period}, **FAST)
     walk = ba.walk_scenario(s)
     walk.save("mine.npz")
@@ -158,7 +161,8 @@ def test_an_own_controller_is_read_without_it(
         ba.walk(again.walker, again.gait, 1)
 
 
-def test_and_is_walked_again_by_its_scenario(own: str) -> None:
+def test_a_stored_walk_of_an_own_controller_is_walked_again_by_its_scenario(own: str) -> None:
+    """The module lies in the working directory still, and is imported again."""
     walk = stored(own)
     again = ba.walk_scenario(ba.load_walk("mine.npz").scenario)
     np.testing.assert_array_equal(again.trajectory.final_state, walk.trajectory.final_state)
@@ -174,6 +178,7 @@ def test_and_is_walked_again_by_its_scenario(own: str) -> None:
     ],
 )
 def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_path) -> None:
+    """A record that names another callable in the plant's place, or has no values, is refused."""
     path = ba.walk(
         ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1, engine="compiled"
     ).save(tmp_path / "a.npz")

@@ -17,7 +17,8 @@ def made(name, **own):
     return build(ba.Scenario(hardware={"touchdown": {"name": name, **own}}, **USUAL)).touchdown
 
 
-def test_values_come_by_name():
+def test_a_touchdown_is_made_by_its_name_and_its_values():
+    """And none is made where the scenario names none."""
     assert made("faulty", late=5e-3) == FaultyTouchdown(5e-3, seed=made("faulty").seed)
     assert made("Force", delay=2e-3, on=40.0) == ByForce(on=40.0, delay=2e-3)
     assert made("kinematics", height=1e-3) == ByKinematics(height=1e-3)
@@ -26,6 +27,7 @@ def test_values_come_by_name():
 
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
+    """4 ms late and at the next tick of 1 ms; the last touchdown ends the walk before it is noticed."""
     walk = ba.walk_scenario(
         ba.Scenario(hardware={"touchdown": {"name": "faulty", "late": 4e-3}}, ground=plant, **USUAL)
     )

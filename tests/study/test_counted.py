@@ -30,7 +30,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_both_give_the_same_numbers(name):
+def test_a_row_has_the_numbers_of_the_signals_of_its_walk(name):
     s = ba.Scenario(**{"controller": "NPD", "run.impacts": 3, **CASES[name]})
     row, walk = run_trials([s.record()])[0], ba.walk_scenario(s)
     assert row["status"] == walk.trajectory.status.name
@@ -42,8 +42,10 @@ def test_both_give_the_same_numbers(name):
 
 
 @pytest.mark.parametrize("conditions", [[], ["5 N", "9 N"]])
-def test_the_page_asks_what_its_table_does_not_say(tmp_path, conditions):
-    """A ratio has no unit. Feasible walks under one condition are a column of the table, and no picture."""
+def test_the_page_has_a_picture_of_feasible_walks_under_several_conditions_alone(
+    tmp_path, conditions
+):
+    """Under one they are a column of its table. The axis of a ratio has no unit."""
     laws = {f"K_p {x}": {"controller.K_p": x} for x in (4000.0, 5000.0)}
     tables = {
         "name": "page",

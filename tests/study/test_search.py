@@ -28,12 +28,13 @@ def walked(asked):
 
 
 def found_by(**search):
+    """The search with these settings, and the candidates that it tried, in order."""
     study = read_study(plants.tables(**search))
     return study.search, searched(study.search, study.base, walked, lambda c: None)
 
 
 def test_the_optimum_of_riccati_is_reached():
-    """Within 1 % with each of three seeds, within 0.05 % in the mean."""
+    """Within 1 % with each of three seeds, within 0.05 % in the mean; no candidate is better, to round-off."""
     missed = []
     for seed in (1, 2, 3):
         search, found = found_by(seed=seed)
@@ -44,6 +45,7 @@ def test_the_optimum_of_riccati_is_reached():
 
 
 def test_any_workers_give_the_same_bits(tmp_path):
+    """One process, two, and threads. Two walks are those of the test: the choice, and the case itself."""
     tables = plants.tables(budget=30, generation=8)
     with ThreadPoolExecutor(3) as pool:
         one, two, three = (
@@ -59,6 +61,7 @@ def test_any_workers_give_the_same_bits(tmp_path):
 
 
 def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choice(tmp_path):
+    """Seeds 0, 1 and 2 are those of search, choice and test; candidate 0 is the case itself."""
     seen = []
 
     def rows(records):
@@ -118,6 +121,7 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
 
 
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
+    """The ripple, made to be k1 here: candidates above 20 are not walked, and the budget counts walks alone."""
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
     limits = [{"column": "ripple", "most": 20.0, "over": "worst"}]
@@ -147,6 +151,7 @@ def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path
 
 
 def walks(*numbers, feasible=1, column="rms_error"):
+    """Walks that ended well, with these numbers in the column."""
     return [("", {"survived": 1, "feasible": feasible, column: x}) for x in numbers]
 
 
@@ -155,6 +160,7 @@ REFUSED = ("", {"survived": None, "feasible": None, "rms_error": None})
 
 
 def of(found, kind=Aim, column="rms_error", **more):
+    """The number that an aim or a limit makes of these walks."""
     return kind(column=column, **more).of(found, {})
 
 
@@ -195,7 +201,10 @@ def test_candidates_are_ranked_by_limits_then_objective():
 
 
 def test_columns_without_a_walk_are_those_of_the_specification():
-    """Numbers of the loop, margins 0 where it is unstable; on soft ground those of the rigid plant."""
+    """Numbers of the linear loop at its ticks, none in continuous time; the ground changes none.
+
+    Where the loop is unstable its margins are 0, and it has no ripple.
+    """
     names = ("stable", "delay_margin", "disk_margin", "ripple")
     values = {"controller.name": "NPD", "run.impacts": 2}
     values |= {"hardware.period": 1e-3, "hardware.delay": 1e-3}
@@ -222,6 +231,10 @@ walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [
 
 
 def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
+    """At most 7 walks: 3 candidates, the finalist and the case itself on the second set, two on the third.
+
+    The objectives are those of a plain study of the same gains.
+    """
     path, out = tmp_path / "walks.toml", tmp_path / "out"
     path.write_text(WALKS)
 

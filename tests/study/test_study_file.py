@@ -73,7 +73,7 @@ def test_points_are_all_combinations_in_si_units(tmp_path):
 
 
 def test_the_scenario_of_a_study_lies_beside_it(tmp_path):
-    """Files of the system are none that are read: some never end."""
+    """Paths out of its folder are refused, and so are files of the system, some of which never end."""
     (tmp_path / "below").mkdir()
     (tmp_path / "base.toml").write_text('controller.name = "NPD"')
     for name, why in (
@@ -226,6 +226,10 @@ def test_levels_have_both_ends_and_even_steps():
 
 @pytest.mark.parametrize("kind", ["random", "sobol"])
 def test_samples_fill_their_ranges_evenly(kind):
+    """Also on a logarithmic scale and over whole numbers; a longer list begins with the shorter one.
+
+    The deviation from an even spread falls with 1/n for Sobol points and with 1/sqrt(n) for random ones.
+    """
     n = 4096
     log, whole = {"from": 1e-3, "to": 1e3, "scale": "log"}, {"from": 2, "to": 5, "whole": True}
     spans = {"start.q1": {"from": -1.0, "to": 3.0}, "controller.b": log, "controller.c": whole}
@@ -284,7 +288,7 @@ TABLE = {
 
 
 def rows(records):
-    """Errors of b are half of those of a, by seed; under y every fourth walk of b is not feasible."""
+    """Errors of b are half of those of a at the same seed; under y every fourth walk of b is not feasible."""
     return [_row(record) for record in records]
 
 
@@ -297,6 +301,7 @@ def _row(record):
 
 
 def test_the_table_pairs_walks_by_seed_and_counts_what_is_feasible(tmp_path):
+    """20 ratios on one side of 1 have p = 2 x 2^-20 in the sign test."""
     tables = TABLE | {"seeds": 20, "base": {"controller.pause": 0.0, "run.impacts": 3}}
     found = plants.carried(tables, tmp_path, rows)
     a_x, a_y, b_x, b_y = found.table()
@@ -340,6 +345,7 @@ def test_rows_that_are_equal_to_the_last_bit_are_one_walk(tmp_path):
 
 
 def test_there_is_no_interval_over_declared_walks(tmp_path):
+    """Walks of a grid are chosen, not drawn: medians and ratios are stated without interval and p."""
     tables = TABLE | {"grid": {"run.impacts": list(range(1, 21))}}
     found = plants.carried(tables, tmp_path, rows)
     for line in found.table():

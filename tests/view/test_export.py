@@ -65,6 +65,10 @@ def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(wa
 def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:
+    """0.4 s at 20 frames per second are 8 frames of 50 ms, in an endless loop.
+
+    The robot moves: more than 0.2 % of the pixels change by more than 20 of 255. It covers 1 to 60 % of them.
+    """
     for name in ("a.gif", "b.gif"):
         write_moving_picture(tmp_path / name, walks, Clip(0.1, 0.5, fps=20.0))
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
@@ -82,7 +86,9 @@ def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
     assert all(0.01 < np.mean(frame < 200) < 0.6 for frame in frames)
 
 
-def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> None:
+def test_the_suffix_says_what_is_written_and_what_a_clip_may_ask_for(
+    walks: dict[str, Walk], tmp_path: Path
+) -> None:
     clip = Clip(0.1, 0.2, fps=10.0)
     starts = {"html": b"<!DOCTYPE html>", "gif": b"GIF89a", "png": b"\x89PNG", "svg": b"<?xml"}
     for suffix, start in starts.items():
@@ -117,7 +123,7 @@ def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
 
 
 def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:
-    """The walk as if it had ended so."""
+    """The walk as if it had ended with this status, by this guard."""
     *before, last = walk.trajectory.arcs
     if guard is not None:
         last = replace(last, event=Event(guard, float(last.t[-1]), last.x[-1], None))
@@ -141,7 +147,7 @@ def test_an_ending_says_how_when_and_why(walks: dict[str, Walk]) -> None:
             assert "nan" not in words
 
 
-def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
+def test_a_walk_that_fell_has_one_frame_more_which_stays_for_two_seconds(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:
     end = walks["NPD"].trajectory.t_end

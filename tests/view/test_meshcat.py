@@ -125,7 +125,7 @@ def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> No
     assert scene(text)[0]["marks"] == [[0.1, 0.3, bad]]
 
 
-def test_animation_refuses_bad_input(walks: dict[str, Walk]) -> None:
+def test_frame_rates_and_views_that_there_are_not_are_refused(walks: dict[str, Walk]) -> None:
     for values in ({"fps": 0.0}, {"view": "top"}, {"fps": 1e7}):
         with pytest.raises(InputError):
             animation_html(walks, Clip(**values))

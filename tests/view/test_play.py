@@ -59,13 +59,13 @@ def started() -> Iterator[Chrome]:
 
 @pytest.fixture
 def browser(started: Chrome, path: Path) -> Chrome:
-    """With the page open, at rest."""
+    """Chromium with the page open and its walk paused."""
     opened(started, path)
     return started
 
 
 def opened(browser: Chrome, path: Path) -> None:
-    """The page, once it shows a walk, at rest."""
+    """Open the page, wait until it shows a walk, and pause it."""
     browser.get(path.as_uri())
     until(browser, "return typeof page !== 'undefined' && page.last !== null && known.length > 0")
     keys(browser, " ")
@@ -73,7 +73,7 @@ def opened(browser: Chrome, path: Path) -> None:
 
 
 def until(browser: Chrome, script: str, *given: object) -> Any:
-    """What a script returns, once that is true."""
+    """What the script returns, asked again until it is true; fails after SOON."""
     end = time.monotonic() + SOON
     while not (found := browser.execute_script(script, *given)):
         assert time.monotonic() < end, script
@@ -82,7 +82,7 @@ def until(browser: Chrome, script: str, *given: object) -> Any:
 
 
 def keys(browser: Chrome, *pressed: str) -> None:
-    """Press keys, not in a field."""
+    """Press keys with no field of the page in focus."""
     browser.execute_script("document.activeElement.blur()")
     browser.find_element(By.TAG_NAME, "body").send_keys(*pressed)
 
@@ -128,7 +128,7 @@ def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
 
 @pytest.fixture(scope="module")
 def walked(started: Chrome, path: Path) -> dict[str, Any]:
-    """What a hand did, and what was drawn at its end."""
+    """What the script WALKED returns: of a walk that a hand pushes and pulls, and what was drawn at its end."""
     opened(started, path)
     found: dict[str, Any] = started.execute_script(WALKED)
     return found
@@ -143,6 +143,7 @@ def test_what_is_drawn_and_plotted_is_what_the_finished_walk_has(
 
 
 def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict[str, Any]) -> None:
+    """Stiffness and damping on the point that is held; the script pulls hard enough for 100 N at least."""
     plant = RobotAndGait.of(FIRST).biped
     n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
     largest = 0.0
@@ -200,7 +201,8 @@ def test_a_slider_ends_where_its_controller_refuses_more() -> None:
         walk.at({"controller.K_p": 0.5 * gain.low})
 
 
-def test_back_up_again_and_the_timeline(browser: Chrome) -> None:
+def test_a_fallen_robot_gets_up_again_and_the_timeline_goes_back(browser: Chrome) -> None:
+    """Number 3 of the line is t = 0.03 s. A key goes 1 ms on from there, and the line ends there now."""
     fallen = """
 play.push({ force: [-300, 0], seconds: 1 });
 while (play.walking[0].walks) play.sample();
@@ -271,7 +273,7 @@ def torso(browser: Chrome) -> tuple[int, int]:
     return x, y
 
 
-def test_the_page_by_mouse_and_keys(browser: Chrome) -> None:
+def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Chrome) -> None:
     mouse = ActionChains(browser)
     mouse.w3c_actions.pointer_action.move_to_location(*torso(browser))
     mouse.click_and_hold().move_by_offset(60, -20).perform()
@@ -337,6 +339,7 @@ def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> No
 
 
 def test_the_tour_leads_through_its_stations_and_gives_back_what_walked(browser: Chrome) -> None:
+    """Keys: t begins it, n is the next station, p pushes with the station's 30 N m, which the page draws."""
     before, stations = browser.execute_script("return known[0]"), tour()
     assert browser.execute_script("return scene.tour.length") == len(stations) == 6
     for k, station in enumerate(stations):
@@ -375,6 +378,9 @@ return { walks: play.walks, error, torque };
 
 
 def test_the_stations_show_what_they_say(browser: Chrome) -> None:
+    """Errors [rad] after the push, with the words of tour.toml: some milliradians, a fraction, the
+    limit hit.
+    """
     titles = [station["title"] for station in tour()]
 
     def station(words: str) -> dict[str, Any]:
@@ -414,6 +420,7 @@ return all.filter(low).map((x) => x.outerHTML.slice(0, 200));
 
 
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
+    """On a telephone, 390 px wide, and two screens; on these no control is below the window either."""
     assert browser.execute_script(NAMELESS) == []
     try:
         for width, height in ((390, 800), (1000, 700), (1400, 900)):
@@ -461,7 +468,9 @@ def test_the_same_walks_give_the_same_page(path: Path) -> None:
         (3.0, {}, "what is to walk on a page"),
     ],
 )
-def test_what_a_page_cannot_walk(tmp_path: Path, scenario: Any, others: Any, said: str) -> None:
+def test_what_a_page_cannot_walk_is_refused(
+    tmp_path: Path, scenario: Any, others: Any, said: str
+) -> None:
     with pytest.raises(BipedError, match=said):
         ba.play(tmp_path / "play.html", scenario, others)
     assert not (tmp_path / "play.html").exists()

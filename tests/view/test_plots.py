@@ -157,6 +157,7 @@ def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_has_labels_with_units(pushed: dict[str, Walk], name: str) -> None:
+    """But for axes that share their label with a neighbour, and axes over names of joints or controllers."""
     figure = draw(name, pushed)
     for axes in figure.axes:
         place = axes.get_subplotspec()
@@ -287,6 +288,10 @@ def test_a_box_is_the_line_along_its_longest_edge() -> None:
 
 
 def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
+    """Up to WIDE times the orbit where the domain has no end; from the lowest zeta to the orbit if it is
+    empty.
+    """
+
     def drawn(low: float, high: float) -> tuple[float, float]:
         class Domain(tuple[SimpleNamespace, SimpleNamespace]):
             empty = low > high

@@ -76,7 +76,7 @@ def test_report_escapes_and_stands_alone(biped: Biped, svg: bytes) -> None:
     assert html.unescape(frame.group(1)) == ANIMATION
 
 
-def test_report_states_the_verdicts() -> None:
+def test_report_states_verdicts_and_what_was_left_out() -> None:
     text = report_html({**SUMMARY, "left_out": ["the map"]}, {})
     for part in ("1 of 2 checks hold", "✗ does not hold", "✓ replicated", "1.235e-12", "the map"):
         assert part in text

@@ -30,11 +30,11 @@ METHOD = ba.RK4(2e-3)
 ALPHA = math.pi / 8
 NAMES = ("compass", "wheel", "slope", "down")
 DROPS = {2: 0.015, 3: 0.01}
-"""[m] by single support, of the walk over steps down."""
+"""Heights [m] of the steps down, by the number of the single support that ends on the lower ground."""
 
 
 def passive_walk(robot: str, impacts: int, slope: float | None = None) -> Walk:
-    """On the slope of the stored cycle, or on another one [rad]."""
+    """A walk of a robot without motors on the slope [rad]; None: that of its stored cycle."""
     run = {"impacts": impacts}
     return ba.walk_scenario(ba.Scenario("passive", robot=robot, ground={"slope": slope}, run=run))
 
@@ -124,7 +124,10 @@ def test_stones_are_drawn_where_the_next_foot_has_to_land() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) -> None:
-    """And the stance foot stays where the swing foot came down, on the ground, from first to last."""
+    """And the stance foot stays where the swing foot came down, on the ground, from the first step to the last.
+
+    At the end the robot is more than 1 m on, and more than 20 mm lower.
+    """
     walk, foothold = walks[name], np.zeros(2)
     scene, biped = WalkScene.of(walk), walk.walker.plant
     assert len(scene.footholds) == len(walk.trajectory.arcs) >= 4
@@ -177,7 +180,10 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
 # -- passive walks ---------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", ["compass", "wheel"])
 def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
-    """Constant in single support; impacts leave the potential energy and take the kinetic energy lost."""
+    """It is constant in single support. An impact leaves the potential energy and takes some kinetic energy.
+
+    Each takes as much as its certificate says, and no less than 0.5 J.
+    """
     walk = walks[name]
     s = walk.signals
     total = s.kinetic + s.potential

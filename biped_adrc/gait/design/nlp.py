@@ -41,11 +41,11 @@ _SHORTEST = 0.05
 PASSED = 0.5
 """Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
 LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
-"""What is asked of a foot that needs no clearance."""
+"""Name of the limit on a foot without a required clearance."""
 _SMOOTH = 1e-2
-"""Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
+"""Width of the smoothed |power| in the cost of transport, as a share of the torque limit times 1 rad/s."""
 CALM = 1e-2
-"""Weight of torque squared beside the other objectives, which alone would leave the torque undetermined."""
+"""Weight [1] of the torque squared that is added to other objectives, which leave it partly undetermined."""
 Bounds = tuple[Array, Array]
 """Lower and upper bounds of the decision vector, both (nx,)."""
 
@@ -58,18 +58,18 @@ ASKED = ("the speed", "the step length")
 ASKED_WEIGHT = 100.0
 """Weight of the slacks of ASKED in the relaxation, so that a limit gives way before the request does."""
 _MISSED = 1e-5
-"""Largest slack of a limit that counts as kept."""
+"""Largest slack, dimensionless or [rad], with which a limit counts as kept."""
 INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
 """Statuses with which CasADi ends IPOPT after Ctrl-C, in an evaluation or between two of them."""
 
 
 class Bounded(NamedTuple):
-    """Constraint low <= value <= high, dimensionless, or [rad] for angles; equality where low = high."""
+    """Constraint low <= value <= high, dimensionless, or [rad] for angles; an equality if low = high."""
 
     name: str
     """Name of the constraint in error messages; several rows may share one."""
     value: ca.MX
-    """One column of expressions."""
+    """Expressions, one column: the same limit at all nodes."""
     low: float
     high: float
     unit: str = ""
@@ -88,8 +88,8 @@ class NonlinearProgram:
     """Equality and inequality constraints."""
 
     def missed(self, x: Array) -> dict[str, float]:
-        """Largest violation of the rows of each name by x (nx,), dimensionless or
-        [rad]; 0 where it keeps them.
+        """By name of a constraint, the largest violation of its rows by x (nx,), dimensionless or [rad]; 0 if x
+        keeps them.
         """
         values = ca.Function("rows", [self.x], [row.value for row in self.rows]).call([x])
         result = dict[str, float]()
@@ -100,7 +100,7 @@ class NonlinearProgram:
         return result
 
     def in_words(self, missed: Mapping[str, float]) -> list[str]:
-        """A sentence for each violated limit, from its name and violation, the largest first."""
+        """A text for each violated limit, with its violation and unit, the largest violation first."""
         units = {row.name: row.unit for row in self.rows}
         ordered = sorted(missed.items(), key=lambda pair: -pair[1])
         return [f"{name} by {amount:.3g} {units[name]}".rstrip() for name, amount in ordered]
@@ -121,12 +121,11 @@ def transcribe(
 
 
 def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
-    """Equality rows: the step is one periodic orbit of the hybrid zero dynamics, with
-    the requested speed and step.
+    """Equality rows: the walking step is one periodic orbit of the hybrid zero dynamics, with the requested
+    speed and step length.
 
-    The end of the curve is the pre-impact state, its start the state after the impact with the
-    legs relabelled, in value and in slope; the angular momentum follows the quadrature to each
-    node and returns to its initial value.
+    The end of the curve is the pre-impact state, its start the state after the impact with the legs relabelled,
+    in value and in slope; the angular momentum follows the quadrature to each node and closes over the step.
     """
     x, p, M = k.x, k.p, k.request.degree
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
@@ -290,11 +289,11 @@ def relaxed(
         minimise  w . s + 1e-6 f(x)   subject to  low - s <= g(x) <= high + s,  s >= 0
 
     Each name of a limit has one slack, so that all rows of that name give way together; the small share of the
-    objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
+    objective keeps the solution unique. The equations of the model have no slack; the requested speed and step
+    length have one of weight w = ASKED_WEIGHT, all other limits w = 1.
 
-    request, status: the request and IPOPT's failure, for the message. The requested speed and step length
-    have slacks of weight ASKED_WEIGHT, the equations of the model none. Raises GaitError naming the limits
-    whose slack stays above MISSED.
+    request, status: the request in words and IPOPT's status, for the message. Raises GaitError naming the
+    limits whose slack stays above _MISSED.
     """
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]

@@ -1,6 +1,6 @@
 """Design of a gait: solve the nonlinear programme with IPOPT from a cold start, then make the result exact.
 
-`optimise` goes from an easy programme to the one asked for, each solution being the next first guess:
+`optimise` goes from an easy programme to the one asked for; each solution is the first guess of the next one:
 
     cold start -> least torque, level ground -> least torque, slope -> the objective asked for
 
@@ -8,10 +8,10 @@ IPOPT meets the equations to about 1e-9. The Gait handed back is therefore built
 the free coefficients alone (`exact_gait`): impact and zero dynamics are Pinocchio's, so that the constraint is
 hybrid-invariant and the orbit periodic to round-off.
 
-The programme keeps its limits at the nodes only. `audit` evaluates the same rows for the exact gait at many
-more; if one is missed there, the programme is solved once more with twice the nodes. A programme without a
-solution ends in `nlp.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
-calls `optimise` and then walks the gait in simulation.
+The programme keeps its limits at its Gauss nodes (phases of the step) only. `audit` evaluates the same rows
+for the exact gait at many more; if one is missed there, the programme is solved once more with twice the
+nodes. A programme without a solution ends in `nlp.relaxed`, which names the limits that contradict each
+other. `analysis.gait_design` calls `optimise` and then walks the gait in simulation.
 
 *The cold start* comes, for any planar biped, from its geometry alone.
 
@@ -62,9 +62,10 @@ FROUDE = 1.5
 MOVED = 1e-3
 """Largest change of a joint by which a requested state is moved onto the ground [rad]."""
 _STEP = 0.5
-"""Step length of the guess over the leg, and speed over sqrt(g leg), where the request leaves them free."""
+"""For a request that leaves them free: step length of the guess over the leg length, and speed over
+sqrt(g leg)."""
 BEND = 0.2
-"""Distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
+"""Distance of a joint of the guess from the end of its range [rad]; at most a quarter of the range."""
 
 
 def standing(robot: PlanarRobot) -> Array:
@@ -176,7 +177,7 @@ _NODES = 120
 SPEED = 5e-5
 """Largest deviation of the speed (relative) and of the step length (over the leg) from the request."""
 _EXACT = 1e-6
-"""Largest violation of any other row by an exact gait."""
+"""Largest violation of all other rows by an exact gait, dimensionless or [rad]."""
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
 """Bounds of the unknown rates."""
 WINDING = 1.5
@@ -184,10 +185,12 @@ WINDING = 1.5
 
 
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:
-    """Sentences on the limits that the periodic step of a gait violates at the nodes of its orbit.
+    """Sentences on the limits that the periodic step of a gait violates at the nodes of its orbit; empty for
+    none.
 
     Friction, torque, ranges and rates are compared with the limits themselves, since the programme kept a
-    reserve to them. F_N, clearance and lift-off have no such reserve, so they may fall short by that share.
+    reserve to them. It kept none to F_N, clearance, lift-off and slowest rate, so these may fall short of their
+    limits by the reserve's share.
     """
     limits, c = request.limits.of(biped), gait.constraint
     names = ("normal_force", "clearance", "lift_off", "slowest")
@@ -200,7 +203,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     finer = replace(request, nodes=len(rates))
     programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
     allowed = dict.fromkeys(ASKED, SPEED)
-    # the foot may scuff, and is kept up in the second half at the nodes alone
+    # a foot without a required clearance is kept above the ground at the programme's nodes alone
     allowed[LATE] = np.inf
     result = programme.missed(stacked(x))
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
@@ -234,7 +237,7 @@ class Optimum:
 
 
 def optimise(biped: Biped, request: GaitRequest) -> Optimum:
-    """Find the gait of least objective from a cold start; a local optimum, as of any nonlinear programme.
+    """Find the gait of least objective from a cold start; as in every nonlinear programme the optimum is local.
 
     Raises GaitError naming the limits that would have to be relaxed, or the robot that has no such gait
     (exactly one unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
@@ -266,9 +269,9 @@ def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]
     """Solve the stages of the request one after the other; returns the last solution and
     the number of iterations.
 
-    IPOPT lowers its barrier in the adaptive and then in the monotone way. After a stage that is not solved,
-    the next one starts from the same guess. Where the last one is not solved, its limits are relaxed, and
-    IPOPT starts again from the feasible point found; raises GaitError with the reason if that fails too.
+    IPOPT lowers its barrier parameter in the adaptive and, if that fails, in the monotone way. After a stage
+    that is not solved, the next one starts from the same guess. If the last stage is not solved, `relaxed`
+    finds a feasible point, from which IPOPT starts again; raises GaitError with the reason if that fails too.
     """
     stages, iterations, limits = request.stages(), 0, request.limits.of(biped)
     guess = cold_start(biped, stages[0], limits)

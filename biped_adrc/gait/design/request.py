@@ -30,6 +30,7 @@ NodesInt = Annotated[
     int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
 ]
 LOW_FIRST = each("low < high [rad] by joint", lambda ends: ends[0] < ends[1])
+"""Check of ranges: each has its lower end first."""
 
 
 class Objective(Enum):
@@ -181,8 +182,8 @@ class GaitRequest(Checked, Shown):
         return "through" if self.through else "-".join(self._said("v{:g}", "s{:g}", "slope{:g}"))
 
     def _said(self, *forms: str) -> list[str]:
-        """Texts of speed, step and slope, each by its format in `forms`; those that are
-        free or zero are left out.
+        """Texts of speed, step length and slope, each by its format in `forms`; a number that is free, and a
+        slope of zero, are left out.
         """
         numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
         return [form.format(x) for form, x in numbers if x is not None]

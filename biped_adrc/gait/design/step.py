@@ -35,9 +35,8 @@ _T = TypeVar("_T", bound=Any)
 
 
 class Unknowns(NamedTuple, Generic[_T]):
-    """The unknowns as symbols or as numbers, in the order of the decision vector.
-
-    n coordinates, p motors, K nodes.
+    """The unknowns of the nonlinear programme as symbols or as numbers, in the order of the decision vector,
+    for n coordinates, p motors, K Gauss nodes.
     """
 
     q: _T
@@ -61,8 +60,8 @@ class Unknowns(NamedTuple, Generic[_T]):
     """Largest |u_i| of the step as a share of the torque limit (1,)."""
 
     def split(self, x: Array) -> Unknowns[Array]:
-        """Split a decision vector x (nx,) into the unknowns, in the shapes of these, such
-        as (n, 1) and (p, M + 1).
+        """Split a decision vector x (nx,) into the unknowns, in the shapes of the symbols in `self`, such as
+        (n, 1) and (p, M + 1).
         """
         cuts = np.split(np.ravel(x), np.cumsum([np.prod(part.shape) for part in self])[:-1])
         both = zip(cuts, self, strict=True)
@@ -87,7 +86,9 @@ def at_gait(
 
 
 class Node(NamedTuple):
-    """The model at K nodes, one column each, in the order of the rows of `node_function`."""
+    """The model at K Gauss nodes, one column each; the fields are in the order of the rows of
+    `node_function`.
+    """
 
     inertia: ca.MX
     """I(Theta) (1, K): sigma = I Theta' [kg m^2]."""
@@ -109,7 +110,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
 
     phase: c (n,), Theta = c q. direction: sign of Theta'. s: normalised phase of the node; b, b', b'' (M + 1,):
-    Bernstein polynomials and derivatives there, which enter as inputs so that one function serves all nodes.
+    basis functions of the curve and their derivatives there, inputs so that one function serves all nodes.
     """
     n, K = robot.n, robot.K
     p, M = n - 1, degree
@@ -143,13 +144,14 @@ def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
 
 
 class SymbolicStep:
-    """The step as CasADi expressions of the unknowns, from which `nlp` builds cost and constraints.
+    """The walking step as CasADi expressions of the unknowns x, from which `nlp` builds cost and constraints.
 
     node: the model at the K Gauss nodes; everywhere: there and at both ends of the step, at the normalised
     phases `places`. work: W (1, 1) = int -G_N I dTheta over the step, until (1, K): the same up to each node
     [kg^2 m^4/s^2]. dt (1, K): time of each node's share of the step, duration: their sum [s]. length: distance
-    of the feet along the ground [m]. dq (n,): dq/dTheta before impact. q_plus, v_plus (n,): state after the
-    impact at Theta'- = 1, legs relabelled.
+    of the feet along the ground [m]. along, out (1, 2): unit vectors of the ground and of its normal. dq (n,):
+    dq/dTheta before impact. q_plus, v_plus (n,): state after the impact at Theta'- = 1, legs relabelled.
+    D, J_m, J_2, foot: inertia matrix, Jacobians of m p_com and of the swing foot, and its place, at q-.
 
     Constraints are made dimensionless by the leg length, the weight, and sigma_scale = m g l sqrt(l / g).
     """

@@ -2,8 +2,9 @@
 
 From angles over time alone, gravity and a scale of all lengths are the same (q(t) depends on g / L), so the
 candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
-body. For each the factor is solved for that gives the step its duration; then what is left is compared: the
-largest distance of the samples q(t) from the orbit of that robot [rad].
+body. For each candidate the factor k is solved for with which the step lasts as long as the samples do. Then
+the candidates are compared by what k leaves: the largest distance of the samples q(t) from the orbit of that
+robot [rad].
 """
 
 from __future__ import annotations
@@ -30,13 +31,15 @@ EXPLAINS = 5e-3
 _WIDE = math.log(10.0)
 """Largest logarithm of a factor that is tried."""
 CLEARLY = 3.0
-"""Ratio of distances from which one cause is better than another."""
+"""A cause is named beside the best one if its distance is at most so many times as large."""
 
 
 def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float) -> str:
-    """Name the changes that explain samples whose poses fit the robot, as the end of a sentence.
+    """Name the changes of the robot, one of which explains samples that its dynamics do not give, as the end of
+    a sentence.
 
-    Raises InputError and GaitError where the poses do not fit.
+    layout: convention of the samples. degree, slope [rad]: of the curves, and of the ground. Raises InputError
+    and GaitError where already the poses do not fit the robot.
     """
     s = poses(samples, biped, layout, degree, slope)[0]
 

@@ -4,7 +4,7 @@
     gait(3).states.x       an entry of one struct of an array, {} of a cell
     p(2), a(2,1), x(1:5,:) elements, counted from 1 and down the columns as in MATLAB
 
-The reader drops dimensions of length 1 and a name may state them: gait(1).x is also the x of a single struct,
+`read_mat` drops dimensions of length 1, but a name may state them: gait(1).x is also the x of a single struct,
 and p(1,2) the second number of a row.
 
 FROST (ayonga/frost-dev) hands out a step as `exportSolution` makes it, and users save it as an array of structs
@@ -14,8 +14,9 @@ or as cells, at any depth of a file:
     gait(1).states.x, .dx   q', v' (n + 2, K), the base's position first [m, rad]
     gait(1).params.a..., p  Bezier coefficients, column below column [rad], and their phase at end and start
 
-An impact has no course over time, so it is no step. The parameters may run over any phase, so that the states
-are the gait; with `names`, parameters over the phase of convention `frost` are one too.
+An impact in such a file has no course over time, so it is not counted as a step. FROST's parameters may run
+over a phase that the file does not state, so the gait is taken from the states; only with `names` are the
+parameters taken, as curves over the phase of convention `frost`.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from scipy.io.matlab import mat_struct
 
 
 def all_entries(x: Any, name: str = "") -> dict[str, Any]:
-    """All entries of a file by name, structs with what they hold."""
+    """All entries of a file by name: a struct under its own name, and each thing in it as "struct.name"."""
     if isinstance(x, mat_struct):
         x = {key: getattr(x, key) for key in x._fieldnames}
     result = {name: x} if name else {}
@@ -60,7 +61,7 @@ def entry(found: Mapping[str, Any], name: str) -> Any:
 
 
 def _place(first: str, last: str | None = None) -> int | slice:
-    """The place that MATLAB calls 3, or the places 2:5 or ":"."""
+    """Index from 0, or slice, for what MATLAB writes as 3, as 2:5 or as ":"."""
     if last is None:
         return int(first) - 1
     return slice(int(first) - 1 if first else None, int(last) if last else None)

@@ -6,7 +6,7 @@ end of the step, relabelled, is the start of the next one. Degrees, a sign, an o
 convention: all violate it, so each such mistake is detected. Where the same numbers would be a gait in another
 convention, the error names it. `check_slopes` checks hybrid invariance besides.
 
-On disk there are records of gaits, JSON or MATLAB files with a `units` struct, and runs as MATLAB files.
+On disk a gait is a record, a JSON or MATLAB file with a `units` struct; a walk ("run") is a MATLAB file.
 
 The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
 record in this paper's convention.
@@ -67,7 +67,7 @@ from biped_adrc.model.biped import Biped
 def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[str, str]) -> None:
     """Write numbers, arrays and text under their names as a .mat file; arrays (K,) become columns (K, 1).
 
-    units: of each array, "1" where it has none. Raises OutputError.
+    units: unit of each array by its name, "1" where it is dimensionless. Raises OutputError.
     """
     buffer = io.BytesIO()
     savemat(buffer, {**entries, "units": dict(units)}, oned_as="column")
@@ -75,7 +75,8 @@ def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[st
 
 
 def read_mat(path: Path | str) -> dict[str, Any]:
-    """Read the variables of a .mat file; arrays without their dimensions of length 1, structs as dicts.
+    """Read the variables of a .mat file by name; arrays lose their dimensions of length 1, structs become
+    dicts.
 
     Raises InputError for a file that is missing, damaged, or of version 7.3 (HDF5),
     which MATLAB writes with -v7.3.
@@ -131,13 +132,13 @@ def read_record(
     names: Mapping[str, str] | None = None,
     usual: str | None = None,
 ) -> tuple[GaitFile | Samples, str, str]:
-    """Read the record in a .json or .mat file, or the samples of a step where it has t
-    and q and no coefficients, or is a result of FROST; its convention; and where it stood.
+    """Read a gait file; returns (record or samples, name of the convention, name of the source for messages).
 
-    convention: where the file does not state its own; usual: where neither does. names: the file's names of
-    its entries where they differ from ours, such as {"coefficients": "alpha"}, as `entries` reads them;
-    "step" is one of FROST's. A stored gait is in the robot's own coordinates. A .csv has samples. Raises
-    InputError and GaitError that name the file.
+    Samples come from a .csv, from a result of FROST, and from a file that has t and q and no coefficients.
+    convention: for a file that does not state its own; usual: if neither does. A stored gait is in the robot's
+    own coordinates. names: the file's names of its entries where they differ from ours, such as
+    {"coefficients": "alpha"}, as `entries` reads them; "step" names one of FROST's steps. Raises InputError and
+    GaitError that name the file.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -227,7 +228,7 @@ def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -
 
 
 RATES = 1e-2
-"""Largest difference of the stored rates before impact and those of the curve [rad/s]."""
+"""Largest difference between the rates before impact that a record states and those of its curve [rad/s]."""
 
 
 def import_gait(
@@ -270,6 +271,9 @@ def import_gait(
     own = gait.convention if isinstance(gait, GaitFile) else convention or OWN
 
     def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
+        """The gait, read in this convention for this robot; slopes: whether those at the ends are
+        checked too.
+        """
         if isinstance(gait, Samples):
             layout = layout_of(convention, robot)
             return gait_of_samples(gait, robot, layout, degree, slope, title, source)
@@ -290,13 +294,15 @@ def import_gait(
     except GaitError as error:
         d, hint = biped.description, ""
         presets = [x for x in d.presets if closes(own, _with_preset(biped, x), slopes)]
-        right = closes(own, biped, False)  # and the masses differ
+        # the poses fit in this convention, so only the masses differ
+        right = closes(own, biped, False)
         layouts = [x for x in CONVENTIONS if not right and closes(x, biped, False)]
         for word, others in (("preset", presets), ("convention", layouts)):
             if others:
                 hint = f'; it would close in {others}, try {word}="{others[0]}"'
         if isinstance(gait, Samples) and not hint:
-            with suppress(GaitError, InputError):  # of poses that are no step of these legs
+            # poses that are no step of these legs have no such cause
+            with suppress(GaitError, InputError):
                 hint = explained(gait, biped, layout_of(own, biped), degree, slope)
         raise GaitError(f"{error}{hint}") from error
 
@@ -322,7 +328,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     provenance |= remark
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
     names = record.name, robot, preset
-    # of |Theta'| = 1 rad/s: what the curve alone says of the state before impact
+    # the curve alone gives the state before impact up to its speed: |Theta'| = 1 rad/s, and a period of 1 s
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
         to_paper = layout.to_paper
@@ -370,9 +376,9 @@ def export_gait(
     """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention,
     for `import_gait` or MATLAB.
 
-    gait: the one to write. path: of the file, .json or .mat. convention: of its angles, by name. biped: its
-    robot, needed where that is not one of the package. Raises InputError for another suffix, convention or
-    robot, and OutputError where the file cannot be written.
+    gait: the gait to write. path: of the file, .json or .mat. convention: name of the convention of the angles
+    in the file. biped: the gait's robot, needed if that is not one of the package. Raises InputError for
+    another suffix, convention or robot, and OutputError where the file cannot be written.
 
     >>> ba.export_gait(gait, folder / "gait.mat", "frost")
     >>> ba.import_gait(folder / "gait.mat", biped).name

@@ -137,9 +137,11 @@ class Coordinates(NamedTuple):
 
 
 def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, str]]:
-    """The least change of q- (n,) [rad] that puts a swing foot onto the ground, and a remark.
+    """The least change of q- (n,) [rad] that puts the swing foot onto the ground, and a remark for the
+    provenance.
 
-    Zero, without a remark, within CLOSES of the ground and beyond NEAR.
+    The change is zero, without a remark, for a foot that is nearer to the ground than CLOSES, which counts as
+    on it, or further away than NEAR, which is no error of digits. slope [rad]: of the ground.
     """
     height = float(ground_axes(slope)[1] @ biped.swing_foot(q))
     if not CLOSES < abs(height) <= NEAR:
@@ -151,8 +153,11 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
 def onto_ground(
     along: Coordinates, biped: Biped, slope: float
 ) -> tuple[Coordinates, dict[str, str]]:
-    """Bezier curves of a step that ends with the foot on the ground, dq/dTheta there as before; that at the
-    start changes as the one after the impact does. Other curves stay as they are.
+    """Move the end of a step, and so its start after relabelling, until the swing foot is on the ground;
+    returns the curves and a remark.
+
+    dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
+    hybrid-invariant gait stays one. Only Bezier curves are moved.
     """
     q, d, _ = along.curve(1.0)
     dq, remark = foot_down(biped, q, slope)
@@ -197,8 +202,10 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
 
 
 def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
-    """Curves (n, M + 1) of all coordinates of a convention; c (n,): row of the phase. Raises
-    GaitError if they do not fit.
+    """The curve of all n coordinates of a record's convention, with coefficients (n, M + 1) [rad].
+
+    c (n,): row of the phase, which gives the coordinate that the outputs leave open. Raises GaitError for
+    entries whose shapes do not fit each other.
     """
     n, outputs, a = layout.n, record.outputs, record.coefficients
     if outputs is None and len(a) == 1 and a.size % len(layout.outputs) == 0:

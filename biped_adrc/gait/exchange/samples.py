@@ -40,6 +40,7 @@ FITS = 5e-3
 LASTS = 0.05
 """Largest relative difference of the duration of the samples and the period of the zero dynamics."""
 DEGREES = range(4, 13)
+"""Degrees of the curves that can be fitted."""
 
 
 class Samples(NamedTuple):
@@ -62,10 +63,12 @@ def gait_of_samples(
     name: str = "samples",
     source: str = "arrays",
 ) -> Gait:
-    """Fit a gait with curves of this degree to samples, which are in the coordinates of `layout`.
+    """Fit a gait with curves of this degree to samples, which are in the coordinates of the convention
+    `layout`.
 
-    slope [rad]: of the ground. Raises InputError for arrays that are no samples of a step, and GaitError where
-    the fit is bad, or where impact or zero dynamics of this robot do not fit the samples.
+    slope [rad]: of the ground. name, source: of the gait, and what its provenance says of the samples. Raises
+    InputError for arrays that are no samples of a step, and GaitError where the fit is bad, or where impact or
+    zero dynamics of this robot do not fit the samples.
     """
     s, remarks = poses(samples, biped, layout, degree, slope)
     fitted = fit(s, biped, degree)
@@ -98,9 +101,11 @@ def gait_of_samples(
 def poses(
     samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float
 ) -> tuple[Samples, dict[str, str]]:
-    """The samples in the robot's coordinates with the foot on the ground, and remarks on what that changed.
+    """The samples in the robot's coordinates with the foot on the ground at the end, and remarks on what was
+    changed.
 
-    Raises InputError and GaitError for what is no step of these legs, whatever their masses.
+    degree, slope [rad]: of the curves, and of the ground. Raises InputError and GaitError for samples that are
+    no step of legs of these lengths, whatever their masses.
     """
     s, remarks = _in_robot(_checked(samples, layout.n, degree), layout, biped)
     if layout.n + 2 in np.shape(samples.q):
@@ -150,10 +155,10 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
 
 
 def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, dict[str, str]]:
-    """The samples in the robot's coordinates, with whole turns as in the gaits of the package.
+    """The samples in the robot's coordinates, with whole turns as in the gaits of the package, and remarks.
 
-    Legs that are called by side are exchanged where the left one stands. Raises GaitError where Theta turns
-    back.
+    In a convention that names legs by side ("frost") the legs are exchanged if the left one stands, which is
+    seen from the sense of Theta. Raises GaitError where Theta turns back.
     """
     q, v = layout.to_paper.angles(s.q), None if s.v is None else layout.to_paper.rates(s.v)
     if layout.name != OWN:
@@ -174,8 +179,8 @@ def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, di
 
 
 def fit(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
-    """The constraint whose curve has the ends and end slopes of the step, fitted to the
-    samples between by least squares.
+    """The constraint whose curve has the ends and end slopes of the step, and the inner coefficients that fit
+    the samples (and their rates, where they have some) by least squares.
     """
     c, p = biped.phase, biped.p
     minus = s.q[-1]

@@ -143,9 +143,11 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
 def _on_point(
     body: PlanarBase, foot: str, leg: list[tuple[Joint, str]], actuated: tuple[str, ...]
 ) -> PlanarBase:
-    """The robot with a foot that lies away from the last joint of its leg.
+    """The robot, after a check that its foot lies away from the last joint of the leg; if it does not, that
+    joint, an ankle, is welded, unless it is one of `actuated`.
 
-    leg: the way from the foot to the other one. Raises ModelError with a hint how to add a tip.
+    leg: joints and links on the way from this foot to the other one. Raises ModelError with a hint how to add a
+    tip.
     """
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:

@@ -107,7 +107,7 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
 PRESET = "urdf"
 """Name of the preset that holds the masses of the URDF."""
 FRICTION = 0.6
-"""Dry friction mu of the feet where none is given: RABBIT's, dimensionless."""
+"""Dry friction mu of the feet [1] if the user states none: that of RABBIT."""
 
 _SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
 """The part of a link's name that says left or right."""
@@ -115,7 +115,7 @@ _SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Hints:
-    """Properties that a URDF does not contain; None is guessed where there is one answer."""
+    """Properties that a URDF does not contain. What is None is guessed, if the file leaves only one answer."""
 
     feet: tuple[str, ...] | None = None
     """Links of the stance and the swing foot."""
@@ -141,7 +141,8 @@ def _record_of(
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
-    file: name of the URDF. hints: with the motors and their torque limit. rotors: their inertia.
+    file: name of the URDF. hints: with motors and torque limit filled in. rotors: inertia of the motors'
+    rotors, reflected to their joints [kg m^2].
     """
     moving, actuated = [joint.name for joint in parts.moving], hints.actuated or ()
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient

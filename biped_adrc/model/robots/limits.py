@@ -1,13 +1,18 @@
 """Limits of ground, motors and joints within which a walk is feasible.
 
-A single support is feasible when the force of the ground, averaged over any window within it, lies in the
-friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, every joint with a motor
-within the rate and the range that its URDF states, the swing foot does not scuff away from the ends of the
-step, and the impulse of its impact lies in the cone too. A mean and not an
-instant is used: the edge of a push leaves the cone for a millisecond and a foot does not move in it, while
-torques that chatter leave it in the mean as well. On soft ground a foot that slips by more than SLIP in a
-single support takes the place of the cone. `analysis.certificate` applies the limits; those left open come
-from the robot's record. A rate or a range that the URDF does not state is not judged.
+A single support is feasible if
+
+- the force of the ground, as a mean over the time `window` (5 ms), lies in the friction cone (F_N > 0 and
+  |F_T| <= mu F_N), wherever in the single support this window lies;
+- every torque is within the motors' limit, and every joint with a motor within the rate and the range that its
+  URDF states; a rate or a range that it does not state is not judged;
+- the swing foot does not scuff, but near the ends of the walking step (`ENDS`);
+- the impulse of the impact lies in the friction cone too.
+
+The mean and not the force at an instant is judged: when a push switches, the force leaves the cone for a
+millisecond, in which a foot does not move, while torques that chatter leave it in the mean as well. On soft
+ground, in place of the cone, no foot may slip by more than `SLIP` in a single support. `analysis.certificate`
+applies the limits; those that are left open come from the robot's record.
 """
 
 from __future__ import annotations
@@ -25,10 +30,11 @@ SLIP = 5e-3
 """Largest distance that a foot may slip on soft ground in a single support [m]."""
 
 ROUND_OFF = 1e-9
-"""Relative amount by which a force may lie outside the friction cone and still count as inside."""
+"""Share of a force [1] by which it may lie outside the friction cone and still count as inside."""
 
 ENDS = 0.03
-"""Share of a step at either end in which the swing foot may touch the ground, dimensionless."""
+"""Share [1] of the time of a walking step, at either end of it, in which the swing foot may touch the ground.
+"""
 ConeFloat = Annotated[float, Range("a number above 0 and at most 1", lambda x: 0.0 < x <= 1.0)]
 
 

@@ -141,7 +141,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Tree(Shown):
-    """A robot as read from URDF."""
+    """A robot as links and joints, as read from a URDF."""
 
     name: str
     """Name of the robot."""
@@ -304,8 +304,8 @@ def bodies_between(tree: Tree, feet: tuple[str, str]) -> list[list[str]]:
 
 
 def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
-    """Each link's twin in the other leg, paired from both feet to the middle of the way between them;
-    links not in the result are their own twins.
+    """Name of a link -> its twin in the other leg, paired from both feet to the middle of the way between them;
+    a link that is not in the result is its own twin.
     """
     bodies, paired = bodies_between(tree, feet), dict[str, str]()
     for near, far in zip(bodies[: len(bodies) // 2], reversed(bodies), strict=False):

@@ -73,7 +73,7 @@ class Contents:
     turns: Mapping[str, Array]
     """Rotation (3, 3) by link, from the axes that it has in the file to those of the world."""
     notes: tuple[Note, ...]
-    """What was assumed and left out."""
+    """Sentences on what the reader assumed and left out."""
 
 
 def parse(path: Path) -> ET.Element:
@@ -198,7 +198,8 @@ def _numbers(
     where: str,
     least: float = -_LARGEST,
 ) -> Triple:
-    """`count` numbers of an attribute, none below `least`; `default` where it is missing.
+    """`count` numbers of the attribute `key`, none below `least`; those of the text `default` where it is
+    missing.
 
     Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
     would also read "nan", "inf" and "1_0".
@@ -263,9 +264,10 @@ def _turns(
 def _yaw(
     joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array]
 ) -> float:
-    """Angle [rad] about z that turns the axis of the first joint to y or -y; 0 where it is not horizontal.
+    """Angle [rad] about z that turns the axis of the first joint that turns to y or -y; 0 if the axis is not
+    horizontal.
 
-    From -pi/2, which makes a robot that walks along y walk along x, to below pi/2.
+    It is in [-pi/2, pi/2); -pi/2 makes a robot that walks along y walk along x.
     """
     for joint, pair in zip(joints, ends, strict=True):
         if joint.get("type") in _CIRCULAR:
@@ -312,7 +314,7 @@ def _link(element: ET.Element, turns: Mapping[str, Array], moved: set[str]) -> L
 
 
 def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
-    """Mass properties of an element, in axes turned by R.
+    """Mass properties of an element <inertial>, in axes turned by R (3, 3).
 
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion. Without <inertia> it is a point.
@@ -329,7 +331,9 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
 
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
-    """The shape of an element in axes turned by R; None where it is no upright primitive then."""
+    """The shape of an element <visual> in axes turned by R (3, 3); None if it is no primitive, or is oblique
+    there.
+    """
     shape = next((g for g in element.iterfind("geometry/*") if g.tag in urdf.GEOMETRY_SIZES), None)
     if shape is None:
         return None

@@ -108,8 +108,8 @@ class DrawnWalk:
     """The artists of one walk: links as thick lines in the colours of their roles, paths, footprints and loads.
 
     The ground reaction is an arrow at the stance foot, an external torque a ring around its joint. On soft
-    ground the other foot has an arrow too while both carry, and "slips" is written where one slips. opacity: 0
-    to 1. order: number of the layer.
+    ground the other foot has an arrow too while both carry, and "slips" is written while a foot slips. opacity:
+    0 to 1. order: number of the walk's layer; a higher one is in front.
     """
 
     def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:

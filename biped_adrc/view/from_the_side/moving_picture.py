@@ -41,7 +41,7 @@ WIDTH, SHOWN = 600, 2.6
 WIDE, PANEL = 800, 1.5
 """Width of the picture of walks side by side [px], and what the panel of one walk shows [m]."""
 _FPS = 0.1, 50.0
-"""Range of frames per second, as a GIF counts time in hundredths of a second."""
+"""Least and largest number of frames per second [1/s]; a GIF counts time in hundredths of a second."""
 REST = 2.0
 """Extra time [s] for which the last frame is shown where a walk ended early, to read the reason."""
 MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, "black", "white")

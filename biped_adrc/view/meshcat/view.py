@@ -4,9 +4,10 @@
 writes all of it as JSON into the page (`pages.player`); player.js plays it. One walk is solid and followed by
 the camera, the others are ghosts: translucent, each a little farther from the camera.
 
-The player draws a walk at any time by cubic Hermite interpolation between nodes. Nodes are the frames, both
-ends of every single support, the edges of pushes, and on soft ground the times at which the other foot touches
-or leaves it, or a foot begins or ends to slip. Between two nodes of a walk this leaves 1e-5 rad.
+The player draws a walk at any time by cubic Hermite interpolation between nodes. Nodes are the times of the
+frames, both ends of every single support, the switching times of pushes, and on soft ground the times at which
+the other foot touches or leaves it, or a foot begins or ends to slip. Between the nodes of a walk the error of
+the drawn angles is 1e-5 rad at most.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ LANE = 0.4
 _FPS = 60.0
 """Frames per second of a page."""
 TRACE_POINTS = 20_000
-"""Points of the traces of a walk that is not sampled beforehand."""
+"""Room for points of the traces of a walk that is not sampled beforehand, but runs in the page."""
 TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT."""
 Marks = Sequence[tuple[float, float, str]]

@@ -1,8 +1,9 @@
 """Whole figures made of the plots in `biped_adrc.view.plots`: data in, Figure out, in this package's style.
 
 `Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the time
-around it, and most of them the milliseconds after either edge, in which a fast observer acts. In figures that
-compare controllers the i-th one has the i-th colour and mark in all panels.
+around it, and most of them the milliseconds after each of its edges, the times at which it begins and ends, in
+which a fast observer acts. In figures that compare controllers the i-th one has the i-th colour and mark in all
+panels.
 """
 
 from __future__ import annotations
@@ -41,8 +42,7 @@ Panel = Callable[[Axes], object]
 def tracking_figure(
     signals: Signals, title: str, push: Window | None = None, torque_limit: float | None = None
 ) -> Figure:
-    """Draw the paper's figures 4 and 5: references and joint angles [rad], torques [N
-    m], and the tracking error.
+    """Draw the paper's figures 4 and 5: references and angles [rad], torques [N m], and the tracking error.
 
     signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
     time around it, shaded, and the milliseconds after either edge, but for angles, as these do not move within
@@ -106,8 +106,9 @@ def _around_and_edges(
 ) -> list[list[Axes]]:
     """Draw each of `draws` in a row of three columns: around the push, where it begins, and where it ends.
 
-    The edges have their time in [ms] from it; the label of their values is at the left end of the row. Without
-    a push there is one column, with the whole walk. rows: of the grid `spec`. Returns the axes by column.
+    The columns of the edges of the push have their time axis in [ms] from the edge; the label of their values
+    is at the left end of the row. Without a push there is one column, with the whole walk. rows: numbers of the
+    rows of the grid `spec`. Returns the axes by column.
     """
     places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
     around, *edges = (

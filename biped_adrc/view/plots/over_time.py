@@ -115,7 +115,8 @@ def joint_tracking(
         name, y = joint_name(s, i), with_gaps(s, s.q[:, i])
         axes.plot(t, y, color=PALETTE[i], ls=DASHES[i % 2], lw=2.2, label=name)
     for i in joints:
-        on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])  # not behind a fall
+        # after a fall the error is NaN, and the reference is not drawn
+        on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])
         name, y = "references" if i == joints[0] else "_", with_gaps(s, on_curve)
         axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
     return finished(axes, "angle [rad]", push)
@@ -273,8 +274,8 @@ FLOOR = 1e-13
 def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
     """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
 
-    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break
-    at impacts. Returns the axes.
+    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break at impacts. Errors
+    below FLOOR are drawn there, as a logarithmic scale has no 0. Returns the axes.
     """
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)

@@ -2,9 +2,9 @@
 
 On the zero dynamics the angular momentum sigma about the stance foot obeys a scalar system. Single
 support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves of that sum.
-zeta = sigma^2 / 2 at the end of a step is mapped by impact and step to rho(zeta) = delta^2 zeta -
-V_zero at the end: a straight line, whose fixed point zeta* is the gait; every step is a pair of
-corners between it and the diagonal.
+zeta = sigma^2 / 2 at the end of a walking step is mapped by the impact and the next step to rho(zeta) =
+delta^2 zeta - V_zero(Theta-): a straight line, whose fixed point zeta* is the gait. In its plot every walking
+step is a pair of corners between this line and the diagonal.
 
 `biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
 The domain is the range of zeta from which walks come back to the orbit and keep the limits.
@@ -27,7 +27,7 @@ from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
 
 WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
 STAIRS = 8
-"""Steps drawn from either end of the domain."""
+"""Number of walking steps drawn from either end of the domain."""
 DOMAIN = "#DDEBF4"
 """Light blue, the colour of the domain."""
 
@@ -126,7 +126,10 @@ def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
 
 
 def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
-    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round."""
+    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round.
+
+    The levels are V_max and others, whose distance from it is a share of that of the periodic orbit.
+    """
     o = report.orbits
     theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
     above = o.delta**2 * report.zeta_star - o.v_max
