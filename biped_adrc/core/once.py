@@ -88,9 +88,7 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
 
 
 def shared(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields; equal calls return one object, so that what `once` keeps in it is used
-    again.
-    """
+    """A copy of a part with other fields; equal calls return one object, so that what `once` keeps is there."""
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
     # kept with the fields: while they live nothing else has their identities
