@@ -137,7 +137,8 @@ def test_a_motor_with_lag_keeps_its_torque_on_the_legs_over_an_impact(compass, d
 
 
 def test_the_exported_controller_walks_over_impacts(compass, designed):
-    """And the torque that it holds where nothing is measured stays the same on the legs."""
+    """The C code walks as Python does. A touchdown exchanges the legs, so the one torque changes its sign;
+    where nothing is measured (NaN) it is held. x_plus[-4:] are the numbers of delay and motors."""
     late = {"timing": LATE, "motors": ba.Motors(rate_limit=2e4)}
     around = walker(compass, adrc(designed.gait.constraint), **late)
     by_c = ExportedController(source_of(Computer(around)))

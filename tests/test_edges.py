@@ -182,7 +182,9 @@ def test_a_gait_of_another_preset_and_a_push_after_the_walk_are_named(biped, gai
 
 
 def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
-    late = pulse(5, 0.1, 0.3) + pulse(7, 0.1, 0.3)
+    late = pulse(5, 0.1, 0.3) + pulse(
+        7, 0.1, 0.3
+    )  # in single supports that a walk of one impact never reaches
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), late)
     with pytest.warns(ba.WalkWarning) as caught:
         walk = ba.walk(walker, gait, 1)

@@ -92,8 +92,9 @@ def scenario_from(
     push: list[str] | None = None,
     usual: str = "ADRC",
 ) -> Scenario:
-    """The scenario of a file, options, pushes and --set, which go before the file.
+    """The scenario of a file, with the values of options, pushes and --set in place of the file's.
 
+    A value of a class of the user's has no declared type: its text is read as TOML.
     usual: the controller where none of them names one; a robot without motors has "passive". Raises InputError
     for a text or a file that cannot be read, and for a value that is given twice.
     """

@@ -1,4 +1,8 @@
-"""All numbers of a walker by name, as machine code reads them from the vector K (`engine.leaves.floats`)."""
+"""The numbers of a walker that machine code gets at run time, such as masses, gains and limits, by name.
+
+`engine.leaves.floats` writes them in this order into the vector K, an argument of every compiled function. Open
+this module to give machine code another number.
+"""
 
 from __future__ import annotations
 

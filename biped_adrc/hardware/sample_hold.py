@@ -4,8 +4,8 @@
 
 own are the numbers of a plant that integrates itself, belief the single support that the controller assumes,
 sensors the state w of the sensors, and line the torques on their way to the motors (`hardware.motors`). A part
-is empty, or None, where the walker has none. Between ticks only the torque of lagging motors changes, and u
-where a delay ends within the period.
+is empty, or None, where the walker has none. Between ticks `line` changes alone: the torque of lagging motors,
+and the torque that is asked for, u, where a delay ends within the period.
 
 `HeldParts` initialises the tail; `closed_loop.semantics` moves it at a tick and an impact, where the controller
 acts.

@@ -40,7 +40,7 @@ def save(
     settings: Mapping[str, object] | None = None,
     beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
-    """Write `path` (.npz), which is put behind a name without a kind, such as 'push_0.1'; returns the path.
+    """Write a run to `path`, and return the path; a name without .npz at its end, such as 'push_0.1', gets it.
 
     Modes are stored as tuples of numbers.
 

@@ -325,7 +325,7 @@ class Runs:
         return npd, adrc
 
     def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
-        """Pairs of `BOTH` whose names begin with one of these words."""
+        """The pairs (NPD, ADRC) of the walks in `BOTH` whose names begin with one of these words."""
         return {name: self.pair(name) for name in BOTH if name.startswith(words)}
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:

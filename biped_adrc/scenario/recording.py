@@ -232,7 +232,9 @@ class Walk(Shown):
         """Judge the walk as `feasibility` does, within other limits; the unfinished last step counts too."""
         run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
         impacts, after = self.impacts, after_last_impact(self.walker, run)
-        if self.soft:
+        if (
+            self.soft
+        ):  # a plant that does not say what its feet did has no soft steps, and no slip is known
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
         return Feasibility(run.status, judged, impacts)

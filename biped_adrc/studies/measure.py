@@ -115,6 +115,8 @@ class Measure(Section):
         numbers: Array = np.array([self.number(row) for row in rows])
         if self.over in ("mean", "median"):
             return float(getattr(np, self.over)(numbers))
+        # `over` is a quantile, such as "0.9"; `sign` is 1 where less is better, so that 1.0 is the worst walk.
+        # inverted_cdf does not interpolate: between infinite numbers, of falls, that would be NaN
         p = 1.0 if self.over == "worst" else float(self.over)
         return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
 

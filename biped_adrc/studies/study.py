@@ -49,8 +49,9 @@ _LONGEST = 100
 def walk_names(**names: object) -> dict[str, Any]:
     """The names that say to what a walk belongs, without those that are empty.
 
-    case, condition; in a search also set ("search", "choice", "test"), candidate (its number), and on the test
-    set setting: "chosen" (what the search chose) or "before" (the case as it was).
+    All walks have `case` and `condition`. Those of a search also have `set`, which is "search", "choice" or
+    "test", and `candidate`, a number; in the set "test" they have `setting`, which is "chosen" for what the
+    search chose, or "before" for the case as it was.
     """
     return {name: x for name, x in names.items() if x != ""}
 

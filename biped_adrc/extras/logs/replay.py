@@ -6,8 +6,9 @@ figure. Numbers such as (7) are equations of the paper.
     found.rows        their extremes in each single support
     found.plot()      the same as a figure
 
-Of the scenario robot, gait, controller, observer, period and torque limit matter here, and filter_time;
-pushes, errors of the model and ground are ignored, as the log was measured on the real robot.
+Of the scenario these values are used: robot, gait, controller, observer, period, torque limit, filter_time.
+Pushes, errors of the model and ground are ignored, as the log was measured on the real robot. xi^ is the
+estimate of the total disturbance xi = q_b'' - kappa u, and kappa the input matrix of the nominal model.
 
 At row k, with measurement m_k, in the order of `closed_loop.semantics.tick`; the log's torque u_k [N m] acts in
 place of the controller's own:

@@ -1,10 +1,10 @@
-"""The walks of a page, compiled with the forces of a hand, as the numbers that machine.js beside it reads.
+"""The walks of the page on which a user pushes the robot by hand, as numbers that machine.js beside it reads.
 
 The hand is two terms of the disturbance, a torque on the coordinates and a force on a link. The page writes
 their numbers into the block of the run (`engine.kernels.record`) before each sample.
 
-The closed form of a point of a link has numbers that are affine in the place on the link; those at (0, 0) and
-their slopes along x and z are given, for each link that is drawn.
+The force acts on a point of a link. The formula of the point's position has coefficients that are affine in
+the place on the link; for each link that is drawn, those at (0, 0) and their slopes along x and z are here.
 """
 
 from __future__ import annotations

@@ -2,13 +2,13 @@
 
 The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints in the
 plane x-z and one revolute joint about y, in this order from the root. A mass in between does not turn, and one
-on the first slide moves in one direction only, which no D_s of a pinned robot has: light ones are left out by
-name, others refused. Slides that the file turns, as on a ramp, are put along x and z, and the zero of the pitch
-turns with them. The stance contact determines its position, so only the pitch remains as a coordinate. A
-robot without a base floats on its root link; the base put there turns in the sense of its other joints, as the
-one in place of a `floating` joint or of a `planar` joint does, which has a sense of its own. A robot that
-the file pins to the ground by a revolute joint gets slides below the pin. Places along y do not enter planar
-motion, and stay as they are.
+on the first slide moves in one direction only, which no D_s of a pinned robot has: light ones are left out, and
+a note names them, others are refused. Slides that the file turns, as on a ramp, are put along x and z, and the
+zero of the pitch turns with them. The stance contact determines its position, so only the pitch remains as a
+coordinate. A robot without a base floats on its root link, and gets a base there; it turns in the sense of the
+robot's other joints. So does the base in place of a `floating` or a `planar` joint, whatever the axis of that
+joint. A robot that the file pins to the ground by a revolute joint gets slides below the pin. Places along y do
+not enter planar motion, and stay as they are.
 `import_robot.derive` calls `on_planar_base` first.
 """
 

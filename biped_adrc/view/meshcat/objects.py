@@ -245,10 +245,10 @@ class MemoryWindow:
         self._source = random.Random(seed)
 
     def send(self, command: Any) -> None:
-        """Store a command of Meshcat, packed as its viewer expects it.
+        """Store a command of Meshcat, packed as its viewer expects it; `lower` makes the command a dictionary.
 
         Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the order of
-        their first use, so that the same walk gives the same bytes on any machine at any time.
+        their first use, of the same length, so that the same walk gives the same bytes on any machine.
         """
         packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
         self.packed.append(base64.b64encode(packed).decode("ascii"))

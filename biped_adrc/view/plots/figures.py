@@ -143,6 +143,7 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
     for axes in column:
         axes.set_xlim(low, high)
         shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
+        # lines of two points are marks, such as that of an impact, and no data
         values = [y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2]
         values = [y[np.isfinite(y)] for y in values]
         ends = np.array([(y.min(), y.max()) for y in values if len(y)])
