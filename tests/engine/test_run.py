@@ -288,11 +288,12 @@ def test_a_method_that_does_not_fit_is_refused(biped, gait):
         simulate_by("c", walker, x0, Mode(), ba.RK4(), t_end=1.0)
 
 
-def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(biped, gait, monkeypatch):
+def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(gait, monkeypatch):
     def refuse(biped):
         raise ModelError("no planar tree")
 
     monkeypatch.setattr(numbers, "robot_of", refuse)
+    biped = ba.Biped.load("rabbit")  # another object: nothing of it is remembered
     walker = ba.Walker(biped, npd(gait))
     x0 = walker.initial_state(*gait.start(biped))
     run = simulate_by("compiled", walker, x0, Mode(), ba.RK4(2e-3), t_end=0.05)
