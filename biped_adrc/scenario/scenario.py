@@ -223,7 +223,7 @@ class RunRecord(Record):
     fine: float | None = field(None, "s", ge=1e-6, le=0.1)
     """The step is this where a push switches and in the single support after."""
     tolerance: float = field(1e-9, "1", gt=0, le=1)
-    """The method adaptive keeps this tolerance."""
+    """The method adaptive has this tolerance."""
     engine: Literal["compiled", "pinocchio"] = field("compiled")
     """The engine is compiled, where it can run, or pinocchio, which it is checked against."""
     max_step_time: float = field(2.0, "s", gt=0, le=100)
