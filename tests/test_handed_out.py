@@ -13,7 +13,6 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hybrid.integrators import Stiff
 from biped_adrc.observers.base import Estimate
 
 ENGINES = ("pinocchio", "compiled")
@@ -364,6 +363,6 @@ def test_a_method_that_gives_something_else_is_refused_by_its_name(
         parts = {"controller": npd, what: spoilt(usual, method, bad)}
     ticks = what == "sensors" or method in ("correct", "predict")
     parts["timing"] = TIMINGS["ticks" if ticks else "continuous"]
-    mode = {"jump": Stiff(1e-2), "flow": None}.get(method, ba.RK4(1e-3))
+    mode = {"jump": ba.Adaptive(1e-2), "flow": None}.get(method, ba.RK4(1e-3))
     sentence = said(ba.Walker(biped, **parts), gait, engine=engine, method=mode)
     assert re.search(rf"Spoilt\)?\.{method} .*returned .*expected", sentence)

@@ -88,19 +88,14 @@ def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> t
     run: with the readings of the feet at its nodes. friction: mu of the ground [1]. axes: two unit vectors
     (2,), along the ground and out of it. A time is that of the first node beyond SLIP.
     """
-    return tuple(_slip_time(arc, friction, axes) for arc in run.arcs)
-
-
-def _slip_time(arc: Arc, friction: float, axes: tuple[Array, Array]) -> float:
-    """Time [s] at which a foot has slipped by more than SLIP in one single support; infinite for never.
-
-    friction: mu of the ground [1]. axes: unit vectors (2,) along the ground and out of it.
-    """
-    force, _, speed = feet_of(arc)
-    slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
-    slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
-    beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
-    return float(arc.t[beyond[0]]) if len(beyond) else math.inf
+    times = list[float]()
+    for arc in run.arcs:
+        force, _, speed = feet_of(arc)
+        slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
+        slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
+        beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
+        times.append(float(arc.t[beyond[0]]) if len(beyond) else math.inf)
+    return tuple(times)
 
 
 def feet_of(arc: Arc) -> list[Array]:
@@ -171,8 +166,8 @@ def contact_errors(x: Signals) -> ContactErrors:
     """Tracking errors of a walk at its nodes, separated into those of touchdowns, of
     pushes, and all settled ones.
     """
-    since = x.t - _starts(x)
-    settling = since <= SETTLING + SAME_INSTANT
+    _, first, support = np.unique(x.step, return_index=True, return_inverse=True)
+    settling = x.t - x.t[first][support] <= SETTLING + SAME_INSTANT
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
     pushed = x.t - acted <= AFTER + SAME_INSTANT
     lasts = np.append(np.diff(x.t) > 0.0, False)
@@ -183,12 +178,6 @@ def contact_errors(x: Signals) -> ContactErrors:
         _largest(x.error[~settling]),
         math.sqrt(float(np.mean(settled**2))) if settled.size else None,
     )
-
-
-def _starts(x: Signals) -> Array:
-    """Time [s] at which the single support of each node began (K,)."""
-    _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
-    return x.t[first][places]
 
 
 def _largest(error: Array) -> float | None:

@@ -45,7 +45,7 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
-from biped_adrc.hybrid.integrators import Adaptive, Stiff
+from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 
@@ -293,7 +293,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
-    if isinstance(method, Adaptive | Stiff):
+    if isinstance(method, Adaptive):
         method = replace(method, max_step=APART)
     stop = FOOT_STRIKE, 1
     run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)

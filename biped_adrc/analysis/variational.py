@@ -126,26 +126,17 @@ class VariationalSystem(HybridSystem):
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """The walker's event functions, applied to x of y."""
-        return tuple(_on_x(guard) for guard in self.walker.guards(mode))
+        """The walker's event functions, which read q alone, the first numbers of x and of y.
 
+        An impact leaves y as it is before it, from where `differentiate_step` takes it, and exchanges the mode.
+        """
 
-def _on_x(guard: Guard) -> Guard:
-    """Make a guard for y = (x, Phi), with Phi (2 n, 2 n) row by row, from a guard of the walker, for x alone.
+        def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
+            after = self.walker.strike(t, split_matrix(y)[0], mode)
+            return None if after is None else (y, after[1])
 
-    Its witness reads x of y. Its reset leaves y as it is before the impact, from where `differentiate_step`
-    takes it, and exchanges only the mode.
-    """
-    reset = guard.reset
-
-    def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
-        after = None if reset is None else reset(t, split_matrix(y)[0])
-        return None if after is None else (y, after[1])
-
-    def witness(t: float, y: Array) -> float:
-        return guard.witness(t, split_matrix(y)[0])
-
-    return replace(guard, witness=witness, reset=None if reset is None else impact)
+        strike, *ends = self.walker.guards(mode)
+        return replace(strike, reset=impact), *ends
 
 
 # -- one step --------------------------------------------------------------------------------------

@@ -108,8 +108,7 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
     """
     terms, body, p = m.terms, body_of(m), len(r.q_d)
     rest = r.drift + r.H[:, p:] @ terms.a_N
-    columns = np.empty((p, p + 1))
-    columns[:, :p], columns[:, p] = identity(p), rest
+    columns = np.column_stack((identity(p), rest))
     solution = solve(output_matrix(r, terms), columns, "L of y'' = L u + xi_y")
     torque = terms.kappa_inverse @ solution
     force = (body.F_a[:, :p] + body.F_a[:, p:] @ terms.A_N) @ solution

@@ -154,26 +154,13 @@ def simulate_compiled(
         at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
         arc = Arc(mode, at[:, 0], x, dx, event)
         if ticks is not None and ticks.error is not None:
-            return _ended_by(ticks.error, arc)
+            return FlownArc(arc, *simulator.status_of(ticks.error, begun=len(arc.t) > 1))
         detail = f"after t = {arc.t[-1]:.6g} s" if status in simulator.FAILURES else ""
         status = Status.COMPLETED if status is Status.TIME_OUT else status
         return FlownArc(arc, status, detail, outcome)
 
     walked = run_arcs(flown, x0, mode, compiled.label, options)
     return replace(walked, settings={**walked.settings, "engine": COMPILED})
-
-
-def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
-    """The arc that ends with the error that Python raised at a sample instant or an impact.
-
-    An error at the first sample instant is a mistake in the user's class, so it is raised here, as is Ctrl-C.
-    """
-    if not isinstance(error, Exception):
-        raise error
-    status, detail = simulator.status_of(error)
-    if status is Status.RAISED and len(arc.t) == 1:
-        raise error
-    return FlownArc(arc, status, detail)
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:

@@ -77,7 +77,7 @@ def no_coordinates() -> InputError:
     """The error of the method for a system without a split."""
     return InputError(
         "the exponential method needs a controller in continuous time whose observer is linear "
-        "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
+        "in its error and measures the true q_b; use RK4 or Adaptive instead"
     )
 
 

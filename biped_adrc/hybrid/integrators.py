@@ -1,9 +1,9 @@
-"""One-step methods of integration: RK4, and two solvers of SciPy's.
+"""One-step methods of integration: RK4, and SciPy's DOP853.
 
-`RK4` has a fixed step [s]. `Adaptive` is SciPy's DOP853, `Stiff` its Radau IIA, both with step control; they
-are `Solver`s, which run in Python and not in the compiled engine. A `Solver` yields its steps between two times
-at which the flow is not smooth, such as sample instants and impacts; `Step.at(t)` gives the state inside a
-step, so that events can be located. `hybrid.march` itself computes the steps of `RK4` and of `exponential`.
+`RK4` has a fixed step [s]. `Adaptive` is SciPy's DOP853, with step control; it is a `Solver`, which runs in
+Python and not in the compiled engine. A `Solver` yields its steps between two times at which the flow is not
+smooth, such as sample instants and impacts; `Step.at(t)` gives the state inside a step, so that events can be
+located. `hybrid.march` itself computes the steps of `RK4` and of `exponential`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from importlib import import_module
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -87,22 +86,26 @@ that chatters they would go on for days."""
 
 
 @dataclass(frozen=True)
-class _SciPy(Checked, Solver):
-    """A SciPy solver, used one step at a time; events are located on its own dense output.
+class Adaptive(Checked, Solver):
+    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853.
 
-    - rtol [1], atol: relative and absolute tolerance of a step.
-    - max_step [s]: longest step, so that the event functions are looked at often enough.
+    rtol [1], atol: bounds on the error of a step, relative to the state and in its units [rad, rad/s].
+    max_step [s]: length of the longest step, so that the event functions are looked at often enough. Events are
+    located on its own dense output.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> method = ba.Adaptive(rtol=1e-8, atol=1e-8)
+    >>> ba.walk(walker, gait, impacts=1, method=method, engine="pinocchio").impacts
+    1
     """
 
     rtol: PositiveFloat = 1e-9
     atol: PositiveFloat = 1e-9
     max_step: PositiveFloat = 0.02
-    solver: ClassVar[str]
-    """Its name in `scipy.integrate`, which is loaded when a step is taken."""
 
     @property
     def label(self) -> str:
-        return f"{type(self).__name__}, rtol = {self.rtol:g}, atol = {self.atol:g}"
+        return f"Adaptive, rtol = {self.rtol:g}, atol = {self.atol:g}"
 
     def steps(self, f: Flow, t: float, x: Array, t_end: float) -> Iterator[Step]:
         """Steps from (t, x), x (nx,), to t_end [s].
@@ -111,70 +114,36 @@ class _SciPy(Checked, Solver):
         solver rejects the step; the error is raised only where the solver gives up. Raises
         StepFailed with the solver's message otherwise.
         """
-        # last: the error of the last trial; lost: that of any trial in this step
-        last: Exception | None = None
-        lost: Exception | None = None
+        from scipy.integrate import DOP853  # it takes long to load
+
+        last: Exception | None = None  # the error of the last trial
 
         def tried(t: float, x: Array) -> Array:
-            nonlocal last, lost
+            nonlocal last
             try:
                 dx, last = f(t, x), None
-                if not np.all(np.isfinite(dx)):
-                    lost = NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
             except _LOST as error:  # a step too long, which is rejected
                 dx, last = np.full_like(x, np.nan), last or error
-                lost = error
             return dx
 
         if not np.all(np.isfinite(f(t, x))):  # SciPy would look for its first step without end
             raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
-        solver = getattr(import_module("scipy.integrate"), self.solver)(
-            tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
-        )
+        solver = DOP853(tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step)
         mark, count = t, 0
         while solver.status == "running":
             count += 1
-            try:
-                message = solver.step()
-            except ValueError:  # of SciPy's linear algebra, which takes no NaN
-                if lost is None and np.all(np.isfinite(getattr(solver, "J", 0.0))):
-                    raise  # a ValueError of the flow itself
-                flat = f"the slope has no finite derivative at t = {solver.t:.6g} s"
-                raise lost or NotFiniteError(flat) from None
+            message = solver.step()
             if solver.status == "failed":
                 if last is not None:
                     raise last
-                raise StepFailed(f"{type(self).__name__} at t = {solver.t:.6g} s: {message}")
+                raise StepFailed(f"Adaptive at t = {solver.t:.6g} s: {message}")
             if count % CROWDED == 0:
                 if solver.t - mark < CROWDED * CROWDED_STEP:
                     raise StepFailed(
-                        f"{type(self).__name__} at t = {solver.t:.6g} s: the last {CROWDED} steps took "
+                        f"Adaptive at t = {solver.t:.6g} s: the last {CROWDED} steps took "
                         f"{solver.t - mark:.1g} s together, since the torque jumps or chatters; take a method "
                         "of fixed step, such as RK4(1e-3), or a greater tolerance"
                     )
                 mark = solver.t
-            lost, x1 = None, solver.y.copy()
+            x1 = solver.y.copy()
             yield Step(solver.t, x1, f(solver.t, x1), solver.dense_output())
-
-
-@dataclass(frozen=True)
-class Adaptive(_SciPy):
-    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853.
-
-    rtol [1], atol: bounds on the error of a step, relative to the state and in its units [rad, rad/s].
-    max_step [s]: length of the longest step.
-
-    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
-    >>> method = ba.Adaptive(rtol=1e-8, atol=1e-8)
-    >>> ba.walk(walker, gait, impacts=1, method=method, engine="pinocchio").impacts
-    1
-    """
-
-    solver = "DOP853"
-
-
-@dataclass(frozen=True)
-class Stiff(_SciPy):
-    """Radau IIA of order 5, implicit, with step control; for the observer of Table I as it stands."""
-
-    solver = "Radau"

@@ -189,14 +189,17 @@ FAILURES: Mapping[Status, type[Exception]] = {
 """The errors that end a run with a status in place of being raised."""
 
 
-def status_of(error: Exception) -> tuple[Status, str]:
+def status_of(error: BaseException, begun: bool = True) -> tuple[Status, str]:
     """The status and the sentence with which a run ends when a controller or another part raises `error`.
 
-    Raises the error again where it did not come from a part.
+    Raises the error again where it did not come from a part, as Ctrl-C, and where the arc has not `begun`: at
+    the first sample instant it is a mistake in the user's class.
     """
     for status, kind in FAILURES.items():
         if isinstance(error, kind):
             return status, str(error)
+    if not (begun and isinstance(error, Exception)):
+        raise error
     detail = str(error) if isinstance(error, InputError) else sentence_of(error)
     if not detail:
         raise error
@@ -237,9 +240,7 @@ def flow_arc(
             x = calendar.due(t, x)
             t, x, result = move(t, x, mode, calendar.next_break(t), record)
     except Exception as error:
-        status, detail = status_of(error)
-        if status is Status.RAISED and not record.t:
-            raise
+        status, detail = status_of(error, begun=bool(record.t))
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if result is None:

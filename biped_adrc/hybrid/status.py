@@ -33,7 +33,7 @@ class Status(Enum):
     """A single support lasted longer than the walker's limit."""
     NOT_FINITE = (
         "a state or torque is not finite; the last good state is kept: check the controller's output, "
-        "shorten the step or use a stiff or exponential method"
+        "shorten the step or use an exponential method"
     )
     """NaN or infinity in a state or torque."""
     SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
@@ -44,7 +44,7 @@ class Status(Enum):
     """The next event would come within 1 us, or `RunOptions.max_events` came before the run was complete."""
     RAN_AWAY = (
         "the motion or a torque grew beyond anything that the robot has, or a joint turned all the way round; "
-        "shorten the step, use an adaptive, stiff or exponential method, or weaken the controller's gains or "
+        "shorten the step, use an adaptive or exponential method, or weaken the controller's gains or "
         "its observer; runaway_speed and runaway_torque set the bounds on rates and torques"
     )
     """An angle, a rate or a torque passed the walker's bounds; the last state within them is kept."""

@@ -11,7 +11,7 @@ trajectories of the parts are joined.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
 from typing import NamedTuple
@@ -26,11 +26,11 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.scenario import STEP_CONTROL, RunRecord
+from biped_adrc.scenario.scenario import RunRecord
 
 
 class WalkPart(NamedTuple):
@@ -41,12 +41,8 @@ class WalkPart(NamedTuple):
     method: OneStepMethod
 
 
-METHODS: dict[str, Callable[..., OneStepMethod]] = {
-    "rk4": RK4,
-    "exponential": Exponential,
-    "adaptive": Adaptive,
-    "stiff": Stiff,
-}
+METHODS: dict[str, type[RK4 | Exponential]] = {"rk4": RK4, "exponential": Exponential}
+"""Methods of fixed step by name."""
 FINE_STEP = 5e-5
 """Integration step of the exponential method where a push switches [s]. After a switching time the error of
 ADRC is a spike of 1 to 2 ms; this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of
@@ -133,8 +129,8 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
     exponential method. On Pinocchio the fine steps would take minutes; there they have to be asked for, and
     `Walk.remarks` says so.
     """
-    if run.method in STEP_CONTROL:
-        return METHODS[run.method](run.tolerance, run.tolerance), None
+    if run.method == "adaptive":
+        return Adaptive(run.tolerance, run.tolerance), None
     method = default_method(walker) if run.method is None else METHODS[run.method]()
     if run.h is not None:
         return replace(method, h=run.h), run.fine  # type: ignore[type-var]

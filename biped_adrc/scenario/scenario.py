@@ -35,8 +35,6 @@ _RESOLVED = 0.1
 """Default integration step of such an engine as a share of the ground's time constant, so that it resolves
 contact.
 """
-STEP_CONTROL = ("adaptive", "stiff")
-"""Integration methods that choose their own integration step."""
 _Values = Any
 """A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
@@ -222,14 +220,14 @@ class RunRecord(Record):
     """The first single support has this number."""
     seed: int = field(0, ge=0, le=MOST_SEED)
     """All that is drawn comes from this seed."""
-    method: Literal["rk4", "exponential", "adaptive", "stiff"] | None = field(None)
+    method: Literal["rk4", "exponential", "adaptive"] | None = field(None)
     """The equations are integrated by this method; by default by what fits the walker."""
     h: float | None = field(None, "s", ge=1e-6, le=0.1)
     """The methods rk4 and exponential take this step; by default 1 ms or what fits."""
     fine: float | None = field(None, "s", ge=1e-6, le=0.1)
     """The step is this where a push switches and in the single support after."""
     tolerance: float = field(1e-9, "1", gt=0, le=1)
-    """The methods adaptive and stiff keep this tolerance."""
+    """The method adaptive has this tolerance."""
     engine: Literal["compiled", "pinocchio"] = field("compiled")
     """The engine is compiled, where it can run, or pinocchio, which it is checked against."""
     max_step_time: float = field(2.0, "s", gt=0, le=100)
@@ -241,8 +239,8 @@ class RunRecord(Record):
 
     @model_validator(mode="after")
     def _own_step(self) -> Self:
-        if self.method in STEP_CONTROL and (step := self.h or self.fine) is not None:
-            raise Misfit("h", f"is {step:g} s, and '{self.method}' chooses its own; leave it out")
+        if self.method == "adaptive" and (step := self.h or self.fine) is not None:
+            raise Misfit("h", f"is {step:g} s, and 'adaptive' chooses its own; leave it out")
         return self
 
 

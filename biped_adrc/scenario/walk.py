@@ -42,20 +42,20 @@ from biped_adrc.scenario.integration import (
     refined,
 )
 from biped_adrc.scenario.recording import Outcome, Walk
-from biped_adrc.scenario.scenario import STEP_CONTROL, RunRecord, Scenario
+from biped_adrc.scenario.scenario import RunRecord, Scenario
 
 
 def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    It runs on the compiled engine. A method that chooses its own step becomes the explicit adaptive one with a
-    hundredth of the tolerance. The half of the shortest step that a scenario may have is not refused here.
+    It runs on the compiled engine. The adaptive method, which chooses its own step, gets a hundredth of the
+    tolerance. The half of the shortest step that a scenario may have is not refused here.
     """
     run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
     if ground.plant != RIGID:
         ground = ground.model_copy(update={"plant_step": 0.5 * ground.engine_step})
-    elif run.method in STEP_CONTROL:
-        values |= {"method": "adaptive", "tolerance": 1e-2 * run.tolerance}
+    elif run.method == "adaptive":
+        values |= {"tolerance": 1e-2 * run.tolerance}
     else:
         usual, fine = methods_of(run, walker)
         assert isinstance(usual, RK4 | Exponential)

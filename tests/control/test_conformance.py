@@ -29,7 +29,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
-from biped_adrc.hybrid.integrators import OneStepMethod, Stiff
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.model.planar import link_point
 from biped_adrc.observers.momentum import MomentumObserver
 
@@ -142,7 +142,6 @@ UNNAMED = {
     ],
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
-    "stiff": lambda h: [Stiff(1e-8, 1e-8)],
     "exponential": lambda h: [ba.Exponential(1e-3)],
     "motors": lambda h: [Motors(), Motors(2e4, 1e-3)],
 }
@@ -162,7 +161,7 @@ BASES = {
     ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
-    OneStepMethod: ("hybrid", {"Solver", "_SciPy"}),
+    OneStepMethod: ("hybrid", {"Solver"}),
     Sensor: ("hardware", set()),
     Touchdown: ("hardware", {"Gated"}),
     Curve: ("gait", {"ControlledCurve"}),
