@@ -188,9 +188,10 @@ def joint_values(
 class Clip(Checked):
     """The part of the walks that is shown, and how; None leaves the choice to the kind of picture.
 
-    x
-
-    Raises InputError for values that do not fit.
+    start, stop [s]: of the part shown; None: the whole walk, or its last two steps for a strip. fps [1/s]:
+    frames per second; None: 60 for a page and 25 for a moving picture. view: camera of a page at the start,
+    one of `VIEWS`. apart: walks of a moving picture side by side and not over one another. slower [1]: how many
+    times slower than the walk a moving picture plays. Raises InputError for values that do not fit.
     """
 
     start: float | None = None
