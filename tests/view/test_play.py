@@ -17,7 +17,8 @@ from selenium.webdriver.common.keys import Keys
 
 import biped_adrc as ba
 from biped_adrc.core.errors import BipedError, InputError, OutputError
-from biped_adrc.extras.play.page import FIRST, page, revised, tour
+from biped_adrc.extras.play.page import FIRST, guided, page, revised, tour
+from biped_adrc.extras.play.page import OTHERS as CHOICES
 from biped_adrc.extras.play.sliders import Slider, at_base
 from biped_adrc.extras.play.walks import MOST, SPRING, PageWalk
 from biped_adrc.model.planar import jacobian, link_point, point, turned
@@ -44,6 +45,27 @@ OTHERS: dict[str, dict[str, object]] = {
     },
     ODD: {"controller": "NPID"},
 }
+
+
+def test_a_station_that_the_scenario_does_not_take_is_left_out_and_those_behind_it_stay() -> None:
+    """A walk in continuous time has no encoders: the two stations with encoders go, and no other."""
+    walks: dict[str, ba.Scenario] = {}
+    stations = guided(ba.Scenario("passive", robot="compass"), walks)
+    titles = [
+        x["title"]
+        for x in tour()
+        if "counts" not in str(x["values"]) or "8192" not in str(x["values"])
+    ]
+    assert [x["title"] for x in stations] == titles == list(walks)
+    assert len(titles) == 4
+
+
+@pytest.mark.parametrize("m", [1, 2, 3, 7])
+def test_a_walk_to_choose_from_has_the_observer_of_its_name(m: int) -> None:
+    observer = {"order": m, "bandwidth": 300.0}
+    assert CHOICES[f"ADRC, m = {m}, 300 rad/s"] == {
+        "controller": {"name": "ADRC", "observer": observer}
+    }
 
 
 @pytest.fixture(scope="module")
