@@ -35,7 +35,7 @@ from biped_adrc.paper.table import (
     word_of_claim,
 )
 from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps
-from biped_adrc.paper.values import noise_spectrum, of_starts
+from biped_adrc.paper.values import noise_spectrum, of_members, of_starts
 from biped_adrc.view.pages import CLAIM_COLUMNS
 
 from .made_up_results import cell, cycle, figure, member, outcome, results, walk
@@ -367,3 +367,12 @@ def test_the_jump_of_the_total_disturbance_is_that_of_a_walk():
 
     expected = np.max(np.abs(xi(second.x[0]) - xi(first.x[-1])[biped.swap]))
     assert runs.jumps("identified")["xi_at_impact"] == pytest.approx(expected, rel=1e-2)
+
+
+def test_the_reasons_of_the_members_are_those_beside_the_impulse_at_impact():
+    """The table says that of the impulse in a row of its own."""
+    broken = {"friction": "friction 0.9 > 0.6", "impulse": "the impulse asks for 0.8"}
+    odd, same = (walk(1e-6)._replace(infeasible=x) for x in (broken, {}))
+    found = results(members={"identified": [member(adrc=odd), member(adrc=same)]})
+    assert of_members(found)["why"] == "friction 0.9 > 0.6"
+    assert (of_members(found)["apart"], of_members(found)["count"]) == (1, 2)

@@ -78,6 +78,16 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
             read_study(plants.tables(seeds=seeds))
 
 
+def test_a_candidate_is_told_when_it_becomes_the_best_and_not_again(tmp_path):
+    notes, tables = [], plants.tables(budget=9, generation=3)
+    found = plants.carried(tables, tmp_path, plants.costs, progress=lambda x: notes.append(x.note))
+    (choice,), told = found.choices.values(), [x for x in notes if ": candidate " in x]
+    numbers = [int(x.partition(": candidate ")[2].partition(",")[0]) for x in told]
+    assert numbers == sorted(set(numbers))
+    best = min(choice.candidates, key=lambda c: (not c.feasible, c.objective))
+    assert numbers[-1] == best.number
+
+
 def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     tables = plants.tables(budget=12, generation=4)
     tables["cases"] = {"narrow": {"run.impacts": 2}, "all": {"run.impacts": 3}}

@@ -103,6 +103,10 @@ def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> 
     axes = axes_of_my_own()
     assert over_time.joint_tracking(axes, s, [0, 2]) is axes
     assert set(drawn_lines(axes)) == {"$q_1$ stance hip", "$q_3$ stance knee", "references"}
+    references = [line for line in axes.get_lines() if line.get_color() == "black"]
+    for i, line in zip((0, 2), references, strict=True):  # with a gap, NaN, at each impact
+        drawn = np.asarray(line.get_ydata(), dtype=float)
+        np.testing.assert_array_equal(drawn[np.isfinite(drawn)], s.q_d[:, i])
     np.testing.assert_array_equal(drawn_lines(axes)["$q_3$ stance knee"], s.q[:, 2])
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "angle [rad]")
 
