@@ -19,6 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pinocchio as pin
@@ -371,6 +372,14 @@ class Biped(Shown):
                         raise ModelError(f"link '{link}' has no mass, so its {kind} has no error")
                     inertials[link] = old.scaled(kind, factor)
         return self.tree.with_inertials(inertials)
+
+    @property
+    def with_errors(self) -> NoReturn:
+        """Gone: AttributeError says what takes its place."""
+        raise AttributeError(
+            "'Biped' has no attribute 'with_errors'; ba.ModelErrors(mass={'torso': 0.2}).apply(biped) is a "
+            "torso of 20 % more"
+        )
 
     def _angles(self, q: Array) -> Array:
         """q (n,) after a check of its shape and that it is finite."""

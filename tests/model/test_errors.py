@@ -65,6 +65,12 @@ ROOTS = [
 ]
 
 
+def test_what_is_gone_names_what_takes_its_place(biped):
+    with pytest.raises(AttributeError, match=r"no attribute 'with_errors'; ba\.ModelErrors"):
+        _ = biped.with_errors
+    assert not hasattr(biped, "with_errors")
+
+
 @pytest.mark.parametrize("robot", ["rabbit", "rimless_wheel"])
 def test_drawn_errors_leave_a_physical_robot_with_the_same_geometry(robot):
     biped = ba.Biped.load(robot)
