@@ -17,14 +17,14 @@ from selenium.webdriver.common.keys import Keys
 
 import biped_adrc as ba
 from biped_adrc.core.errors import BipedError, InputError, OutputError
-from biped_adrc.extras.play.page import FIRST, guided, page, revised, tour
+from biped_adrc.extras.play.page import FIRST, NEARER, guided, page, revised, tour
 from biped_adrc.extras.play.page import OTHERS as CHOICES
 from biped_adrc.extras.play.sliders import Slider, at_base
 from biped_adrc.extras.play.walks import MOST, SPRING, PageWalk
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.view.meshcat.view import pose
+from biped_adrc.view.meshcat.view import LANE, pose
 from biped_adrc.view.placement import WalkScene
 from tests.commands import command
 
@@ -58,6 +58,10 @@ def test_a_station_that_the_scenario_does_not_take_is_left_out_and_those_behind_
     ]
     assert [x["title"] for x in stations] == titles == list(walks)
     assert len(titles) == 4
+
+
+def test_the_hand_is_drawn_in_front_of_the_walk_and_its_ghost_behind() -> None:
+    assert NEARER < 0.0 < LANE  # along y, away from the camera
 
 
 @pytest.mark.parametrize("m", [1, 2, 3, 7])

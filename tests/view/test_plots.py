@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from biped_adrc.analysis.observer.report import observer_report
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
@@ -24,6 +26,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf
 from biped_adrc.model.robots.urdf import Visual
+from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.scenario.walk import walk as walk_of
@@ -33,7 +36,7 @@ from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.from_the_side.side_view import bones
 from biped_adrc.view.meshcat import objects
 from biped_adrc.view.plots import figures, over_time, zero_dynamics
-from biped_adrc.view.plots.figures import NAMES, draw
+from biped_adrc.view.plots.figures import NAMES, draw, observer_figure
 from biped_adrc.view.plots.study import map_figure, path_figure
 from biped_adrc.view.style import render
 
@@ -309,3 +312,17 @@ def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
     assert drawn(10.0, 30.0) == (10.0, 30.0)
     assert drawn(10.0, np.inf) == (10.0, zero_dynamics.WIDE * 20.0)
     assert drawn(30.0, 10.0) == (7.0, 20.0)
+
+
+@pytest.mark.parametrize("m", [0, 1])
+def test_an_observer_without_extended_states_has_no_curve_of_an_estimate(
+    biped: Biped, m: int
+) -> None:
+    observer, gait = GPIObserver.from_bandwidth(300.0, m=m), load_gait("published", biped)
+    report = observer_report(observer, robot=biped, gait=gait)
+    panels = observer_figure(report).axes
+    curves = [
+        max(len(line.get_xdata()) for line in [*x.get_lines(), Line2D([], [])]) for x in panels
+    ]
+    assert [count > 100 for count in curves] == [True, m > 0, True]
+    assert [x.get_text() for x in panels[1].texts] == ([] if m else ["m = 0 has none"])
