@@ -31,14 +31,15 @@ class Memory(dict[Hashable, Any]):
         """The result for this key: the one that is kept, or else what make() gives, which is kept from then
         on.
         """
-        if key not in self:
-            self.keep(key, make())
-        return self[key]
+        # not `in`, since another thread may drop it after that; Memory itself is the sign of no result
+        if (result := self.get(key, Memory)) is Memory:
+            self.keep(key, result := make())
+        return result
 
     def keep(self, key: Hashable, result: Any) -> None:
         """Keep a result; the oldest one goes where there are too many."""
-        while len(self) >= _REMEMBERED and key not in self:
-            self.pop(next(iter(self)), None)
+        for oldest in [*self][: max(0, len(self) + 1 - _REMEMBERED)]:
+            self.pop(oldest, None)
         self[key] = result
 
     def __reduce__(self) -> tuple[type, tuple[()]]:

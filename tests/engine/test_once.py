@@ -90,3 +90,11 @@ def test_the_same_fields_give_the_same_copy_and_another_process_gets_none_of_it(
     assert again.controller == walker.controller
     assert not vars(again.controller).get("_once")
     assert not {"undisturbed", "_once"} & vars(again).keys()
+
+
+def test_a_part_keeps_the_last_results_and_drops_the_oldest(gait):
+    asked = []
+    squared = once(lambda part, x: asked.append(x) or x * x)
+    results = [squared(gait.constraint, x) for x in (*range(80), *range(20, 80), 0)]
+    assert results == [x * x for x in (*range(80), *range(20, 80), 0)]
+    assert asked == [*range(80), 0]
