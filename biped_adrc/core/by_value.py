@@ -33,12 +33,10 @@ class ByValue:
     def __hash__(self) -> int:
         if not is_dataclass(self):
             return object.__hash__(self)
-        known = vars(self).get("_hash")
-        if known is None:
-            known = hash(value_of(self))
-            if "_constant" in vars(self):  # as `core.once` found: nothing in it can change
-                vars(self)["_hash"] = known
-        return known
+        memory = vars(self).get("_once")  # of a part in which nothing can change (`core.once`)
+        return (
+            memory.found("hash", lambda: hash(value_of(self))) if memory else hash(value_of(self))
+        )
 
 
 def value_of(x: Any) -> Hashable:

@@ -25,7 +25,7 @@ _REMEMBERED = 64
 
 
 class Memory(dict[Hashable, Any]):
-    """The last results, by what they were computed from; empty in another process, and in a copy by pickle."""
+    """The last results, by what they were computed from; a copy by pickle is empty."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """The result for this key: the one that is kept, or else what make() gives, which is kept from then
@@ -43,6 +43,7 @@ class Memory(dict[Hashable, Any]):
         self[key] = result
 
     def __reduce__(self) -> tuple[type, tuple[()]]:
+        # hashes are others in another process, and arrays come back writable: their part is asked again
         return Memory, ()
 
 
@@ -53,7 +54,7 @@ _SHARED = Memory()
 def constant(x: object) -> bool:
     """Whether nothing in x can change: a number, text, read-only array, or part of this package with such.
 
-    For a part the answer "yes" is kept in its attribute `_constant`.
+    For a part "yes" is kept in its memory; a class of robots says it by its attribute `_constant`.
     """
     if isinstance(x, np.ndarray):
         return not x.flags.writeable and (x.base is None or constant(x.base))
@@ -63,11 +64,11 @@ def constant(x: object) -> bool:
     names = getattr(cls, "__dataclass_fields__", None)
     if names is None:
         return isinstance(x, _PLAIN)
-    if not hasattr(x, "_constant"):
+    if not (hasattr(x, "_constant") or vars(x).get("_once")):
         own = cls.__module__.startswith("biped_adrc.") and cls.__dataclass_params__.frozen
         if not (own and all(constant(getattr(x, name)) for name in names)):
             return False
-        vars(x)["_constant"] = True
+        vars(x)["_once"] = Memory(constant=True)
     return True
 
 
@@ -100,7 +101,7 @@ def shared(part: _T, **values: Any) -> _T:
 def _known_by(x: object) -> Hashable:
     """A number or a constant part by class and value; all else, and a robot, by its identity."""
     if is_part(x):
-        by_value = constant(x) and isinstance(x, ByValue) and "_constant" in vars(x)
+        by_value = constant(x) and isinstance(x, ByValue) and not hasattr(x, "_constant")
     else:
         by_value = isinstance(x, (*_PLAIN, tuple)) and constant(x)
     return (type(x), x) if by_value else id(x)

@@ -62,8 +62,8 @@ class Setup:
     """Placeholder for a field of `setup` where methods run on symbols."""
 
 
-MEMORY = ("_constant", "_hash", "_once")
-"""Attributes of a part in which `core.once` keeps what was computed from it."""
+MEMORY = "_once"
+"""Attribute of a part in which `core.once` keeps what was computed from it."""
 SETUP = {"setup": True}
 """Metadata of a field that no method reads on symbols."""
 
@@ -123,9 +123,7 @@ def with_fields(part: _T, **values: Any) -> _T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    return with_content(
-        part, {name: x for name, x in vars(part).items() if name not in MEMORY} | values
-    )
+    return with_content(part, {k: x for k, x in vars(part).items() if k != MEMORY} | values)
 
 
 @lru_cache(maxsize=512)

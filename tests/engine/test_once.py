@@ -1,6 +1,9 @@
 """Walks share what does not differ between them, and nothing is remembered of what may change."""
 
+import os
 import pickle
+import subprocess
+import sys
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -85,11 +88,35 @@ def test_the_same_fields_give_the_same_copy_and_another_process_gets_none_of_it(
     a, b = shared(walker, slope=0.01), shared(walker, slope=0.02)
     assert shared(walker, slope=a.slope) is a
     assert b.slope == 0.02
-    _ = walker.undisturbed, walker.law
+    _ = walker.undisturbed, walker.law, hash(walker.controller)
     again = pickle.loads(pickle.dumps(walker))
     assert again.controller == walker.controller
-    assert not vars(again.controller).get("_once")
+    assert vars(walker.controller)["_once"]
+    assert not vars(again.controller)["_once"]
     assert not {"undisturbed", "_once"} & vars(again).keys()
+
+
+def test_a_part_from_another_process_is_found_among_equal_ones_and_asked_again_whether_it_can_change(
+    gait,
+):
+    """Hashes of texts and classes are others there, and NumPy's arrays come back writable."""
+    law = ba.ADRCController(gait.constraint)
+    assert constant(law)
+    data = pickle.dumps({law: "found"})
+    code = (
+        "import pickle, sys; import biped_adrc as ba; from biped_adrc.core.once import constant\n"
+        "(law,) = found = pickle.load(sys.stdin.buffer)\n"
+        "fresh = ba.ADRCController(law.reference)\n"
+        "print(fresh == law, found.get(fresh), constant(law), law.reference.curve.coefficients.flags.writeable)"
+    )
+    for seed in ("1", "2"):
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            input=data,
+            capture_output=True,
+            env=os.environ | {"PYTHONHASHSEED": seed},
+        )
+        assert done.stdout.split() == [b"True", b"found", b"False", b"True"], done.stderr
 
 
 def test_a_part_keeps_the_last_results_and_drops_the_oldest(gait):
