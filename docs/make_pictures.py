@@ -28,7 +28,7 @@ PICTURES: dict[str, tuple[dict[str, Any], dict[str, Any], Clip]] = {
     "push": (
         {**MOTORS, "gait": "v0.8", "pushes": "q1,q2=-150@4:0.3-0.5"},
         {"NPD": "NPD", "ADRC": "ADRC"},
-        Clip(start=1.95, stop=3.62, fps=16.0, apart=True, slower=2.0),
+        Clip(start=1.95, stop=3.62, fps=12.0, apart=True, slower=2.0),
     ),
     "footstep_hip": (
         {**SAMPLED, "gait": "v0.5", "pushes": [HELD]},
@@ -36,12 +36,12 @@ PICTURES: dict[str, tuple[dict[str, Any], dict[str, Any], Clip]] = {
             "stride PI": {"name": "stride PI", "inner": "NPD"},
             "footstep": {**FOOTSTEP, "step": 0.25},
         },
-        Clip(start=2.6, stop=4.45, fps=12.0, apart=True),
+        Clip(start=2.6, stop=4.45, fps=10.0, apart=True),
     ),
     "footstep_ground": (
         {**SAMPLED, "gait": "v0.6", "ground.step_height": "20 mm", "run.seed": 11},
         {"NPD": "NPD", "footstep": {**FOOTSTEP, "speed": 0.6, "step": 0.38}},
-        Clip(start=3.6, stop=5.8, fps=10.0, apart=True),
+        Clip(start=3.6, stop=5.8, fps=8.0, apart=True),
     ),
     "footstep_stones": (
         {**SAMPLED, "gait": "v0.6", "ground.stone_range": (0.2, 0.6), "run.seed": 8},
