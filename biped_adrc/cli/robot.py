@@ -158,8 +158,7 @@ def _describe(biped: ba.Biped) -> None:
     roles = dict.fromkeys(d.passive, "free") | dict.fromkeys(d.actuated, "motor")
     for i, joint in enumerate(d.joints, 1):
         console.say(f"  q{i} = {joint} ({roles.get(joint, 'absolute pitch')})")
-    terms = " ".join(f"{c:+.6g} q{i + 1}" for i, c in enumerate(d.phase) if c != 0.0)
-    console.say(f"Theta = {terms}")
+    console.say(f"Theta = {d.theta}")
     feet = f"stance foot {d.stance_foot}, swing foot {d.swing_foot}"
     console.say(f"{feet}, hip {d.hip}, trunk {d.trunk}")
     console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")

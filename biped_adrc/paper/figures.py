@@ -24,7 +24,7 @@ from biped_adrc.paper.pushes import LOST
 from biped_adrc.paper.runs import PRELOADED, Runs
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.plots import figures
 from biped_adrc.view.plots.figures import push_window
 from biped_adrc.view.plots.study import map_figure
@@ -62,7 +62,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     mu = biped.description.friction_coefficient
     pushed = "ADRC under the push"
     inputs: dict[str, tuple[object, ...]] = {
-        "figure1": (robot_figure, biped),
+        "figure1": (check_figure, biped),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, pushed, window),
         "figure6": (figures.phase_figure, signals),

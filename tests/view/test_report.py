@@ -8,7 +8,7 @@ import re
 import pytest
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.pages import report_html
 from biped_adrc.view.style import render
 
@@ -52,14 +52,14 @@ SUMMARY = {
 
 @pytest.fixture(scope="module")
 def svg(biped: Biped) -> bytes:
-    return render(robot_figure(biped), "svg")
+    return render(check_figure(biped), "svg")
 
 
 ANIMATION = '<!DOCTYPE html><html><body><p id="a">"&amp;\'</p></body></html>'
 
 
 def test_report_escapes_and_stands_alone(biped: Biped, svg: bytes) -> None:
-    picture = render(robot_figure(biped), "png", dpi=30)
+    picture = render(check_figure(biped), "png", dpi=30)
     figures = {"figure1": svg, "<other>": picture}
     text = report_html(SUMMARY, figures, ANIMATION)
     assert text == report_html(SUMMARY, figures, ANIMATION)

@@ -157,6 +157,11 @@ class RobotDescription(Shown):
         """Names of the stance and the swing foot."""
         return self.stance_foot, self.swing_foot
 
+    @property
+    def theta(self) -> str:
+        """Theta = c q as text, such as "+1 q1 +0.5 q3 +1 q5"."""
+        return " ".join(f"{c:+.6g} q{i}" for i, c in enumerate(self.phase, 1) if c != 0.0)
+
     def preset(self, name: str | None = None) -> Preset:
         """The preset `name`, or the default one. Raises ModelError with the known names."""
         name = self.default_preset if name is None else name

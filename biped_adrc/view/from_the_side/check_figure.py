@@ -1,8 +1,8 @@
 """A robot as its file was understood: links, masses, joints with the sense of their angles, feet and hip.
 
 The robot stands with its feet a step apart, the swing foot in front. A bent arrow at a joint shows how what it
-carries turns as its angle grows; the disc at a COM has an area in proportion to the mass. `robot check` writes
-this picture.
+carries turns as its angle grows; the disc at a COM has an area in proportion to the mass. The title has the
+phase Theta. `robot check` writes this picture, and it is figure 1 of a reproduction.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def check_figure(biped: Biped) -> Figure:
         axes.set_aspect("equal")
         axes.margins(0.5, 0.1)
         title = f"{d.name}, {biped.mass:.4g} kg, trunk {d.trunk}; it walks to the right"
-        label(axes, "x [m]", "z [m]", literal(title))
+        label(axes, "x [m]", "z [m]", f"{literal(title)}\n$\\Theta$ = {d.theta}")
         return figure
 
 
