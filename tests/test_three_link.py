@@ -5,12 +5,15 @@ Model, outputs and cycle: validation.three_link.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.finite_time import FiniteTimeController
 from biped_adrc.control.output_npd import OutputNPDController
+from biped_adrc.gait.outputs import all_coordinates
 from validation.three_link import END, P2, P3, TO_Q, ZERO, EndsAtPhase, cycle, outputs, robot, step
 
 ROBOT = robot()
@@ -58,7 +61,9 @@ def test_cycle_under_finite_time_feedback() -> None:
 def test_joint_form_of_the_outputs() -> None:
     """q_b = h(Theta): y = y' = 0 along it, and NPD walks the same step: y = T (q_b - h), T constant."""
     y, gains = outputs(), ba.Gains(400.0, 40.0)
-    joints = y.as_virtual_constraint()
+    d = y.desired
+    q = all_coordinates(d.curve, y.H0, d.phase, (d.theta_plus, d.theta_minus))
+    joints = replace(d, curve=type(q)(q.coefficients[:-1]))
     zero = ba.ZeroDynamics.of(ROBOT, joints)
     for q, dq in zip(zero.q, zero.dq, strict=True):
         o = y(0.0, q, dq)

@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -102,16 +102,6 @@ class LinearOutputs(Outputs):
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         r = self.desired(t, q, v)
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
-
-    def as_virtual_constraint(self) -> VirtualConstraint:
-        """The virtual constraint q_b = h(Theta) that is equivalent to y = 0, with a curve of the kind of h_d.
-
-        Zero dynamics and gaits are written for virtual constraints, so this makes them usable for linear
-        outputs. Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
-        """
-        d = self.desired
-        q = all_coordinates(d.curve, self.H0, d.phase, (d.theta_plus, d.theta_minus))
-        return replace(d, curve=type(q)(q.coefficients[:-1]))
 
 
 def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, float]) -> Curve:

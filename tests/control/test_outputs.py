@@ -9,7 +9,13 @@ from scipy.linalg import expm
 import biped_adrc as ba
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.core.errors import GaitError, InputError, NotFiniteError, SingularError
-from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, OutputPoint, Outputs
+from biped_adrc.gait.outputs import (
+    FunctionOutputs,
+    LinearOutputs,
+    OutputPoint,
+    Outputs,
+    all_coordinates,
+)
 
 from .off_orbit import off_orbit
 
@@ -130,7 +136,7 @@ def test_outputs_that_do_not_fit_are_refused(biped, gait, state):
     phase_itself = np.vstack((np.eye(3, 5), gait.constraint.phase))
     for wrong in (
         lambda: LinearOutputs(np.eye(3, 5), gait.constraint),
-        lambda: LinearOutputs(phase_itself, gait.constraint).as_virtual_constraint(),
+        lambda: all_coordinates(gait.constraint.curve, phase_itself, phase_itself[-1], (0.0, 1.0)),
         lambda: torques(biped, [OutputNPDController(FunctionOutputs(lambda q: q[0]))], q, v),
         lambda: torques(biped, [OutputNPDController(FunctionOutputs(lambda q: q[:3]))], q, v),
     ):

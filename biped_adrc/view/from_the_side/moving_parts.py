@@ -21,21 +21,12 @@ from matplotlib.patches import FancyArrow
 
 from biped_adrc.core.types import Array
 from biped_adrc.view import colours
-from biped_adrc.view.colours import (
-    LONGEST_ARROW,
-    REACTION,
-    STANCE,
-    SWING,
-    TORQUE,
-    TRUNK,
-    bent_arrow,
-)
 from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads_at
 
 STONE = "#7a5230"
 """Colour of a stone: brown."""
-COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
+COLOURS = {"stance": colours.STANCE, "swing": colours.SWING, "": colours.TRUNK}
 """Colour of a line by its role; the trunk has the role ""."""
 SOLE, HEADROOM = 0.12, 1.2
 """Ground shown below the foot [m], and the height of the picture above it as a multiple of the robot's."""
@@ -116,19 +107,19 @@ class DrawnWalk:
         self.axes, self.view = axes, view
         layer = 10 * order
         (self.hip,) = axes.plot([], [], color="#555555", lw=0.9, alpha=opacity, zorder=order)
-        (self.foot,) = axes.plot([], [], color=SWING, lw=0.9, alpha=opacity, zorder=order)
+        (self.foot,) = axes.plot([], [], color=colours.SWING, lw=0.9, alpha=opacity, zorder=order)
         (self.prints,) = axes.plot([], [], "^", color="black", ms=4, alpha=opacity, zorder=order)
         self.links = LineCollection([], capstyle="round", alpha=opacity, zorder=layer)
-        self.torques = PolyCollection([], color=TORQUE, alpha=opacity, zorder=layer + 2)
+        self.torques = PolyCollection([], color=colours.TORQUE, alpha=opacity, zorder=layer + 2)
         axes.add_collection(self.links)
         axes.add_collection(self.torques)
         self.arrows = [
             FancyArrow(0, 0, 0, 0, width=0.024, length_includes_head=True) for _ in range(2)
         ]
         for arrow in self.arrows:
-            arrow.set(color=REACTION, alpha=opacity, zorder=layer + 1)
+            arrow.set(color=colours.REACTION, alpha=opacity, zorder=layer + 1)
             axes.add_patch(arrow)
-        self.text = axes.text(0.0, 0.0, "", color=REACTION, fontsize=9, zorder=layer + 3)
+        self.text = axes.text(0.0, 0.0, "", color=colours.REACTION, fontsize=9, zorder=layer + 3)
         self.passed: list[Array] = []
         self.steps: list[int] = []
 
@@ -154,7 +145,7 @@ class DrawnWalk:
         torque = dict(zip(scene.biped.description.joints, radii.tolist(), strict=True))
         pushed = [joint for joint in scene.biped.tree.joints if torque.get(joint.name)]
         self.torques.set_verts(
-            [placements[j.child][[0, 2], 3] + bent_arrow(torque[j.name]) for j in pushed]
+            [placements[j.child][[0, 2], 3] + colours.bent_arrow(torque[j.name]) for j in pushed]
         )
 
     def _extend(self, points: Array, step: int) -> None:
@@ -177,9 +168,9 @@ class DrawnWalk:
         length, words = float(np.hypot(*vector)), ""
         if not math.isfinite(length):
             vector, length, words = np.zeros(2), 0.0, "no finite force, arrow cut"
-        elif length > LONGEST_ARROW:
-            vector, words = LONGEST_ARROW / length * vector, f"{np.hypot(*force):.3g} N, arrow cut"
-            length = LONGEST_ARROW
+        elif length > colours.LONGEST_ARROW:
+            vector, length = colours.LONGEST_ARROW / length * vector, colours.LONGEST_ARROW
+            words = f"{np.hypot(*force):.3g} N, arrow cut"
         self.arrows[k].set_visible(length > 0.0)
         head = min(0.09, length)
         x, y, dx, dy = (*start, *vector)
