@@ -18,7 +18,7 @@ from biped_adrc.studies.measure import OF_ALL, Row, is_counted
 from biped_adrc.studies.results import Group, Results, TableLine
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.view.pages import as_text, data_uri, rendered
-from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
+from biped_adrc.view.plots.study import dots_figure, map_figure, path_figure
 from biped_adrc.view.style import render
 
 PAGE = "study.html"
@@ -94,9 +94,10 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     by = {(x.name, x.condition): x for x in lines}
     medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
-    shares = {key: (round(x.feasible.value * x.walks), x.walks) for key, x in by.items()}
     if len({x.condition for x in lines}) > 1:  # the table says one column as well
-        yield "Whose walks are feasible?", cells_figure(shares)
+        shares = {key: x.feasible for key, x in by.items()}
+        title = "share of feasible walks"
+        yield "Whose walks are feasible?", dots_figure(shares, title, "linear")
     column, counts = _named(measure.column), measure.column in OF_ALL
     better = f"ratio to {lines[0].name} in {measure.column}"  # a ratio has no unit
     for question, title, numbers, at in (
@@ -104,7 +105,7 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         ("Who is better on the same walk?", better, ratios, 1.0),
     ):
         if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
-            yield question, dots_figure(numbers, title, at)
+            yield question, dots_figure(numbers, title, "log", at)
     if found.study.axes:
         shares_of = _map(found, lambda x: float(is_counted(x)), "share of feasible walks", False)
         yield "Where are walks feasible?", shares_of

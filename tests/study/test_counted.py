@@ -57,6 +57,12 @@ def test_the_page_has_a_picture_of_feasible_walks_under_several_conditions_alone
     assert ("Whose walks are feasible?" in pictures) == bool(conditions)
     (axes,) = pictures["Who is better on the same walk?"].axes
     assert axes.get_xlabel() == "ratio to K_p 4000.0 in rms_error"
+    if conditions:
+        (axes,) = pictures["Whose walks are feasible?"].axes
+        dots = [x for line in axes.lines for x in line.get_xdata()]
+        assert axes.get_xscale() == "linear"
+        assert len(dots) == 4
+        assert set(dots) <= {0.0, 1.0}
 
 
 def test_a_study_that_asks_for_rounding_has_it(tmp_path):

@@ -1,4 +1,4 @@
-"""Figures of a study, one for each question: cells, dots with intervals, maps and paths.
+"""Figures of a study, one for each question: dots with intervals, maps and paths.
 
 They take plain values and draw any study: rows and columns are names, numbers come with the ends of an
 interval of 95 %, which are NaN where there is none. What is not finite has no mark.
@@ -33,35 +33,19 @@ _Numbers = Mapping[tuple[str, str], Sequence[float]]
 """By row and series a number with the ends of its interval."""
 
 
-def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
-    """Draw a table whose cells show "k of n" walks, white where all n of them count, darker for fewer.
+def dots_figure(
+    numbers: _Numbers, title: str, scale: str, reference: float | None = None
+) -> Figure:
+    """Draw numbers with their intervals: a row for each name, a mark for each series.
 
-    shares: (row, column) -> (k, n), whole numbers.
-    """
-    rows, columns = _names(shares)
-    counts = [[shares.get((row, column)) for column in columns] for row in rows]
-    values = np.array([[math.nan if x is None else x[0] / x[1] for x in row] for row in counts])
-    texts = [["" if x is None else f"{x[0]} of {x[1]}" for x in row] for row in counts]
-    with new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows)) as figure:
-        axes, grey = figure.subplots(), Normalize(-1.5, 1.0)  # from 0.6 to white
-        _cells(axes, values, texts, "gray", grey, "black")
-        axes.set_xticks(range(len(columns)), map(literal, columns), rotation=20, ha="right")
-        axes.set_yticks(range(len(rows)), map(literal, rows))
-        axes.invert_yaxis()
-        return figure
-
-
-def dots_figure(numbers: _Numbers, title: str, reference: float | None = None) -> Figure:
-    """Draw numbers with their intervals on a logarithmic axis: a row for each name, a mark for each series.
-
-    numbers: (row, series) -> (number, low, high). title: of the axis, with its unit. reference:
-    number at which a line is drawn.
+    numbers: (row, series) -> (number, low, high). title: of the axis, with its unit. scale: "log" or "linear".
+    reference: number at which a line is drawn.
     """
     rows, series = _names(numbers)
     offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
     with new_figure(6.5, 1.1 + 0.36 * len(rows)) as figure:
         axes = figure.subplots()
-        axes.set_xscale("log")
+        axes.set_xscale(scale)
         if reference is not None:
             axes.axvline(reference, color=GREY, lw=0.8)
         for i, name in enumerate(series):
@@ -116,7 +100,7 @@ def map_figure(
             m = means[k]
             texts = [[f"{x:.2g}" if np.isfinite(x) else "" for x in row] for row in m]
             axes.set_facecolor("#DDDDDD")  # where there is no number
-            image = _cells(axes, m, texts if m.size <= _WRITTEN else (), "cividis", norm, "white")
+            image = _cells(axes, m, texts if m.size <= _WRITTEN else (), norm)
             _ticks(axes, xs[1], ys[1])
             below, left = k + columns >= len(means), k % columns == 0
             words = literal(list(shown)[k])
@@ -188,22 +172,12 @@ def _means(
     return np.where(count > 0, total / np.maximum(count, 1), np.nan).reshape(shape)
 
 
-def _cells(
-    axes: Axes,
-    values: Array,
-    texts: Sequence[Sequence[str]],
-    colours: str,
-    norm: Normalize,
-    edge: str,
-) -> Any:
+def _cells(axes: Axes, values: Array, texts: Sequence[Sequence[str]], norm: Normalize) -> Any:
     """Draw a table of values (rows, columns) as coloured cells, cell (i, j) at x = j,
-    y = i, with texts on them.
-
-    colours: name of matplotlib's colour map; edge: colour of the lines between cells.
-    Returns matplotlib's mesh.
+    y = i, with texts on them; returns matplotlib's mesh.
     """
     edges = [np.arange(count + 1) - 0.5 for count in reversed(values.shape)]
-    image = axes.pcolormesh(*edges, values, cmap=colours, norm=norm, ec=edge, lw=0.3)
+    image = axes.pcolormesh(*edges, values, cmap="cividis", norm=norm, ec="white", lw=0.3)
     for (y, x), text in np.ndenumerate(texts):
         colour = "white" if norm(values[y, x]) < 0.5 else "black"
         axes.text(x, y, text, ha="center", va="center", color=colour, size=6.5)
