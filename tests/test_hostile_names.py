@@ -23,7 +23,7 @@ from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.model.robot_import.import_robot import to_toml
 from biped_adrc.model.robots.urdf import to_xml
 from biped_adrc.model.robots.urdf_reader import read
-from biped_adrc.view.pages import player
+from biped_adrc.view.pages import with_viewer
 
 PLANTED = "\n#error planted\nint planted;\n"
 HOSTILE = {
@@ -127,7 +127,15 @@ def test_in_mjcf_and_urdf_they_are_attributes(hostile):
 
 def test_in_pages_they_are_text(hostile):
     settings = {"live": False, "fps": 20.0, "names": [hostile.name, hostile.joint]}
-    assert not planted(player(settings, hostile.name, [("red", hostile.joint)]))
+    assert not planted(
+        with_viewer(
+            "player",
+            settings,
+            title=hostile.name,
+            captions=[("red", hostile.joint)],
+            style="player.css",
+        )
+    )
 
 
 class _Elements(HTMLParser):

@@ -32,8 +32,6 @@ from biped_adrc.scenario.scenario import Scenario
 class PoincareResult(Shown):
     """A fixed point with its multipliers, and delta^2 of the zero dynamics beside them."""
 
-    run: Scenario
-    """The walk whose return map was taken."""
     orbit: PeriodicOrbit
     """Fixed point and multipliers at an integration step of 1 ms."""
     half: PeriodicOrbit
@@ -76,7 +74,7 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
         return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
-    return PoincareResult(run, orbit(COARSE), orbit(0.5 * COARSE), delta**2)
+    return PoincareResult(orbit(COARSE), orbit(0.5 * COARSE), delta**2)
 
 
 RANK = 1e-8

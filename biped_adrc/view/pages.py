@@ -131,22 +131,14 @@ def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
     return title, caption["text"], data_uri(picture)
 
 
-def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
-    """Text of the page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
-
-    settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend: pairs (colour,
-    text), the text plain, as it is escaped here.
-    """
-    return with_viewer("player", settings, title=title, captions=legend, style="player.css")
-
-
 def with_viewer(
     template: str, settings: Mapping[str, object], package: str = _HERE, **values: object
 ) -> str:
     """Text of a page that draws in Meshcat's viewer and whose scripts read the settings as JSON.
 
-    template: name of the page's template, in `package`. settings: as for `player`. values: other names in the
-    template. The template has the JSON twice: `data` as text, `packed` deflated in base64.
+    template: name of the page's template, in `package`. settings: as `meshcat.view.scene_settings` gives
+    them. values: other names in the template. The template has the JSON twice: `data` as
+    text, `packed` deflated in base64.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     text = json.dumps(settings)

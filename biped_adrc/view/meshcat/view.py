@@ -27,7 +27,7 @@ from biped_adrc.view import colours, placement
 from biped_adrc.view.colours import REACTION, STANCE, SWING, TORQUE
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
-from biped_adrc.view.pages import player
+from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, Drawable, WalkScene, ending, exchanged, joint_values
 
 _GHOST = 0.35
@@ -57,7 +57,8 @@ def animation_html(
     scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
     frames = {name: Frames.of(scene, clip.fps or _FPS) for name, scene in scenes.items()}
     settings = scene_settings(scenes, clip, frames, marks)
-    return player(settings, " and ".join(walks), captions(scenes))
+    title, style = " and ".join(walks), "player.css"
+    return with_viewer("player", settings, title=title, captions=captions(scenes), style=style)
 
 
 def _packed(frames: Frames) -> dict[str, str]:
