@@ -167,15 +167,6 @@ def drop_of(steps: Steps, number: int) -> float:
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
-def random_steps(seed: int, height: float, steps: int) -> Steps:
-    """A step of the ground, down or up, in each single support from 1 to `steps`; its height is uniform in
-    -height .. height [m].
-
-    The same seed gives the same ground.
-    """
-    return stepped(np.random.default_rng(seed).uniform(-height, height, steps))
-
-
 def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
     """Make random steps up and down, with heights of footholds of mean zero.
 

@@ -38,7 +38,7 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import SoftGround, Steps, Stones, random_steps, stepped, uneven_ground
+from biped_adrc.model.ground import SoftGround, Steps, Stones, stepped, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
@@ -290,7 +290,8 @@ def _ground(s: Scenario) -> Steps:
     """
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
     seed = drawn(s, "ground")
-    steps = uneven_ground(seed, g.rms, last) + random_steps(seed, g.step_height, last)
+    each = np.random.default_rng(seed).uniform(-g.step_height, g.step_height, last)
+    steps = uneven_ground(seed, g.rms, last) + stepped(each)
     return steps + stepped(np.array([g.drop]), g.drop_step)
 
 

@@ -223,13 +223,8 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
     for sign in (-1.0, 1.0):
         name = f"cone, $\\mu$ = {mu:g}" if sign > 0 else "_"
         axes.plot([0.0, sign * mu * top], [0.0, top], color=GREY, ls="--", label=name)
-    axes.plot(
-        with_gaps(s, tangent),
-        with_gaps(s, normal),
-        color=PALETTE[0],
-        lw=0.9,
-        label="ground reaction",
-    )
+    x, y = with_gaps(s, tangent), with_gaps(s, normal)
+    axes.plot(x, y, color=PALETTE[0], lw=0.9, label="ground reaction")
     axes.axhline(0.0, color="black", lw=0.8, label="_")
     label(axes, "$F_T$ [N]", "$F_N$ [N]")
     return legend(axes)
@@ -253,9 +248,8 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
 
     name: in the legend. colour: index in the palette. Returns the axes.
     """
-    axes.plot(
-        with_gaps(s, s.theta), with_gaps(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name
-    )
+    x, y = with_gaps(s, s.theta), with_gaps(s, s.dtheta)
+    axes.plot(x, y, color=PALETTE[colour], lw=0.8, label=name)
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
         axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)
