@@ -6,14 +6,14 @@ test is a linear regression, its (26), (27), through the states before impacts:
     x-(k + 1) - x* = Phi (x-(k) - x*)
 
 x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine dimensions, and a
-walk that converges along one direction excites one direction: Phi is not determined by such data. So rank and
-condition number are returned with the eigenvalues, and `warning` says what they are worth.
+walk that converges along one direction excites one direction: Phi is not determined by such data. So the
+rank of the data is returned with the eigenvalues, and `warning` says what they are worth.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -45,21 +45,6 @@ class PoincareResult(Shown):
         one, other = (np.sort(np.abs(x.multipliers)) for x in (self.orbit, self.half))
         return float(np.max(np.abs(one - other)))
 
-    def record(self) -> dict[str, Any]:
-        """The result as values that JSON holds, for summary.json."""
-        return {
-            "controller": self.run.controller.name,
-            "preset": self.run.robot.preset,
-            "reset": self.run.controller.observer.reset,
-            "coordinates": len(self.orbit.multipliers),
-            "magnitudes": np.abs(self.orbit.multipliers).tolist(),
-            "x_minus": self.orbit.x_minus[:10].tolist(),
-            "residual": self.orbit.residual,
-            "delta_squared": self.delta_squared,
-            "stable": self.orbit.stable,
-            "magnitudes_at_half_the_step": np.abs(self.half.multipliers).tolist(),
-        }
-
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     """Fixed point by Newton's method and multipliers by central differences, without disturbances.
@@ -81,31 +66,23 @@ RANK = 1e-8
 """Least singular value, over the largest, of a direction that counts for the rank."""
 
 
-@dataclass(frozen=True)
-class Regression(Shown):
-    """Phi of (27), its eigenvalues, and how well the data determine it."""
+class Regression(NamedTuple):
+    """The eigenvalues of Phi of (27), and how well the data determine it."""
 
-    Phi: Array
-    """(n, n), mixed units of the states."""
     magnitudes: Array
     """|eigenvalues| (n,), the largest first."""
     rank: int
     """Number of directions that the samples span."""
-    condition: float
-    """Condition number of the samples; infinite if they do not span all directions."""
-    samples: int
-    """Number of states before impact."""
 
     @property
     def warning(self) -> str:
         """Why Phi is not to be trusted, in words; empty when the data determine it."""
-        n = self.Phi.shape[0]
-        if self.rank >= n and self.condition < 1e8:
+        n = len(self.magnitudes)
+        if self.rank >= n:
             return ""
         return (
-            f"the {self.samples} sampled states span {self.rank} of {n} directions (condition "
-            f"{self.condition:.1e}); the section itself has {n - 1}. The eigenvalues of this regression "
-            "are no multipliers: use central differences of the return map"
+            f"the sampled states span {self.rank} of {n} directions, and the section itself has {n - 1}. The "
+            "eigenvalues of this regression are no multipliers: use central differences of the return map"
         )
 
 
@@ -114,14 +91,9 @@ def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
     point (n,).
     """
     chi = x_minus - x_star
-    before, after = chi[:-1], chi[1:]
-    result, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
-    solution = np.asarray(result, dtype=np.float64)
-    magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
-    rank = int(np.sum(singular > RANK * singular[0]))
-    smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0
-    condition = float(singular[0]) / smallest if smallest > 0 else float("inf")
-    return Regression(solution.T, magnitudes, rank, condition, len(x_minus))
+    Phi = np.linalg.lstsq(chi[:-1], chi[1:], rcond=None)[0].T
+    magnitudes = np.sort(np.abs(np.linalg.eigvals(Phi)))[::-1]
+    return Regression(magnitudes, int(np.linalg.matrix_rank(chi[:-1], rtol=RANK)))
 
 
 def regression_of(outcome: Outcome) -> Regression:

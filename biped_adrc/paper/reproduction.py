@@ -101,7 +101,6 @@ def judgement(r: Runs) -> dict[str, Any]:
         },
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
-        "multipliers": {name: result.record() for name, result in r.multipliers.items()},
         "push_map": [cell.row() for cell in r.cells],
     }
     return plain(parts)
