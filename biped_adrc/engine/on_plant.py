@@ -113,8 +113,9 @@ class CompiledLoop(SteppingLoop):
             q, v, _, tail = parts(self, x)
             inp[-OUTSIDE:] = self.foot_forces(t, q, v, tail, mode)
         out = self.sample()
-        if out[-1] > 0.0 and math.isfinite(out.dot(out)):
-            return out[:-1]
+        after = out[:-1]  # behind it the least pivot, infinite where nothing is solved
+        if out[-1] > 0.0 and math.isfinite(after.dot(after)):
+            return after
         return super().tick(t, x, mode)
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:

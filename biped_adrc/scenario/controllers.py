@@ -35,7 +35,9 @@ from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scena
 
 Arguments = dict[str, Any]
 """Arguments of a constructor by name."""
-_AROUND = ("contact", "prediction", "feedforward", "inner", "name")
+_WRAPPERS = ("contact", "prediction", "feedforward")
+"""Values of a controller's record that wrap the controller."""
+_AROUND = (*_WRAPPERS, "inner", "name")
 """Values of a controller's record that its constructor does not take."""
 CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
 """Arguments of constructors that come from elsewhere in a scenario."""
@@ -83,7 +85,10 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
         values, used = _values(what, make, c, entry.defaults)
     law = construct(what, make, {**known, **values}, Controller, place)
     for at in c.dotted():
-        if at.partition(".")[0] not in _AROUND and at not in used:
+        head = at.partition(".")[0]
+        if outer and head in _WRAPPERS:
+            raise Misfit(f"{place}.{at}", f"{what} is an outer loop; write {place}.inner.{at}")
+        if head not in _AROUND and at not in used:
             others = [*accepted, *(GAINS if "gains" in accepted else ())]
             text = unknown(at, [x for x in others if x not in CONTEXT])
             text = text.replace("unknown name", f"'{c.name}' does not take it")

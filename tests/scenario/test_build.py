@@ -370,6 +370,14 @@ FINE = {"pushes": "q1=3@2:0.1-0.3", "run": {"fine": 1e-4, "h": 1e-3, "impacts": 
     [
         (lambda: build(Scenario({"inner": "PD"})), r"controller.inner: .*'ADRC' is no outer loop"),
         (
+            lambda: build(Scenario({"name": "footstep", "contact": "hold"})),
+            r"controller.contact.name: .*'footstep' is an outer loop; write controller.inner.contact.name",
+        ),
+        (
+            lambda: build(Scenario({"name": "reference reset", "prediction": 2e-3})),
+            r"controller.prediction: .* write controller.inner.prediction",
+        ),
+        (
             lambda: cycle_of(Scenario(start={"speed": 0.1})),
             "return map takes no start.speed; leave",
         ),
