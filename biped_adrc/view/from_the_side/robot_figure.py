@@ -3,7 +3,7 @@
 A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
 positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
 q4 from the thighs to the shins. p_e is the stance foot, p_2 the swing foot. Theta is the angle of the
-line from the hip to p_e: the phase of the virtual constraints.
+line from the hip to p_e: the phase of the virtual constraints. Absolute angles are those from the vertical.
 """
 
 from __future__ import annotations
@@ -78,14 +78,14 @@ def _angle(
     at: float,
     out: float = 0.0,
 ) -> None:
-    """Draw an arc about `centre` (2,) [m] from absolute angle span[0] to span[1] [rad],
-    with an arrow at its end.
+    """Draw an arc about `centre` (2,) [m] from absolute angle span[0] to span[1] [rad], an arrow at its end.
 
-    radius [m]: of the arc. name: its text, at the share `at` of the arc, `out` [m] outside it.
+    radius [m]: of the arc. name: its text, at the share `at` (0 to 1) of the arc, `out` [m] outside it.
     """
     points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
     axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
+    # the head of the arrow, from a point a little before the end
     axes.annotate("", points[-1], points[-4], arrowprops=arrow, zorder=5)
     middle = span[0] + at * (span[1] - span[0])
     _text(axes, centre + (radius + out) * direction(middle), name, colour)
@@ -105,13 +105,15 @@ def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float 
 
 
 def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """Draw the angles at the hip: q5 from the vertical to the torso, q1 and q2 to the thighs, Theta to p_e.
+    """Draw the angles at the hip: q5 from the vertical to the torso, q1 and q2 from the torso to the thighs,
+    Theta from the vertical to the line to p_e.
 
     The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two arcs meet.
     """
     hip, theta = biped.hip(q), float(biped.phase @ q)
     _ray(axes, hip, hip + 0.72 * direction(0.0))
     for i, radius in enumerate(_HIP_ARCS):
+        # from the prolonged torso to the thigh
         _angle(axes, hip, radius, (q[4], q[4] + q[i]), f"$q_{i + 1}$", PALETTE[i], 0.32)
     _ray(axes, hip, np.zeros(2), "black", 1.3)
     _angle(axes, hip, _THETA_ARC, (0.0, theta), r"$\Theta$", "black", 0.55)
