@@ -2,7 +2,7 @@
 
 `import biped_adrc as ba` gives the public names, such as `ba.Biped`, `ba.Walker`, `ba.simulate`.
 They are listed once, in `__init__.pyi`: a type checker reads that file as it is, and at run time
-this module reads it for the home of each name.
+this module reads in it which module defines each name.
 
 A module is imported when one of its names is first used. Pinocchio, CasADi and matplotlib
 take seconds to load, and most programs need only some of them.
@@ -22,14 +22,14 @@ _HOMES = {
     name: module
     for module, name in re.findall(r"^from biped_adrc\.(\S+) import (\w+)", _STUB, re.M)
 }
-"""Public name -> the module below `biped_adrc` that defines it, read from the stub."""
+"""Public name -> the module below `biped_adrc` that defines it, read from `__init__.pyi`."""
 __all__ = tuple(_HOMES)
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported now; Python calls this for names that the module does not have yet (PEP 562).
+    """Import a public name and return it; Python calls this for names that are not loaded yet (PEP 562).
 
-    Raises AttributeError for what is no public name.
+    Raises AttributeError for other names, and proposes the public name that is most alike.
     """
     if name not in _HOMES:
         near = get_close_matches(name, _HOMES, 1)

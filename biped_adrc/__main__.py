@@ -10,15 +10,17 @@ from contextlib import suppress
 
 def main() -> None:
     """Import the command, which takes its time, and run it."""
-    gc.set_threshold(200_000)  # a walk makes 130 000 objects, which stay
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it looks through all packages
-    codes: list[int] = []
-    atexit.register(_leave, codes)  # before all else, so that it is the last to be called
+    # a walk makes 130 000 objects, which stay: to search them for garbage would be in vain
+    gc.set_threshold(200_000)
+    # else pydantic searches all installed packages for plugins
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    codes: list[int] = []  # the command's exit code, once it has one
+    atexit.register(_leave, codes)  # before all else: the first to register is called last
     try:
         from biped_adrc.cli import main as command
     except KeyboardInterrupt:
         print("interrupted; nothing was begun", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(130)  # a shell's code for Ctrl-C
     try:
         command()
     except SystemExit as stop:
@@ -27,7 +29,10 @@ def main() -> None:
 
 
 def _leave(codes: list[int]) -> None:
-    """End with this exit code, open files written; to take all objects apart would take as long as a walk."""
+    """Write out all open files, and end the process at once with the exit code in `codes`.
+
+    For Python to take all objects apart would last as long as a walk. It does so where `codes` is empty.
+    """
     for x in gc.get_objects():
         if type(x) in (io.TextIOWrapper, io.BufferedWriter):
             with suppress(OSError, ValueError):

@@ -1,14 +1,16 @@
 """The certificate of a step: what a real robot on dry ground would have needed for it.
 
 A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N and
-friction |F_T| / F_N in the mean over a window (`ground_force`), the same ratio of the impulse at impact,
-scuffing of the swing foot, and torque, rate and range of the joints. A step is feasible where these are
-within the `Limits`. A `Certificate` adds numbers of a step that ended in an impact: whether the old foot lifts
-off, the forces at every instant, and the joint work and the energy lost at impact, which on a periodic gait on
-level ground are equal. Forces are those on the plant, along and perpendicular to its ground.
+friction |F_T| / F_N in the mean over a window of 5 ms (`ground_force`), the same ratio of the impulse at
+impact, scuffing of the swing foot, and torque, rate and range of the joints. F_N and F_T are the force of the
+ground perpendicular to and along it. A step is feasible where these are within the `Limits`. A `Certificate`
+adds numbers of a step that ended in an impact: whether the old foot lifts off, the forces at every instant, and
+the joint work and the energy lost at impact, which on a periodic gait on level ground are equal. Forces are
+those on the plant.
 
-`certificates` and `supports` compute them from the nodes of a walk; `feasibility`
-summarises them for the walk.
+A node is an instant at which the run keeps its state, an arc the nodes of one single support; a walk has K
+nodes and S single supports, of which the last may be unfinished. `certificates` and `supports` compute these
+numbers from the nodes; `feasibility` summarises them for the walk.
 """
 
 from __future__ import annotations
@@ -49,7 +51,7 @@ REASONS = {
 AT_NODES = ("normal_force", "friction", "scuffing", "torque", "rate", "range")
 """Reasons whose numbers are those of `ground_force.demands`."""
 _OF_JOINTS = ("torque", "rate", "range")
-"""Reasons that are a joint's."""
+"""Reasons whose number belongs to one joint, the one in which it is largest."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,7 @@ class Support(Shown):
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
-    """How deep the swing foot is below the lower of the footholds, away from the ends of the step [m]."""
+    """Largest depth of the swing foot below the lower foothold, not counted near the ends of the step [m]."""
     slip: float
     """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
     missed_stone: float
@@ -80,7 +82,7 @@ class Support(Shown):
     beyond_range: float
     """By how much an angle is beyond the range that its joint states [rad], 0 within."""
     joints: Mapping[str, Joint]
-    """The joints of the last three numbers: name in OF_JOINTS -> joint."""
+    """The joints of the last three numbers: "torque", "rate" or "range" -> joint."""
     impulse_ratio: float
     """|F_T| / F_N of the impulse of its impact: infinite where the ground would have had to pull, 0 without
     one."""
@@ -88,7 +90,7 @@ class Support(Shown):
     """The limits; mu is infinite on soft ground, where the simulator limits the friction itself."""
 
     def infeasible(self) -> dict[str, str]:
-        """The numbers that are not within their limits: name in `REASONS` -> text; empty for a
+        """The numbers that are not within their limits: name in `REASONS` -> sentence about it; empty for a
         feasible step.
         """
         k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
@@ -125,6 +127,7 @@ class Certificate(Support):
         but: names in `REASONS` that do not count.
         """
         result = [text for name, text in self.infeasible().items() if name not in but]
+        # `not >`, so that NaN is a violation too
         if not self.old_foot_velocity > 0:
             result.append("the old stance foot does not lift off")
         return tuple(result)
@@ -138,8 +141,9 @@ def ratio_text(ratio: float) -> str:
 def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     """Whether numbers x (...,), of the kind `name` in `REASONS`, are within the limits k; NaN is not.
 
-    An infinite friction ratio, where the ground never pushed, counts as within: the normal
-    force then violates its own.
+    An infinite friction ratio, where the ground never pushed, counts as within: the normal force then violates
+    its own limit. Scuffing, angles beyond a range and missed stones have to be 0. The friction cone is wider by
+    ROUND_OFF.
     """
     cone = (1.0 + ROUND_OFF) * k.friction
     if name == "normal_force":
@@ -151,7 +155,10 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
 
 
 def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
-    """Text about a number x of the kind `name` in `REASONS` that is not within its limit, of joint j if any."""
+    """Text about a number x of the kind `name` in `REASONS` that is not within its limit in k.
+
+    j: the joint that has the number; None for numbers that belong to no joint.
+    """
     i, speed, (low, high) = (j.name, j.speed, j.range) if j else ("a joint", 1.0, (0.0, 0.0))
     over = f"over {1e3 * k.window:g} ms"
     return {
@@ -170,26 +177,31 @@ def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
 def limit_series(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> tuple[dict[str, Array], Callable[[str, int], Joint | None]]:
-    """The numbers that limits apply to, by name in `REASONS`: at each of K nodes, or, of stones and impulses,
-    at the end of each single support. And joint(name, i), the joint of a number in OF_JOINTS at node i.
+    """The numbers that limits apply to, by name in `REASONS`, and the function joint(name, i).
 
-    Slips are not among them. Where no window of the mean force ends at a node, its normal force is inf and its
-    friction ratio -inf; the ratio is -inf too where the mean force does not push. impacts: number of single
-    supports that ended in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with
-    it. Where friction is not limited, on soft ground, impulses are 0.
+    The numbers are at the nodes (K,), but those of stones and impulses at the ends of the single supports (S,).
+    joint(name, i): the joint that has the torque, rate or range at node i; None for another name, or without
+    motors. Slips are not among the numbers. Where no window of the mean force ends at a node, its normal force
+    is inf and its friction ratio -inf; the ratio is -inf too where the mean force does not push.
+
+    n: the nodes. k: the limits. impacts: number of single supports that ended in an impact. after (2,) [N s]:
+    momentum after the last impact, where the walk ends with it, else None. Where friction is not limited, on
+    soft ground, impulses are 0.
     """
     at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
     needed = demands(walker, n, k.window, impacts)
     which = dict(zip(_OF_JOINTS, needed[len(AT_NODES) :], strict=True))
+    # joints with the angles q_1 .. q_p in single supports of odd number; in even ones the legs are swapped
     own = walker.plant.motor_joints[1]
 
     def joint(name: str, i: int) -> Joint | None:
         if name not in which or not n.p:
             return None
-        k = int(which[name][i])
-        return own[k if n.at.step[i] % 2.0 else walker.plant.swap[k] % n.p]
+        j = int(which[name][i])
+        # % p: an entry of swap from p on is joint swap - p with the other sign
+        return own[j if n.at.step[i] % 2.0 else walker.plant.swap[j] % n.p]
 
     return dict(zip(AT_NODES, needed, strict=False)) | at_ends, joint
 
@@ -204,16 +216,19 @@ def supports(
 ) -> tuple[Support, ...]:
     """Extremes of each of the S single supports of a walk, of which the first `impacts` ended in an impact.
 
-    k: limits. after (2,) [N s]: momentum after the last impact, where the walk ends with it. slips: slip of
-    each single support on soft ground [m], in place of the friction cone; None on the rigid plant.
+    n: the nodes. k: the limits. after (2,) [N s]: momentum after the last impact, where the walk ends with it,
+    else None. slips: slip of each single support on soft ground [m], in place of the friction cone; None on the
+    rigid plant.
     """
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
     worst, joint = limit_series(walker, n, k, impacts, after)
+    # the joint with the largest number of each single support, from node a to node b - 1
     joints = [
         {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in _OF_JOINTS}
         for a, b in pairwise(n.edges)
     ]
+    # from here on `worst` has one number per single support in place of one per node
     for name in AT_NODES:
         extreme = np.minimum if name == "normal_force" else np.maximum
         worst[name] = extreme.reduceat(worst[name], first)
@@ -228,8 +243,10 @@ def supports(
 
 
 def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
-    """Distance (S,) [m] from its stone at which the foot of each single support lands; 0 where it did not end
-    in an impact.
+    """Distance (S,) [m] by which the foot lands off its stone at the end of each single support.
+
+    It is 0 on the stone, without stones, and for the single supports after the first `impacts`, which did not
+    end in an impact.
     """
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
@@ -258,12 +275,16 @@ def certificates(
     signals: Signals,
     limits: Limits | KnownLimits | None = None,
 ) -> tuple[Certificate, ...]:
-    """Certificate of every single support that ended in an impact; limits None: those of the robot's record."""
+    """Certificate of every single support that ended in an impact.
+
+    signals: those of the trajectory. limits: None for those of the robot's record.
+    """
     k = limits or Limits()
     k = k.of(walker.plant.description) if isinstance(k, Limits) else k
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     result = supports(walker, Nodes.of(signals), k, len(arcs), after)
+    # not strict: the last single support, if it is unfinished, has no arc here and no certificate
     pairs = zip(arcs, result, strict=False)
     return tuple(_certificate(walker, signals.of_step(arc.mode.step), arc, s) for arc, s in pairs)
 
@@ -271,7 +292,8 @@ def certificates(
 def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:
     """Certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc.
 
-    s: signals of the step. support: its extremes.
+    s: signals of the step. support: its extremes. The height of the swing foot is above the ground on which the
+    step ends, which `walker.drop` lowers. Friction is infinite where the ground never pushed.
     """
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])

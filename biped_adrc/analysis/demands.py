@@ -1,7 +1,8 @@
 """What the nodes of a walk demand of ground, motors and joints, and what is summed over them.
 
-A row has the numbers of a `NodeRow`. The mean force of the ground follows by Newton's
-law from the momentum of the robot at the nodes,
+A node is an instant at which a run keeps its state. Its row has the numbers of a `NodeRow`: time, number of the
+single support, external force, error, u, q, q_b', momentum and place of the swing foot. The mean force of the
+ground follows by Newton's law from the momentum of the robot at the nodes,
 
     F = (P(t) - P(t - w) - int f dt) / w + m g e_z        P = m v_com, f the force from outside
 
@@ -9,6 +10,9 @@ over windows of length w that end at a node; whatever the force does between the
 a window begins at one too, and P is taken as linear between nodes where it does not. A stiff sampled
 controller makes the force jump from sample to sample, and a foot slides by what acts over some milliseconds:
 so a step is judged by means (`analysis.certificate`).
+
+Arrays are pointers here, without a shape: `shift(x, i)` points to entry i of x. Shapes in the docstrings say
+how the numbers lie behind a pointer, K nodes, S single supports and p motors.
 """
 
 from __future__ import annotations
@@ -32,8 +36,12 @@ WINDOW, WEIGHT, TANGENT, NEAR, ALONG, NORMAL, SAME, FALLS = 0, 1, 2, 3, 4, 6, 8,
 # reads other memory without an error: the places above have to follow `NodeRow` and `ground_force.Known`.
 @inner
 def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -> None:
-    """out (6, count): at its first column the largest torque [N m], share of a limit of rates [1] and angle
-    beyond a range [rad], 0 for none, and the joints that have them, from 0. joints: as in `Known`."""
+    """Write one node's largest torque [N m], share of the limit of a rate [1], angle beyond a range [rad], 0
+    for none, and the joints that have these three, counted from 0.
+
+    out: pointer to the node's place in the first of six rows of `count` numbers. at: where in the node's `row`
+    each column begins. joints (2, p, 3): as in `Known`, even single supports first.
+    """
     for j in range(6):
         out[j * count] = 0.0
     for i in range(p):
@@ -57,10 +65,11 @@ def demands(
     known: Array,
     out: Array,
 ) -> None:
-    """out (11, K): what `analysis.ground_force.demands` gives at each of K nodes, then P - int f dt (2,) [N s].
+    """Write to out (11, K) the nine rows of `analysis.ground_force.demands`, then P - int f dt (2, K) [N s].
 
-    rows (K, width). first (S + 1,): first node of each single support, and K; the first `impacts` of them ended
-    in an impact. known: the numbers of `ground_force.Known`.
+    rows (K, width): the nodes. at: where in a row each column begins. first (S + 1,): first node of each of the
+    S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: the numbers of
+    `ground_force.Known`.
     """
     count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]
     F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
@@ -68,6 +77,7 @@ def demands(
     window, weight, tangent = known[WINDOW], known[WEIGHT], known[TANGENT]
     ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
     joints = shift(known, FALLS + supports)
+    # i: last node before a window begins. above: whether the foot was above the ground in this single support
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
@@ -84,6 +94,7 @@ def demands(
             loads(row, at, p, joints, shift(out, 3 * count + k), count)
             # t - start falls short of w by round-off where a window begins at the touchdown
             if w > SHORTEST and since >= w - same:
+                # the momentum at the beginning of the window, t - w, is linear between nodes i and i + 1
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
                     i += 1
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
@@ -97,13 +108,18 @@ def demands(
             if height > 0.0:
                 above = True
             elif above and near < since < far:
+                # 0.0 - height is never -0.0, as -height is for 0
                 depth[k] = 0.0 - height
 
 
 @unit
 def totals(rows: Array, width: int, at: Ints, p: int, count: int, out: Array) -> None:
-    """out (6,): largest |e_i| [rad]; number of nodes that a later time follows; over these nodes the sums of
-    |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i [J], dq_i the change to the next node."""
+    """Write to out (6,), which holds zeros: the largest |e_i| [rad] of all nodes; the number of nodes that a
+    later time follows; over these nodes the sums of |e|^2 [rad^2], |u|^2 [N^2 m^2], |u_i dq_i| and u_i dq_i
+    [J], with dq_i the change to the next node.
+
+    rows (count, width): the nodes. at: where in a row each column begins. e: tracking error (p,).
+    """
     for k in range(count):
         row = shift(rows, k * width)
         e, u, q = shift(row, at[ERROR]), shift(row, at[U]), shift(row, at[Q])

@@ -3,6 +3,9 @@
 `certificate` has the numbers of every single support. Here they decide about the walk: an outcome in one word,
 the reasons in words, and the extreme numbers over all steps (`Feasibility`). `until_infeasible` cuts a walk at
 its first violation, for studies that count feasible steps only. `scenario.walk` calls both.
+
+A node is an instant at which the run keeps its state, an arc the nodes of one single support. "Broken" limits
+are those that a step does not keep, by their names in `certificate.REASONS`.
 """
 
 from __future__ import annotations
@@ -51,7 +54,10 @@ COUNTED = ("feasible", "but_impact")
 
 
 def outcome_of(status: Status, broken: Collection[str]) -> str:
-    """Outcome of a walk, a word in `OUTCOMES`; broken: names in `REASONS` that are not within their limits."""
+    """Outcome of a walk, a word in `OUTCOMES`, from its status and the broken limits, names in `REASONS`.
+
+    A walk that was not completed and did not fall has "ended", whatever it broke.
+    """
     if status is Status.FELL:
         return "fell"
     if status is not Status.COMPLETED:
@@ -88,11 +94,11 @@ class Feasibility(Shown):
     supports: tuple[Support, ...]
     """The single supports, in order."""
     touchdowns: int
-    """Number of the supports that ended in a touchdown."""
+    """Number of the supports that ended in a touchdown, the first ones."""
 
     @cached_property
     def broken(self) -> list[dict[str, str]]:
-        """`Support.infeasible` of each single support."""
+        """For each single support the limits that it breaks: name in `REASONS` -> sentence."""
         return [s.infeasible() for s in self.supports]
 
     @cached_property
@@ -113,7 +119,7 @@ class Feasibility(Shown):
 
     @property
     def feasible_impacts(self) -> int:
-        """Number of impacts before the first step that is not feasible."""
+        """Number of impacts before the first step that is not feasible; all of them where each step is."""
         infeasible = (k for k, broken in enumerate(self.broken[: self.touchdowns]) if broken)
         return next(infeasible, self.touchdowns)
 
@@ -148,8 +154,9 @@ def first_violation(
     violates a limit; or None.
 
     n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
-    [N s]: momentum after the last impact, where the walk ends with it.
+    [N s]: momentum after the last impact, where the walk ends with it, else None.
     """
+    # the first violation of each kind; a number that is one per single support counts at its end
     result = []
     numbers, joint = limit_series(walker, n, k, impacts, after)
     for name, x in numbers.items():
@@ -168,12 +175,12 @@ def until_infeasible(
     limits: Limits | None = None,
     slipped: Sequence[float] | None = None,
 ) -> Trajectory:
-    """Cut a trajectory at its first violation, with the status INFEASIBLE; returned as
-    it is where there is none.
+    """Cut a trajectory at its first violation, with the status INFEASIBLE; without one it is returned as it is.
 
-    slipped: on soft ground, the time [s] in each single support when a foot has slipped by SLIP, infinite for
-    never; it counts in place of the friction cone. Everything before the violation is unchanged; the arc ends
-    at the last node that is not after it.
+    signals: those of the trajectory. limits: None for those of the robot's record. slipped: on soft ground, the
+    time [s] in each single support when a foot has slipped by SLIP, infinite for never; it counts in place of
+    the friction cone. Everything before the violation is unchanged; the arc ends at the last node that is not
+    after it.
     """
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:

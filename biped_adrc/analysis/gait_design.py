@@ -10,8 +10,10 @@ A family of gaits is a library by speed and step length, and two fits.
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
     steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
 
-A step of the family goes from the member that ended the step before to another one (`control.footstep`).
-Along it W, the work of gravity, and J are integrals over Theta (`gait.zero_dynamics`), without a simulation.
+A member of the family is the gait of one pair (v, L). A step goes from the member that ended the step before to
+another one, which is chosen during the step, at its share DECISION in Theta (`control.footstep`).
+Along it W, the work of gravity, and J are integrals over Theta, without a simulation. delta is the ratio of the
+angular momenta about the stance foot after and before an impact (`gait.zero_dynamics`).
 """
 
 from __future__ import annotations
@@ -63,9 +65,9 @@ class DesignedGait(Shown):
     certificate: Certificate
     """Forces and torques of its first simulated step."""
     multiplier: float
-    """delta^2 of the zero dynamics."""
+    """delta^2 of the zero dynamics, by which a deviation of sigma-^2 is multiplied in each step [1]."""
     gap: float
-    """max |x- of the walk - x- of the gait| after STEPS steps [rad, rad/s]."""
+    """max |x- of the walk - x- of the gait| after two steps [rad, rad/s], x- the state before impact."""
     iterations: int
     """Iterations of IPOPT."""
     seconds: float
@@ -139,9 +141,10 @@ def design_gait(
 
 
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
-    """Simulate STEPS steps of an optimised gait under NPD and check its first step against the limits.
+    """Simulate two steps of an optimised gait under NPD and check its first step against the limits.
 
-    The simulation shares neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
+    NPD is the paper's feedback linearisation with PD. optimum: the result of `optimise`. The simulation shares
+    neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
 
     Raises GaitError when the gait does not walk, violates a limit, or leaves its orbit.
     """
@@ -197,9 +200,10 @@ def library(
 ) -> list[tuple[float, float, Gait]]:
     """Speed [m/s], step length [m] and the gait of least torque, for each pair that has one.
 
-    done: is called after each pair with a line of text about it. Raises GaitError where fewer pairs have a gait
-    than the fit needs.
+    The pairs are all of a speed in `speeds` [m/s] and a length in `lengths` [m]. done: is called after each
+    pair with a line of text about it. Raises GaitError where fewer pairs have a gait than the fit needs.
     """
+    # least: number of coefficients of a polynomial in two variables of this degree
     least, gaits = (CURVE_DEGREE + 1) * (CURVE_DEGREE + 2) // 2, []
     if min(len(set(speeds)), len(set(lengths))) <= CURVE_DEGREE:
         raise GaitError(
@@ -229,15 +233,17 @@ def design_family(
     provenance: Mapping[str, object],
     seed: int = 0,
 ) -> GaitFamily:
-    """The family through a library of gaits, as `library` returns it.
+    """The family fitted to a library of gaits, (v, L, gait) as `library` returns them.
 
-    provenance: how the library was made, beside what its gaits say. seed: of the random steps.
-    Raises GaitError where a member that was designed has no periodic walk in the family.
+    name: of the family. provenance: how the library was made, beside what its gaits say. seed: of the random
+    steps. Raises GaitError where a member that was designed has no periodic walk in the family.
     """
+    # a row of y: all coefficients of the curve, Theta+, Theta-
     mu, first = np.array([(v, L) for v, L, _ in gaits]), gaits[0][2].provenance
     constraints = [gait.constraint for _, _, gait in gaits]
     y = [(*c.curve.coefficients.ravel(), c.theta_plus, c.theta_minus) for c in constraints]
     curves = PolynomialMap.fit(mu, np.array(y), CURVE_DEGREE)
+    # a placeholder: the functions below need the family's curves alone, and give its real `steps`
     empty = PolynomialMap(((0,),), np.zeros((1, 1)), np.zeros(1), np.ones(1))
     family = GaitFamily(
         name,
@@ -252,6 +258,7 @@ def design_family(
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
+    # a row of `ends`: v, before, L, end, ahead, the arguments of `step_integrals`
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
@@ -264,13 +271,15 @@ def design_family(
 def step_integrals(
     biped: Biped, family: GaitFamily, v: float, before: float, L: float, end: float, ahead: float
 ) -> Array:
-    """delta^2 after a step, 2 W', J' up to the next decision, dq_b/dTheta (p,) there, 2 W, J after it (p + 5,).
+    """The numbers of two steps in a row: delta^2, 2 W', J', dq_b/dTheta (p,), 2 W, J, together (p + 5,).
 
-    The first step is L [m] long, follows one of length `before` [m], and ends on the member (v [m/s], L). The
-    second step begins there and ends on the member (end [m/s], ahead [m]). W [kg^2 m^4/s^2] and J [kg m^2] are
-    those of `_integrals`: with ' from the second step's start to its decision, without from there to its end.
+    The first step is L [m] long, follows one of length `before` [m], and ends on the member (v [m/s], L); delta
+    is of its impact. The second step begins with dq_b/dTheta just after that impact, on the member (v, ahead
+    [m]), and ends on the member (end [m/s], ahead). W [kg^2 m^4/s^2] and J [kg m^2] are those of `_integrals`
+    of the second step: with ' from its start to its decision, without from there to its end.
     """
     c, p, mu = family.phase, biped.p, np.array((v, L))
+    # Theta at the start and end of the first step; the step before it ended on `earlier`
     earlier = family.member(v, before)
     plus = float(c @ biped.relabel(configuration(c, earlier.h, earlier.theta_minus)[0]))
     minus = family.curve(mu)[2]
@@ -293,7 +302,8 @@ def _integrals(
 ) -> tuple[float, float]:
     """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2], Theta from start to end [rad].
 
-    G_N is gravity's torque on the unactuated row, and sigma = I(Theta) Theta' on the curve.
+    c (n,): Theta = c q. G_N is gravity's torque on the unactuated row, and sigma = I(Theta) Theta' on the
+    curve.
     """
     s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
@@ -306,7 +316,10 @@ def _integrals(
 
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
-    """Compute speed, step length, friction, peak torque [N m] and least F_N [N] of a member's periodic step."""
+    """(v, L, friction, peak torque [N m], least F_N [N]) of the periodic step of the member (v, L).
+
+    h: the member's constraint.
+    """
     orbit = ZeroDynamics.of(biped, h).cycle
     F_T, F_N = orbit.ground_reaction.T
     numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)

@@ -46,13 +46,16 @@ class Nodes:
         return cls(np.ascontiguousarray(parts), n, p)
 
     def before_fall(self, h: VirtualConstraint, phase: Array) -> Nodes:
-        """The nodes of a fall that have a tracking error (`signals.nodes_before_fall`); phase (n,) [1]."""
+        """The nodes of a walk that fell, without those in the fall, where no tracking error is defined.
+
+        h: the curve that is tracked (`signals.nodes_before_fall`). phase (n,) [1]: c of Theta = c q.
+        """
         count = nodes_before_fall(self.at.step, self.at.reading.q @ phase, h)
         return Nodes(self.rows[:count], self.n, self.p)
 
     @cached_property
     def at(self) -> NodeRow:
-        """The columns by name, with a leading axis of K; a repeated time is a jump."""
+        """The columns of `rows` by name, with a leading axis of K; a repeated time is a jump."""
         return node_layout(self.n, self.p).tree(self.rows)
 
     @cached_property
@@ -62,7 +65,7 @@ class Nodes:
 
     @property
     def pointers(self) -> tuple[int, int, int, int]:
-        """The first arguments of the compiled loops."""
+        """The first arguments of the compiled loops: address of the rows, width, address of `_starts`, p."""
         return self.rows.ctypes.data, self.rows.shape[1], self._starts.ctypes.data, self.p
 
     @property
@@ -99,7 +102,7 @@ class Known(NamedTuple):
     same: float
     """By how much two times of one instant may differ [s]."""
     falls: Array
-    """By how much the ground of each single support falls (S,) [m]."""
+    """Depth of the ground at the end of each single support below that at its start (S,) [m], 0 if higher."""
     joints: Array
     """In even and in odd single supports (2, p, 3): largest rate [rad/s], lower and upper end of the range
     [rad]."""
@@ -113,22 +116,24 @@ LOOPS = (
 
 
 def _loops() -> Any:
-    """The functions `demands` and `totals` of `analysis.demands`, compiled, to be called with addresses."""
+    """The functions `demands` and `totals` of `analysis.demands`, compiled, with 9 and 6 arguments, arrays by
+    address.
+    """
     return compiled(LOOPS, demands=9, totals=6)
 
 
 def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
-    """Compute what each of the K nodes of a walk demands of ground and joints: rows (9, K).
+    """Compute what each of the K nodes `n` of a walk demands of ground and joints: rows (9, K).
 
     0, 1: F_N [N] and |F_T| / F_N of the mean ground force over the window [s] that ends at the node; 2: depth
     of the swing foot below the ground [m]; 3, 4, 5: over the joints the largest |u_i| [N m], |q_i'| over its
     limit [1], and angle beyond its range [rad]; 6, 7, 8: the joint, from 0, that has each of these three.
 
     Where no window ends at a node, F_N is inf and the ratio -inf; the ratio is -inf too where the ground does
-    not push. A single support shorter than the window is averaged as a whole. The ground has the height of the
-    lower of the two footholds. Depth counts from the first node with the foot above it, since the foot may
-    come from lower ground, and not near the ends of a single support. Only the first `impacts` single supports
-    ended in an impact; of the others the end counts too.
+    not push. In a single support shorter than the window the mean is over all of it. The ground has the height
+    of the lower of the two footholds. Depth counts from the first node with the foot above it, since the foot
+    may come from lower ground, and not near the ends of a single support. Only the first `impacts` single
+    supports ended in an impact; of the others the end counts too.
     """
     slope, plant = walker.ground_slope, walker.plant
     along, normal = np.array(ground_axes(slope))
@@ -141,6 +146,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
     _loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
+    # the last two rows are intermediate results of the loop
     return result[:9]
 
 
@@ -152,6 +158,7 @@ def totals(n: Nodes) -> list[float]:
     """
     out = np.zeros(6)
     _loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
+    # out[1] is the number of nodes that count, so these are means over nodes and joints
     out[2:4] = np.sqrt(out[2:4] / max(out[1] * n.p, 1.0))
     return [out[0], *out[2:]]
 
@@ -160,8 +167,10 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     """|F_T| / F_N of the impulse of the impact that ends each of the S single supports (S,).
 
     Infinite where the ground would have had to pull; 0 for the single supports after the first `impacts`, which
-    did not end in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
+    did not end in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with it,
+    else None.
     """
+    # the momentum after an impact is that at the first node of the next single support
     result, P = np.zeros(len(n.steps)), n.at.reading.momentum
     plus = P[n.edges[1:-1]]
     if after is not None:
@@ -172,7 +181,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
 
 
 def ratios(F: Array, without: float) -> Array:
-    """|F_T| / F_N of the rows of F (M, 2), and `without` where F_N is not positive; NaN stays."""
+    """|F_T| / F_N (M,) of the rows (F_T, F_N) of F (M, 2); `without` where F_N is not positive; NaN stays."""
     pushes = F[:, 1] > 0.0
     result = np.abs(F[:, 0]) / np.where(pushes, F[:, 1], 1.0)
     return np.where(pushes | np.isnan(F[:, 1]), result, without)

@@ -2,11 +2,11 @@
 
     P: x-(k) -> x-(k + 1),   P(x*) = x*
 
-P takes a state just before impact through the impact and one single support to the next impact. On
-the section the swing foot is on the ground, so the ten numbers of (q, q') of RABBIT have nine
-degrees of freedom. Section coordinates s drop q_N, which the height of the swing foot gives back.
-The controller's states are coordinates too: without them the map of a closed loop with an observer
-is that of another system, except when the reset at impact forgets them.
+P takes a state just before impact through the impact and one single support to the next impact. On the section
+the swing foot is on the ground, so the ten numbers of (q, q') of RABBIT have nine degrees of freedom. Section
+coordinates s drop q_N, which the height of the swing foot gives back. The controller's states are coordinates
+too: without them the map of a closed loop with an observer is that of another system, except when the reset at
+impact forgets them. c is their number, n that of the coordinates q.
 
 P runs in compiled code, several points in parallel, or step by step with Pinocchio where a part of
 the walker cannot be compiled. dP/ds is by differences here; `variational` has it without.
@@ -100,7 +100,10 @@ class ReturnMap(Shown):
         return self.walker.plant.n - 1
 
     def project(self, x: Array) -> Array:
-        """Section coordinates s (2 n - 1 + c,) of a state x before impact (2 n + c,) [rad, rad/s]."""
+        """Section coordinates s (2 n - 1 + c,) of a state x before impact (2 n + c,) [rad, rad/s].
+
+        s is x without q_N, and, if `controller_states` is False, without the controller's states too (c = 0).
+        """
         end = len(x) if self.controller_states else 2 * self.walker.plant.n
         return np.delete(x[:end], self._dropped)
 
@@ -150,7 +153,7 @@ class ReturnMap(Shown):
         return [self.project(walked.x_minus[-1]) for walked in images]
 
     def compiled(self, x: Array) -> CompiledWalker | None:
-        """The compiled walker with states as x (nx,), or None where there is no compiled form."""
+        """The compiled walker for states with the layout of x (2 n + c,); None without a compiled form."""
         if self.engine != COMPILED:
             return None
         try:
@@ -161,8 +164,10 @@ class ReturnMap(Shown):
     def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
         """Simulate a walker, or a system that contains one, from x (2 n + c,) after impact to its next impact.
 
+        mode: number and start [s] of the single support.
         Raises SimulationError, with the status, when there is none.
         """
+        # the walker's own limit max_step_time comes first; this one only ends every run
         limit = 2.0 * self.walker.max_step_time
         run = simulate(system, x, mode, self.method, t_end=limit, stop_after=(FOOT_STRIKE, 1))
         if not run.status.ok:
@@ -193,6 +198,7 @@ class ReturnMap(Shown):
             gap = self(s) - s
             residual = float(np.max(np.abs(gap)))
             done = residual < tolerance
+            # J is dP/ds at s_J, and no longer that at s once s has moved by more than the differences
             stale = float(np.max(np.abs(s - s_J))) > self.difference
             if stale and (done or residual > _CHORD * previous):
                 J, s_J = self.jacobian(s), s
@@ -208,9 +214,10 @@ def _no_return(status: Status, detail: str) -> SimulationError:
 
 
 def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
-    """State x+ and mode after the impact of a walker in x (2 n + c,) [rad, rad/s] at t [s].
+    """State x+ (2 n + c,) and mode after the impact of a walker in x (2 n + c,) [rad, rad/s] at t [s].
 
-    Raises SimulationError where the swing foot is behind the stance foot.
+    mode: number and start [s] of the single support that ends with it. Raises SimulationError where the swing
+    foot is behind the stance foot.
     """
     after = walker.strike(t, x, mode)
     if after is None:
@@ -219,7 +226,7 @@ def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
 
 def newton_step(J: Array, gap: Array) -> Array:
-    """Solve (1 - J) ds = gap for ds (k,), with J = dP/ds (k, k) and the gap P(s) - s (k,) [rad, rad/s].
+    """Newton's step ds (k,) towards P(s) = s: (1 - J) ds = gap, with J = dP/ds (k, k), gap = P(s) - s (k,).
 
     Raises SingularError when 1 is a multiplier.
     """

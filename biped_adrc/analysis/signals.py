@@ -3,9 +3,10 @@
 A trajectory stores states only. Controllers have no hidden state, so every other signal is computed
 again from the stored states, at the stored nodes, by the same closed loop (`closed_loop.system`)
 that made them; compiled where the walk was. Plots, metrics, certificates and exports read
-`Signals`.
+`Signals`. A node is an instant at which the run stored its state, an arc the nodes of one single support.
 
-On another plant motion and forces of the ground are recorded and not computed:
+On another plant, such as MuJoCo's on soft ground, motion and forces of the ground are recorded and not
+computed:
 
     q'' by differences from tick to tick,   F of the ground as recorded,   xi = q_b'' - kappa u
 
@@ -95,7 +96,7 @@ class Signals(Shown):
     """(K, p) kappa^-1 (xi^ - xi_nominal): estimated joint torque beyond the model [N m]; NaN without an
     observer."""
     ground_reaction: Array
-    """(K, 2), (F_T, F_N) [N], horizontal and vertical on any ground."""
+    """(K, 2), force of the ground (F_T, F_N) on the robot [N], horizontal and vertical on any slope."""
     outside: Array
     """(K, 2), resultant external force on the robot [N], along x and z."""
     momentum: Array
@@ -133,7 +134,7 @@ class Signals(Shown):
 
     @property
     def before_fall(self) -> Signals:
-        """The rows that have a tracking error: all of a walk that did not fall."""
+        """These signals without their rows in a fall, where the error is NaN."""
         rows = ~np.any(np.isnan(self.error), axis=1)
         if np.all(rows):
             return self
@@ -148,8 +149,9 @@ class Signals(Shown):
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """Compute the signals of a walk; `reference` gives q_d (usually the controller's own).
 
-    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
-    they are computed in compiled code where that is possible.
+    In a fall the error is NaN (`nodes_before_fall`). Where outer loops correct the reference, q_d is the
+    corrected one. Of a compiled run, and of a long one, they are computed in compiled code where that is
+    possible.
     """
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
@@ -167,8 +169,8 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
 
 
 def nodes_before_fall(step: Array, theta: Array, h: VirtualConstraint) -> int:
-    """How many nodes of a fall have a tracking error: those up to the last one of the last single support at
-    which Theta is between both ends of the curve, or up to the first one of it.
+    """How many nodes of a walk that fell have a tracking error: all up to the last node at which Theta is
+    between both ends of the curve h, and at least up to the first node of the last single support.
 
     step (K,): numbers of the single supports at the nodes. theta (K,) [rad]: Theta there.
     """
@@ -180,7 +182,10 @@ def nodes_before_fall(step: Array, theta: Array, h: VirtualConstraint) -> int:
 def readings(
     walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
 ) -> InstantSignals:
-    """Evaluate the closed loop at all nodes of a walk, in NumPy; fields (K, ...)."""
+    """Evaluate the closed loop at all nodes of a walk, in NumPy; fields (K, ...).
+
+    reference: the curve from which errors are taken. Nodes at jumps are read just before them (`Arc.seen`).
+    """
     rows = [
         signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))
         for arc in trajectory.arcs
@@ -192,7 +197,7 @@ def readings(
 def compiled_readings(
     walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
 ) -> InstantSignals | None:
-    """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
+    """`readings` in compiled code: all signals at all K nodes; None where a part has no compiled form.
 
     reference: the curve from which errors are taken, which need not be the one the controller tracked. Nodes
     at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
@@ -212,6 +217,7 @@ def compiled_readings(
         code, K = program.reading(signals_at), program.K
     except (NotCompiled, ModelError):
         return None
+    # one instant in Python, for the shapes of the results alone
     example = signals_at(walker, first.t[0], first.x[0], first.mode, point)
     shapes = tuple(np.shape(part) for part in example)
     call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
@@ -220,7 +226,10 @@ def compiled_readings(
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
+    """Inputs of the compiled reading at the K nodes of an arc, in rows (t, step, start, x, zeta, zeros).
+
+    The zeros stand for forces on the feet, which no signal needs.
+    """
     from biped_adrc.engine.calls import pushes, zeta_rows
     from biped_adrc.engine.kernels.record import OUTSIDE
     from biped_adrc.engine.not_compiled import NotCompiled
@@ -236,7 +245,11 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
 
 def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Signals:
-    """Make the signals from the closed loop's values r at the nodes, the states and the footholds."""
+    """Make the signals from the closed loop's values r at the nodes, the states and the footholds.
+
+    In r the ground force includes the force from outside, which is subtracted, and the potential energy is zero
+    at the height of the stance foot of each step.
+    """
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
     r = as_recorded(walker, trajectory, r)
     x = np.vstack([arc.x for arc in arcs])
@@ -268,7 +281,8 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
 
 # -- on another plant ---------------------------------------------------------------------------------
 def recorded(trajectory: Trajectory, name: str) -> Array | None:
-    """A reading of the feet by its name, such as their forces, at all K nodes of a walk (K, 4).
+    """A reading of the feet by its name, such as FORCE, at all K nodes (K, 4): (x, z) of the stance foot, then
+    of the other one.
 
     Plants with contacts of their own record it in each arc; None for a walk on the rigid plant, which does not.
     """
@@ -280,8 +294,8 @@ def recorded(trajectory: Trajectory, name: str) -> Array | None:
 def footholds(walker: Walker, trajectory: Trajectory) -> Array:
     """x and z [m] of the stance foot at the start of each arc (arcs, 2).
 
-    The first stands at x = z = 0, each impact moves it by p_2(q-), the swing foot; on
-    soft ground it is recorded.
+    The first stands at x = z = 0, and each impact moves it by p_2(q-), the place of the swing foot relative to
+    it; on soft ground it is recorded.
     """
     foot, feet, plant = np.zeros(2), [], walker.plant
     for arc in trajectory.arcs:
@@ -324,7 +338,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
 
 
 def accelerations(arc: Arc, n: int) -> Array:
-    """q'' (K, n) [rad/s^2] at the nodes of an arc, as recorded there by differences of rates.
+    """q'' (K, n) [rad/s^2] of n coordinates at the nodes of an arc, as recorded there by differences of rates.
 
     Over less than SAME_INSTANT, as where a push ends at a sample instant up to round-off, a difference is
     round-off too: there q'' is that of the interval before, or after it at the start.
@@ -349,12 +363,14 @@ def integrate(t: Array, y: Array) -> float:
     if not np.all(np.isfinite(y)):
         return math.inf
     width = np.diff(t)
+    # first node of each smooth piece; the interval at a jump and the one added at the end have no area
     starts = np.append(0, np.flatnonzero(width == 0.0) + 1)
     area = np.append(width * (y[1:] + y[:-1]) / 2.0, 0.0)
     pieces = np.add.reduceat(area, starts)
     for i in np.flatnonzero(np.diff(starts, append=len(t)) >= 4):
         piece = slice(starts[i], starts[i + 1] if i + 1 < len(starts) else None)
         pieces[i] = _under_spline(t[piece], y[piece])
+    # cumsum adds in the order of time, np.sum in another one with other round-off
     return float(np.cumsum(pieces)[-1])
 
 
@@ -369,6 +385,7 @@ def _under_spline(t: Array, y: Array) -> float:
     A, b = np.zeros((3, len(t))), np.empty(len(t))  # above, on and below the diagonal
     A[0, 2:], A[1, 1:-1], A[2, :-2] = h[:-1], 2.0 * (h[:-1] + h[1:]), h[1:]
     b[1:-1] = 3.0 * (h[1:] * m[:-1] + h[:-1] * m[1:])
+    # the not-a-knot conditions, in the first and the last equation
     for i, j, row in ((0, 1, 0), (-1, -2, 2)):
         d = h[i] + h[j]
         A[1, i], A[row, j] = h[j], d
@@ -389,6 +406,7 @@ def largest(t: Array, y: Array, dy: Array) -> float:
     h = np.diff(t)[:, np.newaxis]
     rise, d0, d1 = np.diff(y, axis=0), h * dy[:-1], h * dy[1:]
     a, b, c = 3.0 * (d0 + d1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * d0 - d1), d0
+    # the roots are root / a and c / root, without cancellation; NaN and those outside of (0, 1) become s = 0
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         root = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
         result = [np.abs(y).max(initial=0.0)]

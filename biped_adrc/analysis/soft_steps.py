@@ -4,8 +4,9 @@
     carries      F_N > carrying
     depth        of a foot point below the ground
 
-Times are of the readings (`closed_loop.feet`), each of which stands for half the way to its neighbours, so
-that single support, double support and flight add up to the duration.
+F_N and F_T are the forces of the ground on a foot out of it and along it, v_T is the foot's velocity along it,
+and mu the friction of the ground. Times are of the readings (`closed_loop.feet`), each of which stands for half
+the way to its neighbours, so that single support, double support and flight add up to the duration.
 
 `contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
@@ -83,7 +84,8 @@ def recorded_steps(
 
 
 def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
-    """Time [s] in each single support at which a foot has slipped by more than SLIP, infinite for never.
+    """Time of the run [s] at which, in each single support, a foot has slipped by more than SLIP; inf for
+    never.
 
     run: with the readings of the feet at its nodes. friction: mu of the ground [1]. axes: two unit vectors
     (2,), along the ground and out of it. A time is that of the first node beyond SLIP.
@@ -99,7 +101,9 @@ def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> t
 
 
 def feet_of(arc: Arc) -> list[Array]:
-    """Forces [N], places [m] and speeds [m/s] of the feet at the K nodes of an arc, each (K, 2, 2)."""
+    """Forces [N], places [m] and velocities [m/s] of the feet at the K nodes of an arc, each (K, 2, 2): stance
+    foot and the other one, each (x, z).
+    """
     return [arc.read[name].reshape(-1, 2, 2) for name in FEET[:3]]
 
 
@@ -116,6 +120,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     pressed = normal > PRESSED
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
     feet, (stance, other) = carries.sum(axis=1), map(float, w @ (slips * speed))
+    # FEET[3]: heights (K, 2) of the ground below both feet
     return SoftStep(
         duration=float(arc.t[-1] - arc.t[0]),
         double_support=float(w @ (feet == 2)),
@@ -129,7 +134,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
 def slipping(
     force: Array, speed: Array, friction: float, axes: tuple[Array, Array]
 ) -> NDArray[np.bool_]:
-    """Whether each foot slips (...,), from its force [N] and speed [m/s], each (..., 2).
+    """Whether each foot slips (...,), from its force [N] and its velocity `speed` [m/s], (x, z) in (..., 2).
 
     friction: mu of the ground [1]. axes: two unit vectors (2,), along the ground and out of it.
     """
@@ -163,13 +168,16 @@ class ContactErrors(NamedTuple):
 
 
 def contact_errors(x: Signals) -> ContactErrors:
-    """Tracking errors of a walk at its nodes, separated into those of touchdowns, of
-    pushes, and all settled ones.
+    """Tracking errors of a walk at its nodes: those of touchdowns, of pushes, and all settled ones.
+
+    The module says which nodes are settling and pushed; the settled ones include the pushed ones.
     """
     _, first, support = np.unique(x.step, return_index=True, return_inverse=True)
     settling = x.t - x.t[first][support] <= SETTLING + SAME_INSTANT
+    # acted: the last time up to each node at which zeta was not zero, -inf before the first push
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
     pushed = x.t - acted <= AFTER + SAME_INSTANT
+    # nodes that a later time follows: of the two nodes at a jump only the second counts in the mean
     lasts = np.append(np.diff(x.t) > 0.0, False)
     settled = x.error[lasts & ~settling]
     return ContactErrors(

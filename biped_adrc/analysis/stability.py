@@ -1,7 +1,8 @@
 """Whether a walking cycle is stable: its multipliers by two methods side by side, and which to trust.
 
-P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point. The
-multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is stable if all |lambda| < 1.
+P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point, q and q'
+without q_N, then the controller's states. The multipliers of a cycle, P(s) = s, are the eigenvalues lambda of
+dP/ds; it is stable if all |lambda| < 1.
 
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
@@ -95,10 +96,10 @@ class StabilityTable(Shown):
         return self.gap() <= 1.0
 
     def gap(self, noise: Array | float | None = None) -> float:
-        """Largest distance of the two sets, in units of the tolerance; at most 1 when
-        they agree, 0 for one set.
+        """Largest distance of the two sets, in units of the tolerance: at most 1 when they agree, 0 where only
+        one set is trusted.
 
-        noise: least tolerance (k,) of each multiplier, the table's own if None.
+        noise (k,): the tolerance of each multiplier is at least this; the table's own if None, 0 for none.
         """
         if self.trusted is self.central:
             return 0.0
@@ -117,6 +118,7 @@ class StabilityTable(Shown):
         if self.variational is None:
             return last
         gap, within = self.gap(), f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
+        # gap(0.0): whether they agree by the tolerances alone, or only within the noise
         if max(self.gap(0.0), gap) > 1.0:
             within += f" or what root finder and step leave open, at most {np.max(self.noise):.1e}"
         far = f"disagrees, {gap:.3g} times the tolerance of" if gap > 1.0 else "agrees within"
@@ -131,7 +133,7 @@ class StabilityTable(Shown):
 
 
 def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> float:
-    """Largest distance of two sets (k,), paired at least total distance, in units of the tolerance.
+    """Largest distance of two sets (k,) in pairs of least total distance, in units of the tolerance.
 
     A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), a bound
     of the numerical error of each multiplier in `other`.
@@ -161,6 +163,7 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
+    # tau is the tolerance of the root finder; the result is in the order of the multipliers
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
     late += step.flow_residual * np.abs(step.earlier) @ size
     noise: Array = np.abs(y @ step.end_flow) * late / np.abs(np.sum(left.conj() * right, axis=0))
@@ -178,21 +181,20 @@ def central_multipliers(P: ReturnMap, s: Array) -> ComplexArray:
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
     """Distance of the state after impact from the constraint q_b = h(Theta); zero for a hybrid invariant one.
 
-    The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s], after an impact at the end
-    of the constraint with |Theta'-| = 1 rad/s.
+    + and - mark the state after and before the impact. The larger of max |q_b+ - h(Theta+)| [rad] and max
+    |q_b'+ - h' Theta'+| [rad/s], after an impact at the end of the constraint with |Theta'-| = 1 rad/s.
     """
     q, v = ZeroDynamics.of(biped, constraint).end_state(1.0)
+    # end_state has sigma = 1; the rates are scaled to |Theta'-| = 1 rad/s
     jump = impact_jump(biped, constraint, q, v / abs(float(constraint.phase @ v)))
     return float(np.max(np.abs(jump)))
 
 
 def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
-    """Compute multipliers by both methods at the fixed point of `step`, as
-    `variational.periodic_orbit` finds it.
+    """Compute multipliers by both methods at the fixed point, as `variational.periodic_orbit` finds it.
 
-    step: dP/ds by the variational equation along one walking step.
-
-    The variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
+    P: the return map. step: dP/ds by the variational equation along one walking step from the fixed point. The
+    variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
     `StepDerivative.flow_residual`. Central differences of P cost 4 steps of walking per coordinate.
     """
     doubt = ""
@@ -221,9 +223,10 @@ usual, since light feet leave a round-off of 1e-10 in P."""
 
 
 def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
-    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
+    """The stored cycle of a robot without motors, with a guess of its fixed point.
 
-    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
+    slope [rad]: of the ground, near the one for which the cycle is stored; None for that one. Raises GaitError
+    when none is stored, SimulationError when the robot does not come to a first impact.
     """
     # pitch: q_N of these robots is the angle of a leg, pi where it is vertical; the search for q_N begins there
     known = passive_cycle(biped)
@@ -235,7 +238,7 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
 
 
 def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
-    """(q, v), each (n,) [rad, rad/s], just after the impact of the cycle on a slope [rad].
+    """(q, v), each (n,) [rad, rad/s], just after impact in the cycle of a robot without motors; slope [rad].
 
     Raises SimulationError where Newton's method finds no cycle.
     """
@@ -273,6 +276,7 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     """
     check_part(cycle, "cycle", Cycle)
     P = cycle.P
+    # a controller with states
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
@@ -284,8 +288,8 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
     """Certificate of the step at the fixed point: the forces and torques it needs, with these limits.
 
-    Certificates depend on states, torques and forces alone, so the signals are computed
-    with a reference of zeros.
+    limits: None for those of the robot's record. Certificates depend on states, torques and forces alone, so
+    the signals are computed with a reference of zeros.
 
     Raises SimulationError where the step does not end with an impact.
     """

@@ -38,7 +38,10 @@ def share(successes: int, count: int) -> Interval:
 
 
 def median(values: Sequence[float]) -> Interval:
-    """Median of at least one number, infinite ones included, with the interval of its order statistics."""
+    """Median of at least one number, infinite ones included, with the interval of its order statistics.
+
+    An end of the interval is NaN where there are too few numbers for it.
+    """
     result = scipy.stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
     return Interval(float(np.median(values)), float(result.low), float(result.high))
 
@@ -59,16 +62,18 @@ class Paired(NamedTuple):
     ratio: Interval
     """Median of the ratios, with its interval."""
     p: float
-    """p-value of the sign test: probability of as many differences of one sign, were both equally likely.
-    Equal numbers have no sign; NaN of one pair."""
+    """p-value of the two-sided sign test: probability of at least as uneven signs, were both signs equally
+    likely. Pairs of equal numbers are left out; NaN for a single pair.
+    """
     pairs: int
-    """Number of pairs with a ratio: those without an infinite number on both sides."""
+    """Number of pairs with a ratio: all but those with infinite numbers on both sides."""
 
 
 def paired(x: Sequence[float], y: Sequence[float]) -> Paired | None:
     """Compare two series of positive numbers or infinity, of the same walks, by their ratios x / y.
 
-    Equal numbers have the ratio 1, zeros too. None where no pair has a ratio.
+    Equal numbers have the ratio 1, also 0 and 0; a pair of two infinite numbers has none and is left out. None
+    where no pair has a ratio.
     """
     pairs = [(a, b) for a, b in zip(x, y, strict=True) if a != b or math.isfinite(a)]
     if not pairs:

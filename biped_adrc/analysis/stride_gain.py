@@ -1,13 +1,16 @@
 """Gains of the PI from step to step, from the zero dynamics.
 
-beta_k [rad] is the amplitude by which the PI bends the curves in walking step k (`control.stride`). With exact
-tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
+beta_k [rad] is the amplitude by which the PI bends the curves in walking step k (`control.stride`): they are h
++ beta_k b(s) times a direction (p,), with the bump b(s) over the step, s from 0 to 1. With exact tracking, z_k
+= sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
 
-are deviations from the cycle; W, delta and T are the quadratures of the zero dynamics, differenced
-in beta and z. With the PI of `control.stride` the poles of the loop are the roots of
+are deviations from the cycle. sigma- is the angular momentum about the stance foot, L the step length, T the
+time of a step, W the work of gravity on sigma^2 / 2, and delta = sigma+ / sigma- at impact; W, delta and T are
+the quadratures of the zero dynamics, differenced in beta and z. With the PI of `control.stride` the poles of
+the loop are the roots of
 
     lambda (lambda - 1) (lambda - a) + (K_P (lambda - 1) + K_I lambda) (d (lambda - a) + c b) = 0.
 
@@ -51,7 +54,7 @@ class StrideResponse(Shown):
     a: float
     """delta^2, multiplier of the walking cycle, dimensionless."""
     b: float
-    """dz/dbeta [kg^2 m^4/s^2 per rad]."""
+    """dz/dbeta of the next z [kg^2 m^4/s^2 per rad]."""
     c: float
     """dv/dz [m/s per kg^2 m^4/s^2]."""
     d: float
@@ -59,7 +62,7 @@ class StrideResponse(Shown):
 
     @property
     def static_gain(self) -> float:
-        """dv/dbeta [m/s per rad] once the walk has settled."""
+        """Change of speed per beta that stays constant, dv/dbeta [m/s per rad], once the walk has settled."""
         return self.d + self.c * self.b / (1.0 - self.a)
 
     def poles(self, gains: StrideGains) -> ComplexArray:
@@ -96,8 +99,8 @@ def stride_pi(
 ) -> StridePI:
     """Wrap a controller in the PI from step to step, with the gains of the triple pole.
 
-    inner: the controller. direction: d (p,), dimensionless. limit: bound on |beta| [rad]. Raises as
-    `stride_response` and `StrideResponse.gains`.
+    inner: the controller. direction (p,): by which each joint bends per beta, dimensionless. limit: bound on
+    |beta| [rad]. Raises as `stride_response` and `StrideResponse.gains`.
     """
     along = tuple(float(d) for d in direction)
     gains = stride_response(gait, biped, along).gains(limit)
@@ -105,7 +108,8 @@ def stride_pi(
 
 
 def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:
-    """The constraint h + shift b(s) as a polynomial; shift = beta d (p,) [rad]."""
+    """The constraint h + shift b(s) as a polynomial; shift (p,) [rad]: beta times the direction."""
+    # curves in powers of s, (p, number of powers), filled up with zeros to the longer of the two
     a = h.curve.power_coefficients
     wide = np.zeros((a.shape[0], max(a.shape[1], len(BUMP))))
     wide[:, : a.shape[1]] = a
@@ -119,9 +123,9 @@ def stride_response(
     """Linearise the map from step to step of a gait whose constraint is hybrid invariant, or
     made so by ReferenceReset.
 
-    gait: the one whose speed is corrected. biped: its robot. direction (p,) [1]: d, by which joints bend.
-    Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no stable
-    cycle.
+    gait: the one whose speed is corrected. biped: its robot. direction (p,) [1]: by which each joint bends per
+    beta. Raises InputError for a direction of the wrong length, GaitError where the zero dynamics have no
+    stable cycle.
 
     >>> response = ba.stride_response(gait, biped)
     >>> print(f"{response.static_gain:.2f} (m/s)/rad")
@@ -135,6 +139,7 @@ def stride_response(
     delta, sigma = zero.delta, zero.sigma_minus
 
     def speed(zd: ZeroDynamics, scale: float = 1.0) -> float:
+        # L / T of a step along zd that follows an impact with z = scale sigma-^2
         return L / zd.orbit(delta * sigma * math.sqrt(scale)).period
 
     if not delta**2 < 1.0:

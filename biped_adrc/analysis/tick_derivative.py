@@ -2,9 +2,11 @@
 
     x+ = tick(t, x),   J = d x+ / d x                 x = (q, q', s, held)
 
-`tick` is `closed_loop.semantics.tick`, traced as for machine code (`engine.equations`) and
-differentiated by CasADi, so that J is exact for every controller that compiles. The expression is made
-once for a structure and evaluated in about 0.1 ms. Any other has central differences in its place.
+s is the controller's state, `held` what is kept from tick to tick: readings of the sensors, and torques held or
+on their way. `tick` is `closed_loop.semantics.tick`, traced as for machine code (`engine.equations`) and
+differentiated by CasADi, so that J is exact for every controller that compiles. The expression is made once for
+a structure, the classes and sizes of a walker's parts without the values of its floats, and evaluated in about
+0.1 ms. A controller that does not compile has central differences in its place.
 """
 
 from __future__ import annotations
@@ -33,10 +35,10 @@ Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
 
 
 def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
-    """The tick of a walker whose states have this layout, with its derivative.
+    """Make the function (t, x, mode) -> x+, J of a walker in sampled time: its tick with the derivative.
 
-    Raises InputError for a walker in continuous time; the returned function raises NotFiniteError where x+ or J
-    is not finite.
+    layout: of the walker's state x (nx,), as `Walker.layout_of` gives it. Raises InputError for a walker in
+    continuous time; the returned function raises NotFiniteError where x+ or J is not finite.
     """
     if walker.held is None:
         raise InputError(
@@ -49,6 +51,7 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
         function, K = _function(program), program.K
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)
+    # arrays that are written anew for each call; `columns` is J transposed, since CasADi stores by columns
     inputs = K, np.zeros(function.size1_in(1))
     after, columns = np.zeros(nx), np.zeros((nx, nx))
     # CasADi reads and writes the arrays by address, so `ticked` keeps the buffer; its matrices are column by
@@ -72,7 +75,8 @@ _FUNCTIONS: dict[Hashable, ca.Function] = {}
 
 
 def _function(program: Program) -> ca.Function:
-    """CasADi's function (K, inp) -> (x+, J), K the walker's numbers, inp = (t, step, t_start, x, ..).
+    """CasADi's function (K, inp) -> (x+, J), K the walker's numbers, inp = (t, step, t_start, x, ..), of which
+    the numbers behind x do not count here.
 
     It depends on the structure of the program alone, since the values of its numbers are the input K.
     """
@@ -86,7 +90,7 @@ def _function(program: Program) -> ca.Function:
 
 
 def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-    """The tick in Python, with its derivative by central differences."""
+    """x+ (nx,) of the tick in Python, and J (nx, nx) by central differences."""
     d = _DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)

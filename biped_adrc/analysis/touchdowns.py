@@ -1,8 +1,9 @@
 """Times at which a controller detected the touchdowns of a finished walk (`hardware.touchdown`).
 
-A touchdown and its detection each exchange the labels, so they are matched in order: a detection after its
-touchdown is late, one before it early. Two touchdowns without a detection between them are both missed, two
-detections without a touchdown both false.
+Labels say which leg is the stance leg: a touchdown swaps those of the plant, a detection those that the
+controller assumes. So the events of both kinds are paired in the order of time: a touchdown and a detection are
+a pair, late if the detection comes second, else early. A pair of two touchdowns is missed, since after both the
+controller's labels are right again; a pair of two detections is false.
 """
 
 from __future__ import annotations
@@ -55,8 +56,8 @@ class Detections(Shown):
 
     @property
     def rates(self) -> TouchdownRates:
-        """Mean and largest delay from a touchdown to its detection [s], of detections that were not early; the
-        shares of touchdowns that were detected early or missed [1]; and the number of false detections.
+        """Mean and largest delay of the detections that were not early [s], shares of the touchdowns that were
+        detected early or missed [1], and the number of false detections.
 
         A last touchdown whose detection was still to come is left out of delays and shares.
         """
@@ -78,15 +79,14 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Detections:
 
 
 def matched(impacts: Array, found: Array) -> Detections:
-    """Match touchdowns at `impacts` (N,) [s] with detections at `found` [s], both
-    increasing, in their order in time.
+    """Pair touchdowns at `impacts` (N,) [s] with detections at `found` [s], both increasing, as in the module.
 
-    A detection after its touchdown is late, one before it early. Two touchdowns without a detection between
-    them are both missed, two detections without a touchdown both false.
+    An event left over at the end is a false detection, or a touchdown whose detection is still to come.
     """
     late, false = np.full(len(impacts), np.nan), []
     struck = [(t, "touchdown", i) for i, t in enumerate(impacts)]
     events = sorted([*struck, *((t, "notice", -1) for t in found)], key=lambda x: x[0])
+    # i and j: index of a touchdown, -1 of a detection, so max(i, j) is that of the touchdown in a pair
     for (t, kind, i), (then, other, j) in zip(events[::2], events[1::2], strict=False):
         if kind != other:
             late[max(i, j)] = then - t if kind == "touchdown" else t - then
@@ -108,6 +108,7 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
             "the controller of this walk knows touchdowns at once; give touchdown=, such as "
             "FaultyTouchdown(0.005)"
         )
+    # the controller's belief at all nodes: a detection raises its number `step` and sets its `start`
     x = np.vstack([arc.x for arc in run.arcs])
     began = loop.layout_of(x[0]).tree(x).tail.belief
     step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)

@@ -3,9 +3,10 @@
     x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
 
 x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- the flow before the
-next impact. A comes from the derivatives of RNEA, D Delta from those of the impact map (`model.derivatives`).
-The result is exact up to the error of the integration method. With E the matrix that drops q_N and L = ds -> dx
-the tangent that keeps h = 0, on the section
+next impact, Delta the impact map, D Delta its derivative, s the section coordinates, which are x without q_N,
+and P the return map. A comes from the derivatives of RNEA, D Delta from those of the impact map
+(`model.derivatives`). The result is exact up to the error of the integration method. With E the matrix that
+drops q_N and L = ds -> dx the tangent that keeps h = 0, on the section
 
     dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-)
 
@@ -64,6 +65,7 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 
     def at(i: Instant) -> Array:
         m = i.measurement
+        # the twin's state is (q, q', u held); u before the tick does not matter, after it u is the law's torque
         x = np.concatenate((m.q, m.v, np.zeros(p)))
         du = ticked(m.t, x, Mode(m.step, m.t - m.t_step))[1][2 * n :, : 2 * n]
         return np.where(np.abs(i.u)[:, np.newaxis] >= limit, 0.0, du)
@@ -73,7 +75,7 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 
 # -- the flow and the impact -----------------------------------------------------------------------
 def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
-    """A = df/dx (2 n, 2 n) of single support at an instant; x in [rad, rad/s], du/dx (p, 2 n) of the torque."""
+    """A = df/dx (2 n, 2 n) of single support at an instant i, x in [rad, rad/s]; du (p, 2 n): du/dx."""
     n, m = walker.plant.n, i.measurement
     plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
     A = np.zeros((2 * n, 2 * n))
@@ -84,7 +86,7 @@ def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
 
 
 def height_derivative(walker: Walker, x: Array) -> Array:
-    """dh/dx (2 n,) [m/rad] of the height of the swing foot over the ground; zero for rates."""
+    """dh/dx (2 n,) [m/rad] of the height h of the swing foot over the ground; zero for the rates in x."""
     n = walker.plant.n
     d_x, d_z = walker.plant.swing_foot_jacobian(x[:n])
     return np.concatenate((d_z + math.tan(walker.ground_slope) * d_x, np.zeros(n)))
@@ -128,7 +130,7 @@ class VariationalSystem(HybridSystem):
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
         """The walker's event functions, which read q alone, the first numbers of x and of y.
 
-        An impact leaves y as it is before it, from where `differentiate_step` takes it, and exchanges the mode.
+        At an impact only the mode changes: y keeps its value from before, for `differentiate_step`.
         """
 
         def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
@@ -168,8 +170,7 @@ class StepDerivative(Shown):
 
 
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
-    """Compute P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support,
-    with P's walker and method.
+    """Compute P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and method.
 
     Raises SimulationError, with the status, when the walker does not come back; InputError for a controller
     with states, and as VariationalSystem does.
@@ -186,9 +187,10 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     x_end, Phi = split_matrix(end.x_minus)
     f0, f_end = walker.flow(0.0, x0, mode), walker.flow(end.t, x_end, mode)
     dh = height_derivative(walker, x_end)
-    rate = float(dh @ f_end)  # of the height, below 0 [m/s]
+    rate = float(dh @ f_end)  # dh/dt at impact, below 0 [m/s]
     D = impact_derivatives(walker.plant, *np.split(x, 2))
     through = Phi @ D @ section_tangent(walker, x)
+    # dh/ds at a fixed time; over `rate` it is -dt/ds of the impact's time t
     earlier = dh @ through
     through -= np.outer(f_end, earlier) / rate
     return StepDerivative(
@@ -222,6 +224,7 @@ def periodic_orbit(
     does not come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
+    # a start that costs little: the compiled map's fixed point by differences, if it finds one
     if P.compiled(x := P.lift(s)) is not None:
         with suppress(
             SimulationError, SingularError

@@ -1,10 +1,12 @@
 """Properties of a gait by its zero dynamics, before any simulation: whether it walks, from where, how fast.
 
 zeta = sigma-^2 / 2 [kg^2 m^4/s^2] is the coordinate of a walking step, with sigma- the angular momentum about
-the stance foot just before impact; zeta* is that of the periodic orbit. The report lists the numbers of
-`gait.zero_dynamics` and `gait.zero_orbits` with their units. They hold for the closed loop as far as it keeps
-to the constraint: exactly for a constraint that the impact does not leave (hybrid invariant), tracked without
-error. Where that is in doubt the report says so.
+the stance foot just before impact; zeta* is that of the periodic orbit. The domain is the range of zeta in
+which a step keeps the limits of the ground. Theta is the phase, Theta- its value at the end of a step, and
+V_zero(Theta) the potential [kg^2 m^4/s^2]: sigma^2 / 2 + V_zero is constant in a step. The report lists the
+numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units. They hold for the closed loop as far as
+it keeps to the constraint: exactly for a constraint that the impact does not leave (hybrid invariant), tracked
+without error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations
@@ -61,16 +63,16 @@ class ZeroDynamicsReport(Shown):
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Mean speed [m/s] of a step at either end of the domain; inf where it has none."""
+        """Mean speed [m/s] of a step at the lower and upper end of the domain; inf without an upper end."""
         return self._at_ends(self.orbits.speed)
 
     @property
     def energies(self) -> tuple[float, float]:
-        """Kinetic energy [J] before impact at either end of the domain; inf where it has none."""
+        """Kinetic energy [J] before impact at both ends of the domain; inf without an upper end."""
         return self._at_ends(self.orbits.kinetic_energy)
 
     def _at_ends(self, f: Callable[[float], float]) -> tuple[float, float]:
-        """f(zeta) at both ends of the domain; inf where the domain has no end."""
+        """f(zeta) at the lower and upper end of the domain; inf where zeta there is infinite."""
         low, high = (f(b.zeta) if math.isfinite(b.zeta) else math.inf for b in self.domain)
         return low, high
 
@@ -147,6 +149,7 @@ def zero_report(
     check_part(biped, "biped", Biped)
     limits = DomainLimits(biped.description.friction_coefficient) if limits is None else limits
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, constraint))
+    # the swing foot at the end of the curve, of which the rates do not matter
     x, z = biped.swing_foot(orbits.zero.end_state(0.0)[0])
     height = float(z + math.tan(limits.slope) * x)
     if not abs(height) < CLOSES:

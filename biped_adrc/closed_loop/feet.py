@@ -1,10 +1,11 @@
 """What the ground does to the feet along a run of a plant that moves by itself.
 
-    footing(row, u, load) -> Feet     what a plant gives, for instance `MuJoCoPlant`
+    footing(row, u, load) -> Feet     a method of the plant, for instance of `MuJoCoPlant`
 
-Forces of the ground follow from state, torque and load, so a run does not compute them: `with_readings` asks
-the plant at every node of a finished run and adds the answers to the arcs (`Arc.read`), with which they are
-stored.
+row is the plant's whole state (`closed_loop.protocols`), u (p,) [N m] the torque asked of the motors, load what
+acts from outside. Forces of the ground follow from state, torque and load, so a run does not compute them:
+`with_readings` asks the plant at every node of a finished run and adds the answers to the arcs (`Arc.read`),
+with which they are stored.
 """
 
 from __future__ import annotations
@@ -21,12 +22,13 @@ from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
 FEET = ("foot_force", "foot_place", "foot_speed", "foot_level")
-"""What `with_readings` records: `Feet`, (K, 4) each, x and z of the stance foot before those of the other, and
-heights of the ground (K, 2)."""
+"""Names of what `with_readings` records, in the order of `Feet`: forces [N], places [m] and velocities [m/s],
+(K, 4) each, x and z of the stance foot before those of the other; heights of the ground [m], (K, 2)."""
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """A copy of a run of this loop with `FEET` at its nodes, torques u and zeta [N m] besides.
+    """A copy of a run of this loop whose arcs have, in `Arc.read`, the readings FEET at their K nodes; also "u"
+    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet.
 
     Raises InputError for a plant without feet.
     """
@@ -39,18 +41,22 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
     for arc in run.arcs:
         rows = []
         for x, load in _passed(loop, arc):
+            # the last p numbers of x are the torque that is asked of the motors
             feet = plant.footing(loop.row(x), x[-plant.p :], load)
             rows.append((loop.motor_torque(x), load.zeta, *map(np.ravel, feet)))
         columns = map(np.array, zip(*rows, strict=True))
         read = dict(zip(("u", "zeta", *FEET), columns, strict=True))
-        arcs.append(replace(arc, read=read | arc.read))  # an arc that failed at once has no u, zeta
+        # what the arc recorded itself counts; an arc that failed at once has recorded no u and zeta
+        arcs.append(replace(arc, read=read | arc.read))
     return replace(run, arcs=tuple(arcs))
 
 
 def _passed(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[Array, Load]]:
-    """Yield the state x (nx,) at each node with the load on the plant, which is constant from node to node.
+    """Yield the state x (nx,) at each node of an arc, and the load under which the plant moved there.
 
-    A stretch has two nodes, at its start and its end; a last node alone is where the plant was lost.
+    The time between two sample instants or switching times is a stretch: it has two nodes, at its start and its
+    end, and the load is constant over it, with its value in the middle. A last node alone is where the plant
+    could not go on.
     """
     times, pieces = arc.t.tolist(), np.flatnonzero(np.diff(arc.t) > 0.0)
     for k in pieces:

@@ -1,7 +1,7 @@
 """All signals of a closed loop at one instant, read off its state.
 
-Compiled code traces the same function (`analysis.signals`), so that both engines report the same
-quantities.
+Compiled code is made from the same functions, run on symbols, so that both engines report the same quantities
+(`analysis.signals`). In all of them t [s] is the time, x (nx,) the state, and mode the single support.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import disturbance_parts
 
 Tracked = Callable[[Any, Measurement], ReferencePoint]
-"""reference(s, m) -> the point of a reference at a measurement, s the controller's state."""
+"""reference(s, m) -> the point of a reference at the measurement m; s is the controller's state, from which an
+outer loop takes the reference that is in force."""
 
 
 class InstantSignals(NamedTuple):
@@ -40,24 +41,25 @@ class InstantSignals(NamedTuple):
     xi: Array
     """Total disturbance q_b'' - kappa u (p,) [rad/s^2], from the plant's own q''."""
     xi_estimate: Array
-    """The observer's estimate of xi (p,) [rad/s^2]; NaN without an observer."""
+    """The observer's estimate xi^ of xi (p,) [rad/s^2]; NaN without an observer."""
     xi_external: Array
-    """The part of xi that the nominal model does not know (p,) [rad/s^2]: matched + unmatched."""
+    """The part of xi that the nominal model does not know (p,) [rad/s^2]: a matched part, which motors could
+    cancel, and an unmatched one, which comes from the unactuated coordinates."""
     xi_matched: Array
-    """The part of xi_external that enters where the motors act, kappa xi~_b (p,) [rad/s^2]."""
+    """The matched part, kappa xi~_b (p,) [rad/s^2], xi~_b (p,) [N m] being the unknown force on the joints."""
     xi_nominal: Array
     """The part of xi that the nominal model knows, (14) of the paper with xi~ = 0 (p,) [rad/s^2]."""
     zeta_estimate: Array
     """The disturbance torque that explains the estimate, kappa^-1 (xi^ - xi_nominal) (p,) [N m]."""
     ground_reaction: Array
-    """Force of the ground plus the resultant from outside (2,) [N]: the ground's own share follows by
-    subtracting the latter (`analysis.signals`)."""
+    """m (p_com'' - g) (2,) [N], tangential and normal: the force of the ground plus the resultant force from
+    outside, which `analysis.signals` subtracts."""
     momentum: Array
     """m v_com of the plant (2,) [N s]."""
     kinetic: Array
     """Kinetic energy [J]."""
     potential: Array
-    """Potential energy [J], zero at the height of this stance foot."""
+    """Potential energy [J], zero with the COM at the height of the present stance foot."""
     swing_foot: Array
     """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
     hip: Array
@@ -65,10 +67,10 @@ class InstantSignals(NamedTuple):
 
 
 def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> InstantSignals:
-    """The signals at (t, x), t in [s], x (nx,).
+    """The signals at t [s] in the state x (nx,).
 
-    reference(s, m) is the curve that errors refer to, usually the one the controller tracks; a run
-    may be read against another one. Runs on numbers and on symbols.
+    reference(s, m) gives q_d and dq_d, usually of the reference that the controller tracks; a run may also be
+    compared with another one. Runs on numbers and on symbols.
     """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
@@ -99,7 +101,10 @@ def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -
 def controller_inputs(
     loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked | None
 ) -> tuple[Array, ...]:
-    """q and v, the nominal model's terms there, and the parts of the reference, where there is one."""
+    """What a controller needs at the sample instant t [s] in the state x (nx,): q (n,) and v (n,), the terms of
+    the nominal model there (`Reduction`), and the arrays of the `ReferencePoint`; none of these for reference
+    None.
+    """
     q, v, s, _ = parts(loop, x)
     m = loop.measure(t, q, v, mode)
     return (q, v, *m.terms, *(reference(s, m) if reference else ()))
@@ -108,11 +113,11 @@ def controller_inputs(
 class StepReading(NamedTuple):
     """The signals of the closed loop at one instant that verdicts and studies read.
 
-    Another signal is a line here, with its size in `node_layout`, and a line in `step_reading`.
+    To add a signal, add a line here, its size in `node_layout`, and a line in `step_reading`.
     """
 
     error: Array
-    """q_b - q_d (p,) [rad]."""
+    """Tracking error q_b - q_d of the joints (p,) [rad]."""
     u: Array
     """Torque applied (p,) [N m]."""
     q: Array
@@ -120,33 +125,34 @@ class StepReading(NamedTuple):
     v_b: Array
     """Their rates (p,) [rad/s]."""
     momentum: Array
-    """m v_com (2,) [N s]."""
+    """m v_com of the plant (2,) [N s]."""
     swing_foot: Array
-    """(x, z) from the stance foot (2,) [m]."""
+    """Place (x, z) of the swing foot relative to the stance foot (2,) [m]."""
 
 
 class NodeRow(NamedTuple):
-    """The numbers that are kept at one node of a walk, or at K nodes with a leading axis of K."""
+    """The numbers that a compiled walk keeps at one node, a stored instant; or at K nodes with a leading axis
+    of K."""
 
     t: Array
     """Time [s]."""
     step: Array
     """Number of the single support."""
     outside: Array
-    """Resultant external force (2,) [N]."""
+    """Resultant force from outside on the robot as a whole (2,) [N]."""
     reading: StepReading
     """Signals of the closed loop."""
 
 
 @cache
 def node_layout(n: int, p: int) -> Layout:
-    """The layout of a `NodeRow` of n coordinates, p of them with a motor."""
+    """The layout of a `NodeRow` as one vector, for n coordinates, p of them with a motor."""
     reading = StepReading(*(np.zeros(size) for size in (p, p, n, p, 2, 2)))
     return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """Compute the `StepReading` at (t, x), t in [s], x (nx,); errors are taken from the point reference(s,
+    """Compute the `StepReading` at t [s] in the state x (nx,); errors are those from the point reference(s,
     m)."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p

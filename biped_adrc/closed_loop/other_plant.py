@@ -2,9 +2,11 @@
 
     walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
 
-The numbers that the plant keeps for itself are taken out of the states, so that whatever reads a walk reads
-this one. Forces of the ground, places and velocities of both feet are recorded at the nodes, where the plant
-has feet (`closed_loop.feet`), since they cannot be computed again.
+A plant that moves by itself, such as MuJoCo, is a `protocols.SteppingPlant`; the rigid plant is the walker's
+own, with a pinned stance foot and an impact map. s is the controller's state, `held` what is held between
+sample instants. The numbers that the plant keeps for itself are taken out of the states, so that whatever reads
+a walk reads this one. Forces of the ground, places and velocities of both feet are recorded at the nodes, where
+the plant has feet (`closed_loop.feet`), since they cannot be computed again.
 """
 
 from __future__ import annotations
@@ -40,9 +42,10 @@ def stepping_loop(
 ) -> SteppingLoop:
     """Make a loop of another plant with the controller, sensors and clock of a walker.
 
-    A lag of its motors and steps of its ground become the plant's, a rate limit stays where it is. first_step:
-    number of the first single support, by which steps of the ground are counted. Raises InputError for a
-    walker in continuous time, and for what only the rigid plant has: errors of the impact map.
+    The lag of the walker's motors and the steps of its ground become the plant's; a rate limit of the motors
+    stays in the loop. first_step: number of the first single support, from which the plant counts for its steps
+    of the ground. kind: class of the loop. Raises InputError for a walker in continuous time or with an error
+    of the impact map, which only the rigid plant has, and for what `_fitted` refuses.
     """
     if len(walker.gain) > 0:
         raise InputError(
@@ -61,9 +64,10 @@ def stepping_loop(
 
 
 def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
-    """The plant with the lag of the walker's motors, and on the steps of its ground.
+    """A copy of the plant with the lag of the walker's motors, and on the steps of the walker's ground.
 
-    Raises InputError for a plant that takes none, or that has others.
+    Raises InputError for a plant that has another slope, lag or steps of its own, or that cannot have any where
+    the walker has them.
     """
     name, steps = type(plant).__name__, walker.ground_steps
     if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
@@ -73,6 +77,7 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     lag = 0.0 if walker.motors is None else walker.motors.lag
     own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
     for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
+        # a plant without lag or steps of its own takes the walker's, if it is of the class for that
         if own[what] != other and (own[what] or not isinstance(plant, kind)):
             raise InputError(
                 f"{name} has {what} {own[what]} and the walker {other}; give motors with lag and steps of the "
@@ -91,10 +96,11 @@ def walk_on(
     impacts: int,
     progress: Progress | None = None,
 ) -> Trajectory:
-    """Simulates a loop of `stepping_loop` from (q, v), each (n,) [rad, rad/s], until `impacts` impacts.
+    """Simulate a loop of `stepping_loop` from start = (q, v), each (n,) [rad, rad/s], until `impacts` impacts.
 
-    The states of the result have the walker's layout, (q, q', s, held). Raises InputError where (q, v) cannot
-    be a start.
+    walker: the one of the loop, for its longest single support. mode: the single support in which it starts.
+    progress: called during the run. The states of the result have the walker's layout, (q, q', s, held). Raises
+    InputError where (q, v) cannot be a start.
     """
     assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)
@@ -106,10 +112,11 @@ def walk_on(
 
 
 def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """Converts a run of `loop` to the layout of a walker's states, (q, q', s, held).
+    """Convert a run of `loop` to the layout of a walker's states, (q, q', s, held).
 
     The plant's own numbers are removed, but for the torque of lagging motors, which moves to where a walker has
-    it. Of a plant with feet, forces [N], places [m] and velocities [m/s] of both feet are recorded besides.
+    it. Where the plant has feet, forces [N], places [m] and velocities [m/s] of both feet are added to the
+    arcs.
     """
     if isinstance(loop.plant, OnFeet):
         run = with_readings(loop, run)
@@ -118,12 +125,15 @@ def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
 
 
 def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
-    """An arc with states as the rigid plant's walker has them, and with the place of the stance foot."""
+    """An arc of a run of `loop` with its states, slopes and event in the layout of a walker on the rigid
+    plant."""
     layout, p = loop.layout_of(arc.x[0]), loop.plant.p
     own, at = layout.place("tail", "own"), layout.place("tail", "line", "queue").stop
 
     def without(x: Array) -> Array:
-        """x without the plant's own numbers; the torque u_m of lagging motors goes where a walker keeps it."""
+        """States (.., nx) without the plant's own numbers; where its motors lag, their torque u_m (.., p) is
+        inserted behind the queue, where a walker keeps it.
+        """
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
         return np.concatenate((np.delete(x[..., :at], own, axis=-1), u_m, x[..., at:]), axis=-1)
 
@@ -135,7 +145,8 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
 
 
 def _values(thing: Any) -> Any:
-    """A plant as plain values for the record of a run: its class and what it was made with."""
+    """A plant as plain values for the settings of a run: its class and its fields, fields of classes
+    likewise."""
     if isinstance(thing, tuple):
         return tuple(map(_values, thing))
     if not is_dataclass(thing) or isinstance(thing, Biped):

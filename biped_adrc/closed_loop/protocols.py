@@ -1,5 +1,7 @@
 """What a closed loop, its plant and its controller must offer to the functions of `closed_loop.semantics`.
 
+A Protocol is a list of methods and properties: any class that has them will do.
+
 Plants are `model.biped.Biped`, `model.planar_robot.PlanarRobot` and any of the user's own; loops
 are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.equations.SymbolicLoop` on symbols.
 
@@ -36,9 +38,9 @@ from biped_adrc.observers.base import Estimate
 
 
 class Mode(NamedTuple):
-    """The discrete state of a walk.
+    """The discrete state of a walk: in which single support it is.
 
-    step: number of the single support, from 1. start [s]: when it began.
+    step: number of the single support, from 1. start [s]: time at which it began.
 
     >>> ba.Mode(step=2, start=0.4)
     Mode(step=2, start=0.4)
@@ -49,12 +51,12 @@ class Mode(NamedTuple):
 
 
 class Plant(Protocol):
-    """What moves: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
+    """A robot: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
     [N m] are (n,).
 
-    Enough for the model of a plant that moves by itself. A walker stands on the ground with one foot (pinned)
-    and strikes it with the other: it needs the methods of `model.biped.Biped` that
-    `model.planar_robot.PlanarRobot` has, too.
+    This is enough for the controller's model of a plant that moves by itself. A walker on the rigid plant
+    stands on the ground with one foot (pinned) and strikes it with the other: its plant also needs the methods
+    that `model.biped.Biped` and `model.planar_robot.PlanarRobot` have in common.
     """
 
     @property
@@ -73,9 +75,10 @@ class Plant(Protocol):
 
 
 class ControlLaw(NamedTuple):
-    """The functions of a controller in its time base that a closed loop calls, parameters filled in.
+    """The functions of a controller in its time base (continuous or sampled) that a closed loop calls.
 
-    On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its twin's.
+    s is the controller's state, m the measurement. On arrays they are the methods of `control.base.Controller`,
+    whose results are checked; on symbols copies of these methods.
     """
 
     output: Callable[[Any, Measurement], Array]
@@ -83,7 +86,8 @@ class ControlLaw(NamedTuple):
     flow: Callable[[Any, Measurement, Array], Any]
     """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
     jump: Callable[..., Any]
-    """jump(s, m, swap) -> s after an impact; m is the measurement after it."""
+    """jump(s, m, swap) -> s after an impact; m is the measurement after it, swap (p,) the relabelling of the
+    joints."""
     correct: Callable[[Any, Measurement], Any]
     """correct(s, m) -> s at a sample instant, with the new measurement."""
     predict: Callable[[Any, Measurement, Array], Any]
@@ -97,7 +101,8 @@ class Loop(Protocol):
 
     @property
     def plant(self) -> Any:
-        """What moves: a `Plant`; a `Biped` or `PlanarRobot` where there are impacts."""
+        """The robot that moves: a `Plant`, or a `SteppingPlant`; a `Biped` or `PlanarRobot` where there are
+        impacts."""
 
     @property
     def nominal(self) -> Any:
@@ -112,7 +117,7 @@ class Loop(Protocol):
 
     @property
     def calls(self) -> ControlLaw:
-        """The functions of the controller in its time base."""
+        """The functions of the controller in its time base, continuous or sampled."""
 
     @property
     def held(self) -> HeldParts | None:
@@ -127,7 +132,7 @@ class Loop(Protocol):
         """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
 
     def layout_of(self, x: Array) -> Layout:
-        """What a state x (nx,) is made of: a `semantics.State`."""
+        """The layout of a state x (nx,), by which it becomes a `semantics.State`."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s]; see
@@ -143,10 +148,13 @@ class Loop(Protocol):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N], under the torque held in `tail`."""
+        """Vertical forces of the ground on stance and swing foot [N] at t [s], q (n,) [rad], v (n,) [rad/s],
+        under the torque in `tail`, the held part of the state.
+        """
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself; ends the run where it is beyond anything that the motors have."""
+        """Return u (p,) [N m] unchanged; the run ends as run away where it is beyond all that motors can
+        give."""
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The disturbance zeta (n,) [N m] at t [s]."""
@@ -168,7 +176,7 @@ class Contact(NamedTuple):
     name: str
     """Name of the event in the trajectory."""
     impulse: Array = np.zeros(2)
-    """Impulse of the ground on the robot (2,) [N s]."""
+    """Impulse (x, z) of the ground on the robot (2,) [N s]."""
     ends: Status | None = None
     """Status with which the run ends; None for a touchdown."""
 
@@ -184,7 +192,7 @@ class Moved(NamedTuple):
     """All contacts at t. They are one event: names joined by +, impulses added. Where some of them end the run,
     only those count: a fall with a touchdown is a fall."""
     after: Array | None = None
-    """State (2 n + k,) just after a touchdown."""
+    """State (2 n + k,) just after a touchdown; None where there is none."""
 
 
 class Feet(NamedTuple):
@@ -202,7 +210,10 @@ class Feet(NamedTuple):
 
 @runtime_checkable
 class SteppingPlant(Protocol):
-    """n coordinates, the first p of them with motors. Arrays that it is given are read-only."""
+    """A plant that moves by itself: n coordinates, the first p of them with motors.
+
+    A row (2 n + k,) is its whole state (q, q', own); see the module. Arrays that it gets are read-only.
+    """
 
     @property
     def n(self) -> int:
@@ -217,7 +228,9 @@ class SteppingPlant(Protocol):
         """Relabelling of the motors at a touchdown (p,), for `types.relabelled`; `arange(p)` for none."""
 
     def start(self, t: float, q: Array, v: Array) -> Array:
-        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
+        """The row at t [s] that begins with q (n,) [rad] and v (n,) [rad/s]; its own numbers, such as motor
+        torques, are those of a plant that has not been moved yet.
+        """
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """Move from a row at t [s] to `until` [s] or to the next contact, under constant u (p,) [N m] and load;
@@ -233,7 +246,9 @@ class OnFeet(Protocol):
     """A plant that can say what its feet do."""
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
-        """The `Feet` in the state `row`, under the torques u (p,) [N m] and the load from outside."""
+        """The `Feet` in the state `row` (2 n + k,), under the torques u (p,) [N m] asked of the motors and the
+        load from outside.
+        """
 
 
 @runtime_checkable
@@ -248,7 +263,9 @@ class LaggingPlant(SteppingPlant, Protocol):
         """A copy of the plant whose motors have this lag [s]."""
 
     def motor_torque(self, own: Array, u: Array) -> Array:
-        """Torque on the joints (.., p) [N m] where u (.., p) is asked of the motors, in states with `own`."""
+        """Torque on the joints (.., p) [N m] in states whose own numbers are `own` (.., k), where u (.., p) [N
+        m] is asked of the motors.
+        """
 
 
 @runtime_checkable
@@ -264,5 +281,5 @@ class UnevenPlant(SteppingPlant, Protocol):
 
 
 def lag_of(plant: SteppingPlant) -> float:
-    """Time constant of the plant's motors [s]; 0 for one that knows of none."""
+    """Time constant of the plant's motors [s]; 0 for a plant without such a property."""
     return plant.lag if isinstance(plant, LaggingPlant) else 0.0

@@ -3,6 +3,9 @@
     q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10) of the paper
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
+A tick is a sample instant. In the code k is `loop.held`, the parameters of sensors, motors and detector of
+touchdowns (None in continuous time), and m is the measurement that the controller gets.
+
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
 controller (observer included); `held` = (own, b, w, torques on their way, u), as in `hardware.sample_hold`; it
 changes at sample instants and impacts only, with two exceptions: torques of lagging motors flow, and after a
@@ -78,7 +81,7 @@ class State(NamedTuple):
 
 
 def parts(loop: Loop, x: Array) -> State:
-    """The state x (nx,) as a tree."""
+    """The state x (nx,) as a `State`, whose arrays are read-only views of it."""
     return loop.layout_of(x).tree(frozen(x))
 
 
@@ -93,9 +96,9 @@ def measurement(
 ) -> Measurement:
     """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
-    The nominal model's `terms` are computed here once, where they are not known, and passed on; `body` adds
-    gravity and ground force for controllers that ask for them (`Controller.needs_body`). All of it is
-    read-only: a controller that writes into it would change the motion.
+    The nominal model's `terms` are computed here, unless the caller has them at q and v; with `body` the
+    measurement also has the model's `BodyTerms`, for a controller that asks for them (`Controller.needs_body`).
+    All of it is read-only: a controller that writes into it would change the motion.
     """
     q, v = frozen(q), frozen(v)
     terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
@@ -108,7 +111,9 @@ def measurement(
 
 
 def applied(u: Array, zeta: Array) -> Array:
-    """The generalised force B_s u + zeta (n,) [N m], for u (p,) and zeta (n,) [N m]; B_s = (1; 0)."""
+    """The generalised force B_s u + zeta (n,) [N m], for u (p,) and zeta (n,) [N m]: B_s = (1; 0) adds u to the
+    first p entries.
+    """
     force = zeta.copy()
     force[: len(u)] = force[: len(u)] + u
     return force
@@ -117,8 +122,8 @@ def applied(u: Array, zeta: Array) -> Array:
 def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array) -> Array:
     """q'' of the plant (n,) [rad/s^2] under `force` (n,) [N m], at q (n,) [rad], v (n,) [rad/s].
 
-    Where the nominal model is the plant, D_s and Omega are in `terms` already and are not computed
-    a second time. Raises SingularError for a singular D_s.
+    `terms`: those of the nominal model there. Where the nominal model is the plant, D_s and Omega are in them
+    and are not computed a second time. Raises SingularError for a singular D_s.
     """
     # whether the model is the plant is structure: the `if` is decided when the code is made. On symbols
     # `solve_positive` is `engine.symbols.solve_positive`, as LAPACK takes no symbols
@@ -128,13 +133,14 @@ def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array)
 
 
 def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
-    """Measurement, torque, disturbance and acceleration at (t, x), t in [s].
+    """Measurement, torque, disturbance and acceleration at t [s] in the state x (nx,).
 
     In sampled time u is the torque that is held; in continuous time the saturated output of the
     controller.
     """
     q, v, s, tail = parts(loop, x)
     m = loop.measure(t, q, v, mode)
+    # `tail` is an empty tuple in continuous time
     u = motor_torque(tail.line) if tail else loop.saturate(loop.calls.output(s, m))
     zeta = loop.external(t, q, v, mode)
     force = applied(u, zeta)
@@ -144,8 +150,8 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
 def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     """x' (nx,) between events, at t [s].
 
-    Continuous time: (q', q'', s'). Sampled time: the controller rests, the torque is held, and of
-    the held tail only lagging motors move.
+    Continuous time: (q', q'', s'). Sampled time: the state of the controller does not change between sample
+    instants, the torque is held, and of the held numbers only the torques of lagging motors move.
     """
     k = loop.held
     if k is None:
@@ -163,12 +169,12 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x (nx,) after one sample instant at t [s]: sensors, controller and motors in this order; q and
+    """x (nx,) after one sample instant at t [s]: sensors, controller and motors act in this order; q and
     q' do not change.
 
-    Behind sensors the controller sees the measured (q, q') of the sensors' state w in place of the
-    true ones. A controller that has to notice touchdowns acts in the labels that it believes in
-    (`noticed`).
+    With sensors the controller gets the measured (q, q') of the sensors' state w in place of the
+    true ones. A controller that has to notice touchdowns acts by its own names of the legs (`noticed`), and so
+    the torques on their way are exchanged before it acts, and back after it.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
@@ -185,9 +191,10 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 def on_stance_foot(
     loop: Loop, resultant: Array, t: float, q: Array, v: Array, tail: Tail, mode: Mode
 ) -> tuple[float, float]:
-    """Vertical forces of the ground on stance and swing foot [N] of a plant whose stance foot is pinned.
+    """Vertical forces of the ground on stance and swing foot [N], the latter 0, of a plant whose stance foot is
+    pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
 
-    resultant (2,) [N]: of what acts from outside, which the ground does not carry.
+    resultant (2,) [N]: the force from outside on the robot as a whole, which the ground does not carry.
     """
     force = applied(motor_torque(tail.line), loop.external(t, q, v, mode))
     a = loop.plant.acceleration(q, v, force)
@@ -195,17 +202,19 @@ def on_stance_foot(
 
 
 def command(loop: Loop, s: Any, m: Measurement) -> tuple[Any, Array]:
-    """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
+    """The controller's state s corrected by the measurement m, and the torque (p,) [N m] that the controller
+    asks for then, saturated.
+    """
     s = loop.calls.correct(s, m)
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 
 
 def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tuple[Any, Line]:
-    """The controller's state and the queue of torques after it has acted on a measurement; torques
-    are (p,) [N m].
+    """The controller's state s and the torques on their way (`line`, (p,) [N m] each) after the controller has
+    acted on the measurement m.
 
-    Order: correct, output, saturation, rate limit, queue, predict. With a known computation delay
-    the observer's input is the torque that acts in the coming period, otherwise the one just asked for.
+    Order: correct, output, saturation, rate limit, queue, predict. The observer predicts with the torque just
+    sent; if it knows the computation delay (k.known), with the mean torque that acts in the coming period.
     """
     s, u = command(loop, s, m)
     u = k.motors.limit(line, u)
@@ -214,10 +223,10 @@ def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tup
 
 
 def release(loop: Loop, x: Array) -> Array:
-    """x (nx,) at the instant from which the torque acts that waited for a fraction of the period: `waiting`
-    replaces u, both (p,) [N m].
+    """x (nx,) just after a torque that waited for a fraction of the period has begun to act.
 
-    For a computation delay that is no whole number of periods.
+    `line.waiting` replaces `line.u`, both (p,) [N m]. For a computation delay that is no whole number of
+    periods.
     """
     state = parts(loop, x)
     line = state.tail.line
@@ -227,8 +236,9 @@ def release(loop: Loop, x: Array) -> Array:
 def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
     """xi~ of (11) (n,) [N m], the generalised force that the nominal model does not know.
 
-    It is zeta where the model is the plant; otherwise D a + Omega - B_s u with the model's terms
-    and the plant's q'' = a (n,) [rad/s^2], so that errors of the model count too.
+    It is the disturbance zeta (n,) [N m] where the model is the plant; otherwise D a + Omega - B_s u with the
+    model's terms, the plant's q'' = a (n,) [rad/s^2] and the torque u (p,) [N m], so that errors of the model
+    count too.
     """
     return zeta if loop.exact else unknown_force(terms, a, u)
 
@@ -236,8 +246,8 @@ def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) ->
 def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s].
 
-    after: the single support that begins. loop.gain (n,) [1] is the relative error of the impact map: v+
-    becomes (1 + gain) v+.
+    after: the single support that begins. loop.gain (n,) [1], empty for none, is the relative error of the
+    impact map: v+ becomes (1 + gain) v+.
     """
     q, v, _, _ = parts(loop, x)
     impact = loop.plant.impact(q, v)
@@ -248,22 +258,24 @@ def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
 def after_contact(
     loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: Mode
 ) -> Array:
-    """x+ (nx,) after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
+    """x+ (nx,) after an impact at t [s], before which the state was x, and which left the plant at q_plus (n,)
+    [rad], v_plus (n,) [rad/s], relabelled. after: the single support that begins.
 
-    Shared by plants with an impact map and by those that compute their own contacts. Controller
-    state and held tail are relabelled. A rate that the sensors derive from differences is reset to
-    what the nominal model's impact predicts, since no difference across an impact is a rate.
-    A controller that has to notice touchdowns, and its sensors, learn nothing here: its labels of the legs are
+    Shared by plants with an impact map and by those that compute their own contacts. The torques on their way
+    are relabelled, and the controller jumps. A rate that the sensors derive from differences is reset to what
+    the nominal model's impact predicts, since no difference across an impact is a rate.
+    A controller that has to notice touchdowns, and its sensors, learn nothing here: its names of the legs are
     then wrong until its detector fires.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
-    reading = q_plus, v_plus
+    reading = q_plus, v_plus  # the (q, q') that the controller gets
     if k is not None:
         tail = tail._replace(line=tail.line.relabelled(loop.swap))
         if k.touchdown is not None:
             belief = unnoticed(k.touchdown, tail.belief, t)
             return flatten(State(q_plus, v_plus, s, tail._replace(belief=belief)))
         if k.sensors is not None:
+            # the last measured rates, mapped by the nominal model's impact
             expected = loop.nominal.impact(*k.reading(tail.sensors, q, v)).v
             w = k.sensors.impact(tail.sensors, q_plus, v_plus, expected)
             tail = tail._replace(sensors=w)
@@ -275,14 +287,16 @@ def after_contact(
 def clearance(tan_slope: float, drop: float, foot: Array) -> float:
     """Height of the swing foot (x, z) (2,) [m] above the ground, along the vertical [m]; 0 at touchdown.
 
-    The ground is a plane through the stance foot, falling in the direction of walking with
-    tan_slope, and `drop` [m] lower where this single support ends.
+    foot: relative to the stance foot. The ground is a plane through the stance foot, which falls in the
+    direction of walking by tan_slope [1], and is `drop` [m] lower where this single support ends.
     """
     return foot[1] + tan_slope * foot[0] + drop
 
 
 def hip_margin(lowest: float, hip: Array) -> float:
-    """Height of the hip (x, z) (2,) [m] above `lowest` [m]; the run ends as a fall where it falls through 0."""
+    """Height [m] of the hip (x, z) (2,) [m] above the height `lowest` [m], both from the stance foot; the run
+    ends as a fall where it falls through 0.
+    """
     return hip[1] - lowest
 
 
@@ -294,19 +308,21 @@ def time_left(longest: float, start: float, t: float) -> float:
 def noticed(
     loop: Loop, t: float, s: Any, tail: Tail, q: Array, v: Array, mode: Mode
 ) -> tuple[Measurement, Any, Any, Belief]:
-    """The measurement at a sample instant t [s] of a controller that detects touchdowns itself, and the states
-    of controller, sensors and belief after it.
+    """The measurement m at a sample instant t [s] of a controller that detects touchdowns itself, and after it
+    the controller's state s, the sensors' state w and the belief. mode: the plant's true single support.
 
     The sensors measure q (n,) [rad], v (n,) [rad/s] by the controller's names of the legs. Where the detector
     fires, these names are exchanged, the sensors continue their rate as after an impact, the controller jumps,
-    and the belief counts one more step, which starts now.
+    and the belief counts one more single support, which starts now.
     """
     k = loop.held
     assert k is not None
     assert k.touchdown is not None
     assert tail.belief is not None
     old, force = tail.belief, 0.0
+    # here q_b, v_b are (q, q') by the controller's names ("believed")
     q_b, v_b = in_other_names(loop, old.other, q, v)
+    # while other is 1, the foot that the controller takes for the swing foot is the stance foot
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
     w = k.sense(tail.sensors, q_b, v_b)
@@ -319,6 +335,7 @@ def noticed(
     step: Any = old.step + fires
     start = chosen(fires, t, old.start)
     q_b, v_b = in_other_names(loop, other, q, v)
+    # by the new names the rates just measured are R v_seen: what the sensors expect after this exchange
     if k.sensors is not None:
         w = chosen(fires, k.sensors.impact(w, q_b, v_b, loop.nominal.R @ v_seen), w)
     m = loop.measure(t, *k.reading(w, q_b, v_b), mode._replace(step=step, start=start))
@@ -332,7 +349,8 @@ def in_other_names(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array,
 
 
 def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
-    """The torques on their way, with the legs exchanged where a belief b has them the other way round.
+    """The torques on their way, with the legs exchanged where the controller's names are not the plant's
+    (b.other is 1); b is None for a controller that knows touchdowns at once.
 
     One exchange serves both ways: from the plant's names to the controller's, and back.
     """
@@ -344,8 +362,9 @@ def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
     """The observer's estimate of xi (p,) [rad/s^2] for the plant's joints; None without an observer.
 
-    m: the measurement by the plant's names of the legs. A controller with a belief gets it by its own names,
-    and its estimate is exchanged back.
+    s: the controller's state. tail: the held part of the state, empty in continuous time. m: the measurement by
+    the plant's names of the legs. A controller with a belief gets it by its own names, and its estimate is
+    exchanged back.
     """
     b = tail.belief if tail else None
     if b is not None:
@@ -359,9 +378,8 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
 
 
 def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:
-    """The belief after the plant's legs have exchanged names at a touchdown at t [s] that nobody has detected.
-
-    `other` changes, since the controller keeps its names; the detector's own memory may change too.
+    """The belief b just after a true touchdown at t [s], at which the plant's legs exchange their names and the
+    controller keeps its own: `other` changes, and the detector's memory d may.
     """
     other = 1.0 - b.other
     return b._replace(other=other, d=touchdown.touchdown(b.d, other, t))

@@ -2,12 +2,13 @@
 
     x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
-There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
-or switching time of a disturbance, and reports its touchdowns (`closed_loop.protocols` defines its methods).
-The time between two such instants is called a stretch; over it the load is constant, with its value in the
-middle. Sample instants, sensors, motors and controller are those of every closed loop, so a controller is
-tested unchanged on a plant of another kind. Torque and disturbance are recorded at both ends of every stretch,
-since they cannot be computed again from the states.
+s is the controller's state, `held` what is held between sample instants; the plant's whole state (q, q', own)
+is called its row. There is no x' = f(x) and there are no event functions: the plant is asked to advance to the
+next sample instant or switching time of a disturbance, and reports its touchdowns (`closed_loop.protocols`
+defines its methods). The time between two such instants is called a stretch; over it the load is constant, with
+its value in the middle. Sample instants, sensors, motors and controller are those of every closed loop, so a
+controller is tested unchanged on a plant of another kind. Torque and disturbance are recorded at both ends of
+every stretch, since they cannot be computed again from the states.
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ _ROUND_OFF = 1e-9
 class SteppingLoop(ClosedLoop[Any]):
     """A `SteppingPlant` under a controller at sample instants; the fields are those of `ClosedLoop`.
 
-    - plant: what moves. model: what the controller knows of it, a `protocols.Plant`.
-    - timing: sampled, since between sample instants the plant is given one torque.
+    - plant: the plant that moves. model: the controller's model of it, a `protocols.Plant`.
+    - timing: sampled, since the plant gets one torque for the time between two sample instants.
 
     Raises InputError for what does not fit: continuous time, no model, or a motor's lag, which belongs into
     the plant.
@@ -84,30 +85,33 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @cached_property
     def squares(self) -> tuple[float, float]:
-        """Two numbers for a quick test: all angles are within their bounds where the sum of their squares is
-        below the first, and all rates where that of the plant's whole row (q, q', own) is below the second.
+        """Two numbers for a quick test, which is sufficient and not necessary: all angles are within their
+        bounds where the sum of their squares is below the first [rad^2], and all rates where the sum of squares
+        of the plant's whole row (q, q', own) is below the second.
         """
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
 
     @property
     def own(self) -> int:
-        """How many numbers of its own the plant keeps, found by starting it once at rest."""
+        """How many numbers of its own the plant keeps behind (q, q') in its row, found by starting it once."""
         still = np.zeros(self.plant.n)
         return len(started(self.plant, 0.0, still, still, None)) - 2 * self.plant.n
 
     def own_places(self, x: Array) -> slice:
-        """Places in x (nx,) of the plant's own numbers."""
+        """The slice of a state x (nx,) with the plant's own numbers."""
         return self.layout_of(x).place("tail", "own")
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
-        """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
+        """x (nx,) at the start of the single support `mode` (by default the first one, at 0 s) in q (n,) [rad],
+        v (n,) [rad/s], with the row of the plant that was started there.
+        """
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
         n = self.plant.n
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
-        """Run the loop from x0 (nx,); the status of the result says how it ended. Raises InputError for an x0
-        that does not fit the loop.
+        """Run the loop from x0 (nx,) in the single support `mode`, by default the first one, at 0 s; the status
+        of the result says how it ended. Raises InputError for an x0 that does not fit the loop.
         """
         mode, n, x = (
             Mode() if mode is None else mode,
@@ -115,7 +119,7 @@ class SteppingLoop(ClosedLoop[Any]):
             numbers(x0, "the initial state"),
         )
         options.check(x)
-        # the layout follows from q and v alone, so an x that is too short is replaced to find the expected size
+        # the layout follows from q and v alone, so zeros replace an x that is too short to have them
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
         if len(x) != expected:
@@ -128,7 +132,9 @@ class SteppingLoop(ClosedLoop[Any]):
         return replace(run, settings={**run.settings, **engine})
 
     def prepared(self, x: Array) -> tuple[SteppingLoop, dict[str, str]]:
-        """The loop that runs from a state x (nx,), and the settings that say what runs."""
+        """The loop that runs from the state x (nx,), and what the trajectory's settings say of its engine. A
+        subclass with machine code returns a copy of the loop with it.
+        """
         return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
     def with_plant(self, x: Array, row: Array) -> Array:
@@ -142,28 +148,34 @@ class SteppingLoop(ClosedLoop[Any]):
         return x
 
     def row(self, x: Array) -> Array:
-        """The plant's row (2 n + k,) in x (nx,), read-only."""
+        """The plant's row (q, q', own) (2 n + k,) in x (nx,), read-only."""
         return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places(x)])))
 
     def mover(self, fired: str | None) -> Mover:
-        """One function for all arcs; the plant does not need to know what fired."""
+        """The function that moves the loop over an arc, always `move`: the event `fired` that ended the arc
+        before does not matter to it.
+        """
         return self.move
 
     def record(self, every: int) -> Stretches:
-        """Room for the stretches of one arc, of which both ends are kept."""
+        """A recorder for one arc, which keeps both ends of every stretch; `every` has no effect."""
         return Stretches(every, loop=self)
 
     def move(
         self, t: float, x: Array, mode: Mode, until: float, record: Stretches
     ) -> tuple[float, Array, FoundEvent | None]:
-        """Move from x (nx,) at t [s] to `until` [s] or to the first contact, for `hybrid.system.Mover`.
+        """Move over one stretch, from x (nx,) at t [s] to `until` [s] or to the first contact
+        (`hybrid.system.Mover`).
 
-        Its end is recorded unless the state there is not finite (NotFiniteError) or beyond the bounds
-        (RanAwayError).
+        Returns the time [s] and state (nx,) at its end, just before a contact, and the event of the contact or
+        None. The end is recorded in `record`, unless the state there is not finite (raises NotFiniteError) or
+        beyond the bounds (raises RanAwayError).
         """
+        # the last p numbers of x are the torque that is asked of the motors
         n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
         row = record.rows[-1] if record.rows else self.row(x)
         u.setflags(write=False)
+        # the load in the middle of the stretch, at the state of its start
         load = None if self.disturbance is None else self.load(0.5 * (t + until), row, mode)
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, mode)
@@ -177,26 +189,29 @@ class SteppingLoop(ClosedLoop[Any]):
         return end, x, self.found(end, x, mode, contacts, landed) if contacts else None
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
-        """The forces from outside on the plant in the state `row` at t [s], read-only."""
+        """The forces from outside on the plant in the state `row` (2 n + k,) at t [s], read-only."""
         n = self.plant.n
         zeta = self.external(t, frozen(row[:n]), frozen(row[n : 2 * n]), mode)
         return frozen(Load(zeta, self.resultant(t, mode)))
 
     @cached_property
     def pushed_in_python(self) -> bool:
-        """Whether Python computes zeta at each node while the run goes on, so that an exception ends it
-        there."""
+        """Whether Python computes zeta at each end of a stretch during the run, so that an exception of the
+        disturbance ends the run there; else `zetas` computes all of an arc at its end."""
         return self.disturbance is not None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times [s], in the plant's rows: zero, as without a disturbance.
+        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, 2 n + k): zero.
 
-        Called where `pushed_in_python` is false; a loop with compiled pushes overrides it.
+        Called where `pushed_in_python` is false, here without a disturbance; a loop with a compiled disturbance
+        overrides it.
         """
         return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:
-        """Torque on the joints (.., p) [N m] in states x (.., nx): the plant's, where its motors have a lag."""
+        """Torque on the joints (.., p) [N m] in states x (.., nx): the torque that is asked of the motors, or
+        for motors with a lag the one that the plant keeps.
+        """
         plant, u = self.plant, x[..., -self.plant.p :]
         if not isinstance(plant, LaggingPlant):
             return u
@@ -205,7 +220,9 @@ class SteppingLoop(ClosedLoop[Any]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Forces of the ground on stance and swing foot [N], as the plant has them (`closed_loop.feet`)."""
+        """Vertical forces of the ground on stance and swing foot [N], by the plant's own `footing`, at t [s], q
+        (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
+        """
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
         forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
@@ -213,11 +230,11 @@ class SteppingLoop(ClosedLoop[Any]):
     def found(
         self, t: float, x: Array, mode: Mode, contacts: tuple[Contact, ...], row: Array | None
     ) -> FoundEvent:
-        """The event of the contacts at t [s], x (nx,) the state just before and `row` (2 n + k,) the plant's
-        after, with the controller's jump.
+        """The event of the contacts at t [s]: after a touchdown with x+ (nx,), in which the controller has
+        jumped; with its status where a contact ends the run.
 
-        A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
-        it that is not finite.
+        x (nx,): the state just before. row (2 n + k,): the plant's state just after; None where a contact ends
+        the run. Raises NotFiniteError for an impulse or a state after it that is not finite.
         """
         name, impulse, ends = _together(contacts)
         if ends is not None:
@@ -236,7 +253,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
 
 def check_swap(plant: SteppingPlant) -> None:
-    """Raise InputError where `swap` of a plant does not relabel p motors."""
+    """Raise InputError where `swap` of a plant is no relabelling of its p motors (`types.relabelled`)."""
     swap = np.asarray(plant.swap)
     if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
@@ -246,10 +263,10 @@ def check_swap(plant: SteppingPlant) -> None:
 
 
 def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> Array:
-    """The row that `plant.start` gives at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
+    """The row (2 n + k,) that `plant.start` returns at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
 
-    own: how many numbers of its own are expected; None accepts any. Raises InputError where the
-    plant starts elsewhere.
+    own: the expected number k of the plant's own numbers; None accepts any. Raises InputError where the
+    row does not begin with q and v.
     """
     found = plant.start(t, read_only(q), read_only(v))
     shape = None if own is None else (2 * len(q) + own,)
@@ -265,10 +282,11 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
 def advanced(
     plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
 ) -> tuple[float, Array, tuple[Contact, ...], Array | None]:
-    """Call `plant.advance` and check its result: the time [s], a copy of the row, contacts, and the row after
-    them.
+    """Call `plant.advance` from `row` at t [s] under the torques u (p,) [N m] and the load, and check the
+    result.
 
-    A time within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract.
+    Returns the time [s], a copy of the row there, the contacts, and the row after them (None without). A time
+    within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract.
     """
     moved = plant.advance(t, row, u, load, until)
     if type(moved) is not Moved or type(moved.contacts) is not tuple:
@@ -286,7 +304,9 @@ def advanced(
 
 
 def _together(contacts: tuple[Contact, ...]) -> Contact:
-    """Contacts of one moment as one: names joined by +, impulses added; if some end the run, those alone."""
+    """Contacts at one time as one: names joined by +, impulses added; where some of them end the run, those
+    alone count, with the status of the first.
+    """
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
     return Contact("+".join(dict.fromkeys(names)), np.sum(impulses, axis=0), statuses[0])
@@ -297,7 +317,8 @@ class Stretches(Recorder):
     """The record of one arc, stretch after stretch: from a sample instant or a switching time of a disturbance
     to the next.
 
-    What is recorded at both ends is put together once per arc, since a stretch costs microseconds.
+    Lists grow with every stretch and become arrays once per arc, in `arc`, since a stretch costs microseconds.
+    `t` has the times [s] of `rows`.
     """
 
     loop: SteppingLoop = field(kw_only=True)
@@ -306,34 +327,41 @@ class Stretches(Recorder):
     zeta: list[Array] = field(default_factory=list)
     """The disturbance (n,) [N m] at these instants, where Python computes it."""
     held: list[Array] = field(default_factory=list)
-    """The loop's state x (nx,) at the start of every stretch."""
+    """The loop's state x (nx,) at the start of every stretch; all but its row is held until the next one."""
 
     def begin(self, t: float, row: Array, x: Array, mode: Mode) -> None:
-        """Record that a stretch begins at t [s], in the plant's row (2 n + k,) and the state x (nx,)."""
+        """Record that a stretch begins at t [s], in the plant's row (2 n + k,) and the state x (nx,).
+
+        Its row is recorded only for the first stretch: any other begins where the one before has ended.
+        """
         if not self.rows:
             self.point(t, row, mode)
         self.held.append(x)
 
     def point(self, t: float, row: Array, mode: Mode) -> None:
-        """Record that the plant is in the row (2 n + k,) at t [s]."""
+        """Record that the plant is in the row (2 n + k,) at t [s], an end of a stretch, and zeta there where
+        Python computes it.
+        """
         if self.loop.pushed_in_python:
             self.zeta.append(self.loop.load(t, row, mode).zeta)
         self.t.append(t)
         self.rows.append(row)
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """Join the stretches from tick to tick into one arc, whose nodes are both ends of each stretch.
+        """Join all stretches into one arc, whose nodes are both ends of each stretch; a stretch that failed has
+        its start alone.
 
-        A stretch that failed has its start alone. The arc also has the motors' torque (p,) and zeta (n,) [N m]
-        at its nodes. The slope of the rates over a stretch is their difference by its duration, as the plant
-        does not compute q''.
+        The arc also has the motors' torque "u" (p,) and "zeta" (n,) [N m] at its nodes. q'' is constant over a
+        stretch, the difference of the rates by its duration, as the plant does not compute it.
         """
         if not self.rows:
             return super().arc(mode, event)
         n, t, rows = self.loop.plant.n, np.array(self.t), np.array(self.rows)
         nodes = len(self.held) + len(t) - 1  # a stretch that failed has one
+        # of each node the stretch, and the index in `rows`, to which a stretch adds its end alone
         of = np.repeat(np.arange(len(self.held)), 2)[:nodes]
         at, v = of + np.arange(nodes) % 2, rows[:, n : 2 * n]
+        # the last row of zeros is for a stretch that failed
         a = np.vstack((np.diff(v, axis=0) / np.diff(t)[:, np.newaxis], np.zeros(n)))
         x = np.array(self.held)[of]
         x[:, : 2 * n], x[:, self.loop.own_places(x[0])] = rows[at, : 2 * n], rows[at, 2 * n :]

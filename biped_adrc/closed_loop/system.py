@@ -4,7 +4,8 @@
 time base (continuous or sampled), the model that the controller knows, and the methods of
 `hybrid.system.HybridSystem`, each of which calls the function of `closed_loop.semantics` with the
 same name. It adds what pure functions cannot do: checks of what a user's controller returns, with
-sentences that name the culprit.
+sentences that name the culprit. A tick is a sample instant; a state x (nx,) is (q, q', s), s the
+controller's state, and in sampled time also what is held between ticks.
 
 Every signal of one instant is in `closed_loop.instant_signals`.
 """
@@ -40,7 +41,8 @@ from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
 
 TURN = 2.0 * math.pi
-"""Range of a joint to either side [rad]: a whole turn, more than cables and legs of a biped allow."""
+"""Largest |angle| of a joint or of the pitch [rad]: a whole turn, more than cables and legs of a biped
+allow."""
 
 
 RUNAWAY_RATE = 50.0
@@ -58,7 +60,9 @@ class _Bounds(NamedTuple):
     """Torque [N m]; infinite for none."""
 
     def check(self, t: float, q: Array, v: Array) -> None:
-        """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
+        """Raise RanAwayError for an angle in q (n,) [rad] or a rate in v (n,) [rad/s] beyond its bound; t [s]
+        is for the text.
+        """
         if np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest)):
             return
         i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
@@ -73,7 +77,7 @@ _P = TypeVar("_P", bound=Plant)
 
 
 MADE_AGAIN = ("held", "calls", "layout", "undisturbed", "_once")
-"""Names of values that a loop remembers besides its fields; a copy in another process computes them again."""
+"""Attributes in which a loop remembers what it has computed; a copy in another process computes them again."""
 
 
 @dataclass(frozen=True)
@@ -81,14 +85,15 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     """`semantics` on NumPy arrays: a plant, a controller with its timing, and the model that the controller
     knows.
 
-    - plant: what moves. model: what the controller knows of it, the plant itself when None.
+    - plant: the robot that moves. model: the robot as the controller knows it; None: the plant itself.
     - controller, timing: in continuous time, or sampled with a period, a delay and restart at
       impacts.
     - disturbance: zeta (n,) [N m] and forces from outside; None for none.
     - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
       asked for.
     - sensors, motors: between controller and plant; in sampled time only.
-    - touchdown: how the controller notices one, in sampled time with restart=False; None: at once.
+    - touchdown: the detector by which the controller notices one, in sampled time with restart=False; None: it
+      knows each one at once.
     - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s,
       or the peak torque of the robot's record; infinite for no end. A joint
       that turns by more than a whole turn ends it, too.
@@ -143,27 +148,30 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def law(self) -> Controller:
-        """The controller in this time base; walkers with the same controller share it."""
+        """The controller in the form for this time base, continuous or sampled with this period."""
         if isinstance(self.timing, SampledTime):
             return self.controller.at_ticks(self.timing.period)
         return self.controller.continuous()
 
     @cached_property
     def calls(self) -> ControlLaw:
-        """The methods of `law`, wrapped so that the states which they return are checked for class and shape.
+        """The methods of `law`, wrapped so that the states which they return are checked for class, shape and
+        finite numbers.
 
-        `output` is not wrapped, since `saturate` checks the torque.
+        `output` is not wrapped, since `saturate` checks the torque, and a slope of `flow` may be infinite,
+        since the integrator checks the state.
         """
         law = self.law
 
         def kept(name: str, finite: bool = True) -> Callable[..., Any]:
             method = getattr(law, name)
+            # a method of the base class, which no subclass has written, needs no check
             if getattr(type(law), name) is getattr(Controller, name):
                 return method
 
             def after(s: Any, m: Measurement, *more: Array) -> Any:
                 result = method(s, m, *map(frozen, more))
-                if result is s:
+                if result is s:  # nothing to check
                     return s
                 return frozen(returned_tree(result, Layout.of(s), law, name, finite))
 
@@ -175,7 +183,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @property
     def sampled(self) -> bool:
-        """Whether a torque is held between ticks."""
+        """Whether the controller acts at ticks and its torque is held between them."""
         return isinstance(self.timing, SampledTime)
 
     @cached_property
@@ -199,8 +207,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def bounds(self) -> _Bounds:
-        """Angles, rates and torque beyond which the run ends as run away; none without a Biped, and none for
-        the torque without motors.
+        """Angles, rates and torque beyond which the run ends as run away.
+
+        They are infinite where neither plant nor model is a Biped; that of the torque also without motors.
         """
         robot: Any = self.plant if isinstance(self.plant, Biped) else self.nominal
         if not isinstance(robot, Biped):
@@ -220,7 +229,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return self.plant.swap  # type: ignore[attr-defined]
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s].
+        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one.
 
         Raises InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN.
         """
@@ -229,20 +238,26 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return self.disturbance.zeta(t, mode.step, mode.start, q, v)
 
     def resultant(self, t: float, mode: Mode) -> Array:
-        """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""
+        """Force (x, z) from outside on the robot as a whole (2,) [N] at t [s], which the ground does not
+        carry."""
         if self.disturbance is None:
             return np.zeros(2)
         return self.disturbance.net_force(t, mode.step, mode.start)
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
-        """Times [s] at which the disturbance is not smooth; no step of the integrator goes across one."""
+        """Times of the run [s] at which the disturbance is not smooth in the single support `mode`; no
+        integration step goes across one.
+        """
         if self.disturbance is None:
             return ()
         return self.disturbance.switching_times(mode.step, mode.start)
 
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
-        """The layout of x (nx,), found once by starting the controller at the (q, v) in x."""
+        """The layout of a state x (nx,) as a `semantics.State`, the same for all states of the loop.
+
+        Found once, by starting the controller at the (q, v) in x, then remembered.
+        """
         if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
             m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
@@ -250,21 +265,25 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return vars(self)["layout"]
 
     def _begun(self, m: Measurement, s: Any, mode: Mode) -> State:
-        """The state at the start of a run at m, with the state s of the controller."""
+        """The state at the start of a run with the measurement m and the controller's state s; no torque acts
+        yet."""
         return State(m.q, m.v, s, () if self.held is None else self.held.start(m.q, m.v, *mode))
 
     def split_state(self, x: Array) -> tuple[Array, Array, Any]:
-        """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
+        """q (n,) [rad], v (n,) [rad/s] and the controller's state s in x (nx,)."""
         return semantics.parts(self, x)[:3]
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
-        """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s].
+        """x (nx,) at the start of the single support `mode` (by default the first one, at 0 s) in q (n,) [rad],
+        v (n,) [rad/s].
 
         Here, once, the controller's first output, its state's methods and its reference are tried:
         raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
         """
         mode = Mode() if mode is None else mode
         q, v = (np.asarray(x, dtype=float) for x in (q, v))
+        # without the disturbance, which does not matter here, so that loops with different ones share the
+        # result
         x, layout = _start(self.undisturbed, mode, q.shape, q.tobytes(), v.shape, v.tobytes())
         vars(self).setdefault("layout", layout)
         return x.copy()
@@ -281,7 +300,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:
-        """u (p,) [N m] within the torque limit.
+        """u (p,) [N m] with each entry bounded by the torque limit, if there is one.
 
         Raises InputError for what is not one real number per motor, NotFiniteError for NaN or infinity.
         """
@@ -289,7 +308,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         u = returned(u, shape, self.controller, "output", finite=False)
         if limit is not None:
             u = np.minimum(np.maximum(u, -limit), limit)
-        # one product tests all of them, at every stage of every step
+        # one product tests all of them, at every stage of every step; where it is not finite, `returned` raises
         if not math.isfinite(u.dot(u)):
             returned(u, shape, self.controller, "output")
         return u
@@ -301,19 +320,21 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on stance and swing foot [N] of a pinned plant."""
+        """Vertical forces of the ground on stance and swing foot [N], the latter 0: a plant whose stance foot
+        is pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
+        """
         return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
+        """Return u (p,) [N m] unchanged. Raises RanAwayError where one of them is beyond the bound."""
         strongest = self.bounds.strongest
-        # one product tests all of them, at every sample
+        # the product first, since it is fast: where it is within the bound, so is each entry
         if u.dot(u) > strongest**2 and np.max(np.abs(u)) > strongest:
             raise RanAwayError(f"torque {u} N m, above {strongest:.3g} N m")
         return u
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
-        """Measurement, torque, force and acceleration at (t, x), t in [s]."""
+        """The `Instant` at t [s] in the state x (nx,): measurement, torque, force and acceleration."""
         return semantics.instant(self, t, x, mode)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
@@ -321,20 +342,26 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return semantics.flow(self, t, x, mode)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after a sample instant: sensors, controller, queue of torques."""
+        """x (nx,) after the sample instant at t [s]: sensors, controller and torques on their way have
+        changed."""
         after = semantics.tick(self, t, x, mode)
         return after if self.sensors is None else returned(after, x.shape, self.sensors, "sense")
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) at the instant from which the torque acts that waited for a fraction of the period."""
+        """x (nx,) just after the torque that waited for a fraction of the period has begun to act; t and mode
+        are not used.
+        """
         return semantics.release(self, x)
 
     def relaxing(self) -> Relaxing | None:
-        """Torques of motors with lag, which go exponentially to the commanded ones; None without lag."""
+        """Places in x of the p torques of lagging motors, and of the commanded torques to which they go
+        exponentially, the last p numbers of x; with 1 / lag [1/s]. None without lag.
+        """
         k, p = self.held, self.plant.p
         if k is None or k.motors.speed == 0.0:
             return None
-        at = k.line.place("u_m").start - k.line.size  # the line is the end of x
+        # counted from the end of x, where the line, the torques on their way, stands
+        at = k.line.place("u_m").start - k.line.size
         return Relaxing(slice(at, at + p), slice(-p, None), k.motors.speed)
 
     def clocks(self) -> tuple[Clock, ...]:
@@ -352,7 +379,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
 
 def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
-    """Raise InputError where timing or model do not allow that a controller detects touchdowns itself."""
+    """Raise InputError where the timing, or the controller's model, does not allow a detector of touchdowns."""
     if not isinstance(timing, SampledTime) or timing.restart:
         raise InputError(
             f"touchdowns are noticed at ticks of a clock that knows none of them, found {timing}; give "
@@ -375,6 +402,10 @@ def _held(
     p: int,
     own: int,
 ) -> HeldParts:
+    """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
+
+    It is remembered in `time`, so that loops with equal parts share the result.
+    """
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
@@ -383,13 +414,14 @@ def _held(
 
 @once
 def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layout]:
-    """Compute the x (nx,) of `ClosedLoop.initial_state`, and its layout.
+    """Compute the x (nx,) of `ClosedLoop.initial_state`, and its layout, and check the controller there.
 
-    start: shape and bytes of q and then of v, since the results are remembered by arguments that can be hashed.
+    start: shape and bytes of q, then shape and bytes of v, since results are remembered by arguments that can
+    be hashed, and arrays cannot.
     """
     shapes, data = start[::2], start[1::2]
     q, v = (np.frombuffer(x).reshape(shape) for shape, x in zip(shapes, data, strict=True))
-    # what overflows is refused, or ends the walk
+    # no warning of NumPy: a number that is not finite raises an error here, or ends the walk later
     with handing_out(), np.errstate(over="ignore", invalid="ignore"):
         m = loop.measure(mode.start, q, v, mode)
         for part in nested(loop.law):
@@ -401,7 +433,11 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
-    """Raise InputError for a reference or gains that do not fit p motors and the coordinates of m, len(m.q)."""
+    """Raise InputError where the gains or the reference of a controller do not fit p motors and the
+    coordinates.
+
+    The reference is evaluated at the measurement m for that. A controller without them passes.
+    """
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):
         gains.check(p)

@@ -16,9 +16,10 @@ error, S the scaling by which it has velocities multiplied (`scale`):
 
     w = (q, q', rest),   E = e,   N_E = scale xi_total in row 1,   xi_total = q_b'' - kappa u
 
-N_E is zero in all other rows. xi_total does not depend on u itself; torque limits, a wrong model and forces
-from outside are in it. `rest` is what follows the observer in the controller's state. `Walker.split` hands the
-methods to the Python method, `engine.equations` traces them for the compiled one.
+Z (k, p) is the observer's state. N_E is zero in all other rows. xi_total does not depend on u itself; torque
+limits, a wrong model and forces from outside are in it. `rest` is what follows the observer in the controller's
+state. `Walker.split` hands these coordinates to the method of integration in Python; `engine.equations` makes
+machine code of them for the compiled one. Numbers such as (7) are equations of the paper.
 
 `hybrid.simulator` runs a Walker in Python; `engine` compiles the same Walker. `scenario.build`
 makes one from plain values.
@@ -49,7 +50,9 @@ from biped_adrc.model.ground import GroundSteps, Slope, Stones, drop_of
 
 @dataclass(frozen=True)
 class ErrorForm:
-    """The coordinates of a robot under a controller with a linear observer."""
+    """The change of coordinates x -> (w, E) of the exponential method, for a robot under a controller whose
+    state begins with that of a linear observer, order * p numbers.
+    """
 
     n: int
     """Number of coordinates."""
@@ -60,17 +63,18 @@ class ErrorForm:
     scale: float
     """Factor of velocities in the observer's scaled states [s]."""
     A: Array
-    """Linear part (k, k) [1/s], the same for every joint."""
+    """Linear part (k, k) [1/s], the same for every joint; k = order."""
 
     def to(self, x: Array) -> tuple[Array, Array]:
-        """w (2 n + rest,) and E (order, p) of x: the observer's state is replaced by its error."""
+        """w (2 n + rest,) and E (order, p) of x (nx,): the error E replaces the observer's state Z in x."""
+        # z: the rows of Z one after the other; S (q_b, q_b') has zeros below its first two rows
         n, p, end = self.n, self.p, 2 * self.n + self.order * self.p
         z = x[2 * n : end]
         e = np.concatenate((x[:p] - z[:p], self.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))
         return np.concatenate((x[: 2 * n], x[end:])), e.reshape(self.order, p)
 
     def back(self, w: Array, E: Array) -> Array:
-        """x (nx,), linear in w (2 n + rest,) and E (order, p)."""
+        """x (nx,) of w (2 n + rest,) and E (order, p), the inverse of `to`; both are linear."""
         n, p = self.n, self.p
         z = (w[:p] - E[0], self.scale * w[n : n + p] - E[1], -E[2:].ravel())
         return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
@@ -79,9 +83,12 @@ class ErrorForm:
 def remainder(
     loop: Loop, form: ErrorForm, t: float, w: Array, E: Array, mode: Mode
 ) -> tuple[Array, Array]:
-    """N_w, and row 1 of N_E (p,), of the closed loop at (t, w, E), t in [s]."""
+    """The remainder of the closed loop at t [s], w (2 n + rest,), E (k, p): N_w, of the size of w, and row 1 of
+    N_E (p,), its only row that is not zero.
+    """
     i = semantics.instant(loop, t, form.back(w, E), mode)
     s, u = flatten(i.s), loop.bounded(i.u)
+    # the slope s' is used only behind the observer's part of s; where nothing is behind it, s itself will do
     ds = flatten(loop.calls.flow(i.s, i.measurement, u)) if len(s) > form.order * form.p else s
     xi_total = i.a[: form.p] - i.measurement.terms.kappa @ i.u
     dw = np.concatenate((w[form.n : 2 * form.n], i.a, ds[form.order * form.p :]))
@@ -89,12 +96,12 @@ def remainder(
 
 
 FOOT_STRIKE = "foot_strike"
-"""Name of the event function whose zero is the impact."""
+"""Name of the event function, clearance of the swing foot, whose zero is the impact."""
 LEAST_STEP = 1e-3
 """Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground in
 mid-swing, when the swing foot passes the stance foot."""
 ON_GROUND = 1e-9
-"""Depth of a foot below the ground that is round-off of a touchdown [m]."""
+"""Largest depth of a foot below the ground that counts as round-off of a touchdown [m]."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +114,8 @@ class Walker(ClosedLoop[Biped]):
     - disturbance: zeta (n,) [N m] and forces from outside; None: nothing disturbs.
     - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one asked for.
     - sensors: what the controller measures; motors: how torques follow. Sampled time only; None: exactly.
-    - touchdown: how the controller notices one, in sampled time with restart=False; None: at once.
+    - touchdown: the detector by which the controller notices one, in sampled time with restart=False; None: at
+      once.
     - runaway_speed [1], runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s, or the peak
       torque of the robot's record; infinite for no end. A joint that turns by more than a whole turn ends it,
       too.
@@ -116,7 +124,8 @@ class Walker(ClosedLoop[Biped]):
     - slope [rad]: of the ground, positive downhill; None: that of the gait that `walk` gets, else level.
     - ground_steps: where the ground falls or rises, as `StepDown` and `StepUp`.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
-    - stones: where feet may land, for the certificate of a step; the controller is told apart.
+    - stones: where feet may land, for the certificate of a walking step; the controller does not get them from
+      here.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.
 
@@ -150,11 +159,13 @@ class Walker(ClosedLoop[Biped]):
 
     # -- parts -------------------------------------------------------------------------------------
     def check_foot(self, q: Array, v: Array, mode: Mode) -> None:
-        """Raise InputError for a start q (n,) [rad], v (n,) [rad/s] whose touchdown is past.
+        """Raise InputError for a start q (n,) [rad], v (n,) [rad/s] in the single support `mode` whose
+        touchdown is past.
 
         The swing foot is then below the ground and comes down, ahead of the hip. A foot that is not yet ahead
-        may begin below the ground, as one of a leg without knees does in mid-step.
+        may begin below the ground, as one of a leg without knees does in the middle of a walking step.
         """
+        # `along` with the foot's velocity gives the rate of its clearance
         x, _ = self.plant.swing_foot(q)
         depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.ground_slope), 1.0])
         falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
@@ -172,7 +183,7 @@ class Walker(ClosedLoop[Biped]):
 
     @property
     def ground_slope(self) -> float:
-        """Slope of the ground [rad], 0 where neither the walker nor a gait says one."""
+        """Slope of the ground [rad], positive downhill; 0 for slope=None."""
         return 0.0 if self.slope is None else self.slope
 
     @cached_property
@@ -182,41 +193,43 @@ class Walker(ClosedLoop[Biped]):
 
     # -- from outside ------------------------------------------------------------------------------
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
-        """Force of the ground on the stance foot (F_T, F_N) (2,) [N], forces from outside taken off.
+        """Force of the ground on the stance foot, tangential and normal (F_T, F_N) (2,) [N], at the instant i.
 
-        By Newton's law the ground carries what gravity and motion ask for minus what outside forces
-        carry.
+        By Newton's law it is m (p_com'' - g), which the plant computes from the motion, less the resultant
+        force from outside.
         """
         m = i.measurement
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
 
     # -- impact and ground -------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
-        """x+ (nx,) after impact and relabelling at t [s], with the mode that begins.
+        """x+ (nx,) after the impact at t [s], x (nx,) being x-, with the mode that begins.
 
-        None unless the swing foot is more than LEAST_STEP ahead of the stance foot: then the
-        crossing is no event.
+        None where the swing foot is not more than LEAST_STEP ahead of the stance foot: its touch of the ground
+        is then ignored.
         """
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
         return self.impact(t, x, mode)
 
     def impact(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
-        """x+ (nx,) after impact and relabelling at t [s], wherever the swing foot is, and the mode
-        that begins.
+        """x+ (nx,) after impact, relabelling and the controller's jump at t [s], wherever the swing foot is,
+        and the mode that begins.
         """
         after = Mode(mode.step + 1, t)
         return semantics.strike(self, t, x, after), after
 
     def drop(self, step: int) -> float:
-        """How far the steps of the ground in single support `step` lower the ground where it ends [m]."""
+        """How much lower [m] than the plane through the stance foot the ground is where single support `step`
+        ends, by the steps of the ground; below 0 for a step up.
+        """
         return drop_of(self.ground_steps, step)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
         """Height of the swing foot above the ground [m] along the vertical, at q (n,) [rad].
 
-        With `step`, above the ground on which that single support ends; without, above the plane of
-        the stance foot.
+        With `step`, the number of a single support, above the ground where that one ends; without, above the
+        plane through the stance foot.
         """
         drop = 0.0 if step is None else self.drop(step)
         fall = math.tan(self.ground_slope)
@@ -229,8 +242,9 @@ class Walker(ClosedLoop[Biped]):
         return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """Three event functions: touchdown (an impact), hip too low (FELL), single support too long
-        (STALLED).
+        """Three event functions of the single support `mode`: clearance of the swing foot [m] (an impact),
+        height of the hip over its limit [m] (FELL), time left [s] (STALLED). An event is where one falls
+        through zero.
         """
         n = self.plant.n
         return (
@@ -252,7 +266,8 @@ class Walker(ClosedLoop[Biped]):
         )
 
     def split_form(self) -> ErrorForm | None:
-        """The coordinates of the exponential method; None for sampled time or no linear observer."""
+        """The change of coordinates for the exponential method; None in sampled time or without a linear
+        observer."""
         error = None if self.sampled else self.law.error_system()
         if error is None:
             return None
@@ -260,8 +275,8 @@ class Walker(ClosedLoop[Biped]):
         return ErrorForm(self.plant.n, self.plant.p, len(error.A), scale, error.A)
 
     def split(self, mode: Mode) -> Split | None:
-        """The coordinates of the exponential method with the remainder of the closed loop in `mode`; None in
-        sampled time or without a linear observer.
+        """The coordinates of the exponential method, x -> (w, E), with A and the remainder of the closed loop
+        in `mode`; None in sampled time or without a linear observer.
         """
         if (form := self.split_form()) is None:
             return None

@@ -1,1 +1,1 @@
-"""Controllers, wrappers around controllers and outer loops; a file for each idea, named in the registry."""
+"""Controllers, wrappers around controllers, and outer loops; each idea has a file of its own."""

@@ -2,8 +2,11 @@
 
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^)
 
-xi^ lumps model error and external torques into one signal per joint; the nominal model gives kappa alone (and,
-through Theta'' in q_d'', the unactuated row).
+q_b (p,) are the joints with motors, q_b'' = kappa u + xi by (13), with kappa (p, p) and xi (p,) [rad/s^2]; x1^
+is the estimate of q_b, x2^ that of q_b'. xi^ lumps model error and external torques into one signal per joint;
+the nominal model gives kappa alone (and, through Theta'' in q_d'', the unactuated row). For a virtual
+constraint q_d = h(Theta), with the phase Theta = c q, q_d'' contains h' Theta'' and so the torque itself:
+`tracking` solves this loop.
 
 Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it measures q_b, its input is kappa u for the
 torque applied, and xi^ is what remains.
@@ -13,9 +16,10 @@ In assisted ADRC the observer contains the nominal model's xi, and estimates the
     x1' = x2,   x2' = xi + kappa u + d                              d: model error and external torques
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi - d^)
 
-With m = 0 there is no d^, and the law is NPD (28) on the angles and rates of an observer in place of measured
-ones. With m >= 1 the observer has less to follow than in (20), where all of xi is a disturbance: (20) needs
-kappa alone of the model, assisted ADRC all of it.
+Its observer has m extended states, for d and its derivatives. With m = 0 there is no d^, and the law is NPD
+(28) on the angles and rates of an observer in place of measured ones. With m >= 1 the observer has less to
+follow than in (20), where all of xi is a disturbance: (20) needs kappa alone of the model, assisted ADRC all of
+it.
 """
 
 from __future__ import annotations
@@ -42,8 +46,9 @@ class ADRCController(ObservingController):
     """ADRC, eq. (20), with an observer that is its whole state; Table I and Table II by default.
 
     reference: q_d, which the joints track. observer: of xi (p,) [rad/s^2], by default (17) with the poles of
-    Table I. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta'' (default), or drop h'
-    Theta'' as printed. reset: what happens to the observer at impact.
+    Table I. gains: K_p [1/s^2], K_d [1/s]. solve_theta: whether the loop through Theta'' is solved; else
+    h' Theta'' is dropped, as the paper prints it. reset: what happens to the observer at
+    impact; by default it starts anew there.
 
     >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
@@ -65,10 +70,11 @@ class ADRCController(ObservingController):
         return m.terms.kappa @ u
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
+        """u (p,) [N m] of (20) for the point r of the reference and the observer's estimates x."""
         return tracking_torque(self.gains, r, self.joint_estimate(x, m), m, self.solve_theta)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2) when the rates change by a (n, 2): its first p rows."""
+        """Change of q_b' (p, 2) when the rates q' change by each column of a (n, 2): its first p rows."""
         return a[: m.terms.kappa.shape[0]]
 
     def error_system(self) -> ErrorSystem | None:
@@ -77,16 +83,15 @@ class ADRCController(ObservingController):
 
 @dataclass(frozen=True)
 class AssistedADRCController(ADRCController):
-    """ADRC whose observer has the nominal model's xi in its input, and estimates what
-    remains of the disturbance.
+    """Assisted ADRC: the observer has the nominal model's xi in its input, and estimates the remaining d.
 
-    The observer is the whole state; m = 1 and Table II by default.
+    The observer is the whole state; by default it has m = 1 extended state and its poles at -500 rad/s.
     """
 
     observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(500.0, 1))
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """q_b [rad], q_b' [rad/s], each (p,), and d = 0: without error the model explains the whole motion."""
+        """q_b [rad], q_b' [rad/s] and d = 0, each (p,): the nominal model takes itself for exact."""
         return Estimate(m.q_b, m.v_b, np.zeros(len(m.q_b)))
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
@@ -94,9 +99,9 @@ class AssistedADRCController(ADRCController):
         return super().observer_input(m, u) + m.terms.xi
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """The estimates x of the joints with xi^ = xi + d^ [rad/s^2], each (p,)."""
+        """The estimates x of the joints with xi^ = xi + d^ (p,) [rad/s^2] in place of d^."""
         return x._replace(disturbance=m.terms.xi + x.disturbance)
 
     def error_system(self) -> ErrorSystem | None:
-        """None, as the observer's input is not kappa u alone."""
+        """None: an `ErrorSystem` is for the input kappa u alone."""
         return None

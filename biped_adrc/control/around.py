@@ -1,19 +1,20 @@
 """Wrappers: controllers around any controller, which call the one inside (`inner`).
 
-A subclass writes the methods that differ. It names no class of controllers, so that every one that compiles
-still does. `friction_feedforward` and `delayed.Predicted` act all the time, as does an additional torque a,
-such as a learner's, beside the torque u_i of the controller inside:
+A *tick* is a sample instant. A subclass writes the methods that differ. It names no class of controllers, so
+that every controller which compiles to machine code still does so inside a wrapper. `friction_feedforward` and
+`delayed.Predicted` act all the time, as does an additional torque a, such as a learner's, beside the torque u_i
+of the controller inside:
 
     u = u_i + a
 
 The controller inside gets the sum that acts: its observer does not take a for a disturbance, and so does not
 work against it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it
 from its vector of parameters, Python from the array that the wrapper was made with, which its owner may
-overwrite. So a `Stepper` sets another a before each sample, and compiles nothing.
+overwrite. So a `Stepper`, which runs a walk tick by tick, sets another a before each, and compiles nothing.
 
-Across a touchdown a policy acts for the time in which contact settles:
+Across a touchdown a *policy*, a wrapper, acts for the time in which contact settles. Policy `Hold`:
 
-    hold    s <- initial_state(m)                      at each tick with t_step < T, then s <- correct(s, m)
+    s <- initial_state(m)  at each tick with t_step < T,   s <- correct(s, m)  at the others
 
 t_step is the time since the last touchdown that the controller knows of; the start of a run counts as one. A
 contact that takes time moves the joints by forces that no observer knows, and an observer takes them for a
@@ -96,7 +97,7 @@ class AddedTorque(Around):
     torque: Array
 
     def __post_init__(self) -> None:
-        freeze(self, "torque")
+        freeze(self, "torque")  # a read-only view: the owner may still overwrite the array
 
     def output(self, s: Any, m: Measurement) -> Array:
         return self.inner.output(s, m) + self.torque
@@ -104,7 +105,7 @@ class AddedTorque(Around):
 
 @dataclass(frozen=True)
 class AcrossContact(Around):
-    """Base of the policies across a touchdown, which act at sample instants only."""
+    """Base of the policies across a touchdown, which act in sampled time only."""
 
     def continuous(self) -> Self:
         self._only_sampled()
@@ -118,7 +119,7 @@ class ContactWindow(AcrossContact):
 
     @derived
     def until(self) -> float:
-        """Length of the window [s] less round-off: a tick at its very end is outside."""
+        """T [s] less the round-off of times, so that a tick at the very end of the window is outside."""
         return float(self.window - SAME_INSTANT)
 
 
@@ -127,5 +128,6 @@ class Hold(ContactWindow):
     """A policy that restarts the observer of `inner` at each tick for `window` [s] after a touchdown."""
 
     def correct(self, s: Any, m: Measurement) -> Any:
+        # both are computed: machine code has no branch here
         fresh, run = self.inner.initial_state(m), self.inner.correct(s, m)
         return chosen(m.t_step < self.until, fresh, run)

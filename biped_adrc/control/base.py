@@ -3,8 +3,10 @@
     u = output(s, m),   s' = flow(s, m, u)         in continuous time
     s <- correct(s, m), u = output(s, m), s <- predict(s, m, u)    at a tick
 
-The state s is passed in and handed back. A controller without a state needs `output` alone and works in both
-time bases. `u` handed to `flow` and `predict` is the torque applied, after saturation.
+A *tick* is a sample instant; s' is ds/dt. The state s is passed in and handed back. A controller without a
+state needs `output` alone and works in both time bases. The `u` that `flow` and `predict` get is the torque
+applied, after saturation. Of the n coordinates q the first p, q_b, are the joints with motors; the others are
+q_N. The nominal model is the one that controllers know: D q'' + Omega = B u, hence q_b'' = kappa u + xi.
 
 At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
 instant, and the observer inside gets that torque and no other, so it does not wind up at a limit.
@@ -13,8 +15,8 @@ A controller is a frozen dataclass that writes these methods. Python calls them,
 machine code (`biped_adrc.core.part`).
 
 `Passive` sends no torque: u = 0, for passive walkers and for the robot's own motion.
-The compass gait down a slope needs nothing more (McGeer, Int. J. Robotics Research 9(2), 1990). Tests use it
-where no controller may interfere, such as for the conservation of energy between impacts.
+A compass robot walks down a slope with no more than that (McGeer, Int. J. Robotics Research 9(2), 1990). Tests
+use it where no controller may interfere, such as for the conservation of energy between impacts.
 """
 
 from __future__ import annotations
@@ -48,7 +50,7 @@ class Measurement(NamedTuple):
     t: float
     """Time since the start of the run [s]."""
     step: int
-    """Number of the single support, from 1."""
+    """Number of the single support (walking step), from 1."""
     t_step: float
     """Time since this single support began [s]."""
     q: Array
@@ -56,16 +58,17 @@ class Measurement(NamedTuple):
     v: Array
     """Rates (n,) [rad/s]."""
     terms: Reduction
-    """D, Omega, kappa, xi of the nominal model at (q, v)."""
+    """D, Omega, kappa, xi and more of the nominal model at (q, v)."""
     body: BodyTerms | None = None
-    """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
+    """G, C' q' (C' is a transpose) and the ground's force of the nominal model; None for a controller without
+    `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
     """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at the same time; None outside of a
     closed loop."""
     impulse: Array | None = None
-    """Changes of the rates (n, 2) [1/(kg m)] by an impulse of 1 N s on the striking foot in x and in z: the law
-    leaves these two directions out of its errors. None but for a controller inside `ImpactInvariant`, near a
-    touchdown."""
+    """Changes of the rates (n, 2) [1/(kg m)] by an impulse of 1 N s on the striking foot in x and in z: a law
+    that reads it leaves such changes out of its errors. None but for a controller inside `ImpactInvariant`,
+    near a touchdown."""
 
     @property
     def q_b(self) -> Array:
@@ -82,7 +85,7 @@ class Measurement(NamedTuple):
 
 
 def measured(m: Measurement) -> Estimate:
-    """The measured q_b, q_b' and the nominal model's xi, each (p,), as an `Estimate`.
+    """The measured q_b, q_b' and the nominal model's xi, each (p,), as the three fields of an `Estimate`.
 
     A law without an observer uses it in place of estimates, and an observer starts from it.
     """
@@ -90,7 +93,7 @@ def measured(m: Measurement) -> Estimate:
 
 
 _OTHERS = "expected one such as NPDController or ADRCController"
-"""End of an error's sentence on a controller that lacks something: which controllers have it."""
+"""End of a message on a controller that lacks something: which controllers have it."""
 
 
 class Controller(Part):
@@ -113,9 +116,10 @@ class Controller(Part):
     SUCH_AS = "NPDController(gait.constraint)"
 
     needs_body: ClassVar[bool] = False
-    """Whether `Measurement.body` has to be there."""
+    """Whether the controller reads `Measurement.body`, which is computed only then."""
     reads_impulse: ClassVar[tuple[str, ...]] = ()
-    """Which of the methods "output" and "correct" leave the directions of `Measurement.impulse` out."""
+    """Which of the methods "output" and "correct" leave the directions of `Measurement.impulse` out of their
+    errors; none by default."""
 
     def output(self, s: Any, m: Measurement) -> Array:
         """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
@@ -132,38 +136,39 @@ class Controller(Part):
         return np.zeros(0)
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
-        """s' in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
+        """s' in continuous time, under the applied torque u (p,) [N m]; here s itself, which is empty."""
         return s
 
     def correct(self, s: Any, m: Measurement) -> Any:
-        """Correct s by the measurement of this sample instant; sampled time only."""
+        """s corrected by the measurement of this sample instant; sampled time only."""
         return s
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
-        """Predict s at the next sample instant, under the applied torque u (p,) [N m]; sampled time only."""
+        """s at the next sample instant, under the applied torque u (p,) [N m]; sampled time only."""
         return s
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
-        """State s of the controller after an impact, from s before it.
+        """State s of the controller after an impact, from s before it; by default the same.
 
-        after: the measurement after the impact. swap (p,): relabelling of the joints, for `types.relabelled`.
+        after: the measurement after the impact. swap (p,): relabelling of the joints, as the legs swap, for
+        `types.relabelled`.
         """
         return s
 
     def estimate(self, s: Any, m: Measurement) -> Estimate | None:
-        """Estimates of the p joints by an observer inside, for plots; None without one."""
+        """Estimates of the p joints by an observer inside, for plots and wrappers; None without one."""
         return None
 
     def sampled(self, period: float) -> Controller:
-        """The controller in its form for ticks every `period` [s]; the same object where its `predict` needs
-        no other form.
+        """The controller in its form for ticks every `period` [s]; the same object where `predict` does not
+        depend on the period.
         """
         return self
 
     @once
     def at_ticks(self, period: float) -> Controller:
-        """Call `sampled`, and check its result. Raises InputError for a controller whose state flows in
-        continuous time, but that has no `predict` for ticks.
+        """Call `sampled`, and check its result. Raises InputError for a controller, also one inside, whose
+        state flows in continuous time, but that has no `predict` for ticks.
         """
         law = self.sampled(period)
         check_part(law, f"what {type(self).__name__}.sampled returned", Controller)
@@ -186,7 +191,7 @@ class Controller(Part):
     def error_system(self) -> ErrorSystem | None:
         """Linear error dynamics of the observer, if the observer is the whole state s; None otherwise.
 
-        The exponential integration method needs them.
+        The exponential integration method (`hybrid.exponential`) needs them.
         """
         return None
 
@@ -200,7 +205,7 @@ class Controller(Part):
         self._has_no("form but one in sampled time only", how)
 
     def _has_no(self, what: str, how: str = _OTHERS) -> NoReturn:
-        """Raise InputError: this controller lacks `what`; how: what to do."""
+        """Raise InputError: this controller lacks `what`; how: what the user can do."""
         raise InputError(f"{type(self).__name__} has no {what}; {how}")
 
 
@@ -212,10 +217,11 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
 
 
 def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool) -> None:
-    """Check a controller's methods at the start of a run, in state s at m. Raises InputError.
+    """Check a controller's methods at the start of a run, in state s at m; sampled: whether at ticks.
 
-    Arrays must have the right shape, as machine code would write past the end of the state; a user's method
-    must give the same result twice, as machine code keeps nothing in an object.
+    Raises InputError. Of a controller of this package the shape of `output` alone is checked. Arrays must have
+    the right shape, as machine code would write past the end of the state; a user's method must give the same
+    result twice, as machine code keeps nothing in an object.
     """
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
     if not _is_own(controller):
@@ -227,7 +233,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
-        # a memory in the object would keep this call
+        # a call at another rate, which a memory in the object would keep
         getattr(controller, name)(s, other, *method[1:])
         again = getattr(controller, name)(s, *method)
         if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
@@ -239,7 +245,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
 
 
 def _is_own(part: Part) -> bool:
-    """Whether the class of a part, or of a part in it, is a user's."""
+    """Whether the class of a part, or of a part in its fields, is a user's and not of this package."""
     inside = (x for x in vars(part).values() if isinstance(x, Part))
     return not type(part).__module__.startswith("biped_adrc.") or any(map(_is_own, inside))
 

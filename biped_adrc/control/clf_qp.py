@@ -1,17 +1,20 @@
 """A control Lyapunov function in a quadratic program, with limits on torque and ground force.
 
-    y = q_b - q_d,   y'' = mu,   eta = (y / eps, y'),   V = eta' P eta,   P = [[sqrt 3, 1], [1, sqrt 3]] (x) I
+    y = q_b - q_d,   y'' = M q_b'' - drift - H_N a_N = mu
+    eta = (y / eps, y'),   V = eta' P eta,   P = [[sqrt 3, 1], [1, sqrt 3]] (x) I
 
     min  |mu|^2 + p delta^2   over mu, delta
     s.t. V' <= -c V / eps + delta                 c = 1 / (1 + sqrt 3)
          |u| <= u_max,   F_N >= F_min,   |F_T| <= friction F_N
 
+q_b (p,) are the joints with motors, q_b'' = a = kappa u + xi; q_N the other coordinates, q_N'' = A_N a + a_N;
+q_d'' = drift + H q'' with H = (H_b, H_N), and M = I - H_b - H_N A_N. mu [rad/s^2] is the input of the program.
+F_T, F_N [N] are the tangential and the normal force of the ground on the stance foot, ' is d/dt or a transpose.
 eps [s] sets how fast V falls, p is the weight of the relaxation delta, (x) the Kronecker product. P solves the
-Riccati equation of the double integrator for Q = I; c = 1 / lambda_max(P).
-V' + c V / eps = psi_0 + psi_1 mu is affine in mu, and so are u = kappa^-1 (a - xi), where
-a = M^-1 (mu + drift + H_N a_N), and the force of the ground F = F_a q'' + F_0 of the nominal model. With no
-limit active it is the law of least norm, which is tried first:
-mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0. Where psi_0 > 0 then
+Riccati equation of the double integrator for Q = I; c = 1 / lambda_max(P). V' + c V / eps = psi_0 + psi_1 mu is
+affine in mu, and so are u = kappa^-1 (a - xi), where a = M^-1 (mu + drift + H_N a_N), and the force of the
+ground F = F_a q'' + F_0 of the nominal model. With no limit active it is the law of least norm, which is tried
+first: mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0. Where psi_0 > 0 then
 
     V' + c V / eps = psi_0 / (1 + p |psi_1|^2),   psi_1 = 2 (y / eps + sqrt 3 y')
 
@@ -58,16 +61,16 @@ class Decrease(NamedTuple):
 
 
 class Affine(NamedTuple):
-    """u = U mu + u_0 [N m], and the force of the ground F = F_mu mu + F_1 [N]."""
+    """u = U mu + u_0 (p,) [N m], and the force of the ground (F_T, F_N) = F_mu mu + F_1 (2,) [N]."""
 
     U: Array
-    """(p, p)."""
+    """(p, p) [kg m^2]."""
     u_0: Array
-    """(p,)."""
+    """(p,) [N m]."""
     F_mu: Array
-    """(2, p)."""
+    """(2, p) [kg m]."""
     F_1: Array
-    """(2,)."""
+    """(2,) [N]."""
 
 
 class _Rows(NamedTuple):
@@ -82,12 +85,12 @@ class _Rows(NamedTuple):
     h: Array
     """(number of rows,)."""
     ground: int
-    """Number of rows of the ground."""
+    """Number of rows for the force of the ground."""
 
 
 def decrease(y: Array, dy: Array, eps: float) -> Decrease:
-    """V and the terms of its decrease for outputs y [rad], y' [rad/s], each (p,), and eps [s]."""
-    a = y / eps
+    """V and the terms psi_0, psi_1 of V' for outputs y [rad], y' = dy [rad/s], each (p,), and eps [s]."""
+    a = y / eps  # eta = (a, dy); below, products of the two halves of eta
     aa, ab, bb = float(a @ a), float(a @ dy), float(dy @ dy)
     V = ROOT * aa + 2.0 * ab + ROOT * bb
     psi_0 = 2.0 * (ROOT * ab + bb) / eps + V / (eps * (1.0 + ROOT))
@@ -95,8 +98,9 @@ def decrease(y: Array, dy: Array, eps: float) -> Decrease:
 
 
 def least_norm(d: Decrease, relaxation: float) -> Array:
-    """mu (p,) [rad/s^2] of least norm without limits; zero where V falls fast enough. relaxation: weight of
-    delta^2.
+    """mu (p,) [rad/s^2] of least |mu|^2 + p delta^2 without limits; zero where V falls fast enough by itself.
+
+    relaxation [1]: the weight p of delta^2.
     """
     return d.psi_1 * (-max(d.psi_0, 0.0) / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
@@ -104,10 +108,12 @@ def least_norm(d: Decrease, relaxation: float) -> Array:
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
     """Torque and ground force as affine functions of mu (p,), by which limits on them become rows of the QP.
 
-    Raises SingularError where L of y'' is exactly singular.
+    r: the reference now. Raises SingularError where M, and so L = M kappa of y'' = L u + xi_y, is exactly
+    singular.
     """
     terms, body, p = m.terms, body_of(m), len(r.q_d)
     rest = r.drift + r.H[:, p:] @ terms.a_N
+    # a = M^-1 (mu + rest): one solution for all p columns of mu, and in the last column for mu = 0
     columns = np.column_stack((identity(p), rest))
     solution = solve(output_matrix(r, terms), columns, "L of y'' = L u + xi_y")
     torque = terms.kappa_inverse @ solution
@@ -119,11 +125,12 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
 
 @dataclass(frozen=True)
 class CLFQPController(Controller):
-    """A controller that solves the module's quadratic program at every call; it runs in Python.
+    """A controller that solves the module's quadratic program at every call; it runs in Python, not compiled.
 
-    epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d.
-    torque_limit [N m], friction (of a flat ground) and least_force, F_min [N]: None for no such limit.
-    relaxation: p. Raises InputError for numbers that are not positive; needs qpsolvers and daqp.
+    reference: q_d, which the joints track. epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2
+    and sqrt 3 / eps are like K_p and K_d of a PD. torque_limit: u_max [N m], friction [1] (of a flat ground)
+    and least_force: F_min [N], each None for no such limit. relaxation [1]: p. Raises InputError for numbers
+    that are not positive; needs qpsolvers and daqp.
     """
 
     needs_body: ClassVar[bool] = True
@@ -136,26 +143,33 @@ class CLFQPController(Controller):
     relaxation: PositiveFloat = 1e4
 
     def output(self, s: Array, m: Measurement) -> Array:
+        """u (p,) [N m]: of the law of least norm if that keeps all limits, else of the program; where this has
+        no solution, that of the law of least norm, cut off at u_max.
+
+        Raises NotFiniteError for a state that is not finite.
+        """
         if not (np.isfinite(m.q).all() and np.isfinite(m.v).all()):
             raise NotFiniteError(
                 f"the CLF-QP was asked for a torque at q = {m.q}, q' = {m.v}, expected finite numbers"
             )
         r = self.reference(m.t, m.q, m.v)
         d = decrease(m.q_b - r.q_d, m.v_b - r.dq_d, self.epsilon)
+        # `to`: from mu to torque and force
         to, mu = affine(r, m), least_norm(d, self.relaxation)
         u, program = to.U @ mu + to.u_0, self.program(d, to)
+        # row 0, the decrease of V, holds by the choice of mu; delta, the last column, is in no other row
         if np.all(program.G[1:, :-1] @ mu <= program.h[1:]):  # all limits are kept
             return u
         solved = self._solved(program)
         if solved is not None:
             return to.U @ solved + to.u_0
         limit = math.inf if self.torque_limit is None else self.torque_limit
-        # each motor by itself: the last resort, after which V may grow
+        # the law of least norm, each motor cut off by itself: the last resort, after which V may grow
         return np.clip(u, -limit, limit)
 
     def program(self, d: Decrease, to: Affine) -> _Rows:
-        """Rows of the program: the first is the decrease of V, then the limits on torque, then those on the
-        force of the ground, which can so be dropped where no mu fulfils all.
+        """Rows of the program: first the decrease d of V, then the limits on torque, then those on the force of
+        the ground, which can be dropped from the end where no mu fulfils all. to: from mu to torque and force.
         """
         p = len(to.u_0)
         G: list[Array] = [d.psi_1[np.newaxis]]
@@ -166,21 +180,23 @@ class CLFQPController(Controller):
         ground, F_mu, F_1 = 0, to.F_mu, to.F_1
         if self.least_force is not None:
             ground += 1
-            G.append(-F_mu[1:])
+            G.append(-F_mu[1:])  # -F_N <= -F_min
             h.append(F_1[1:] - self.least_force)
         if self.friction is not None:
             ground += 2
+            # F_T - friction F_N <= 0 and -F_T - friction F_N <= 0
             cone = np.array([[1.0, -self.friction], [-1.0, -self.friction]])
             G.append(cone @ F_mu)
             h.append(-(cone @ F_1))
         rows = np.zeros((sum(map(len, G)), p + 1))
         np.concatenate(G, out=rows[:, :p])
+        # -delta, by the last entry of z, which is sqrt p delta
         rows[0, p] = -1.0 / math.sqrt(self.relaxation)
         return _Rows(rows, np.concatenate(h), ground)
 
     def _solved(self, program: _Rows) -> Array | None:
-        """Solve the program for mu (p,), with the limits of the ground or else without; None
-        when the solver fails at both.
+        """Solve the program for mu (p,) [rad/s^2], with the limits on the force of the ground or else without;
+        None when the solver fails at both.
         """
         z = _least(program.G, program.h)
         if z is None and program.ground > 0:
@@ -189,7 +205,7 @@ class CLFQPController(Controller):
 
 
 def _least(G: Array, h: Array) -> Array | None:
-    """The vector z of least |z| that fulfils G z <= h, row by row; None when there is none."""
+    """The vector z of least |z| that fulfils G z <= h, row by row; None when the solver finds none."""
     from qpsolvers import solve_qp
 
     n = G.shape[1]

@@ -7,7 +7,7 @@
 by the Pade approximant with a numerator one degree lower than the denominator of degree k = `order`:
 
     N(x) = sum_(j<k)  binom(k-1, j) (-x)^j / P_j
-    D(x) = sum_(j<=k) binom(k, j)     x^j  / P_j,       P_j = (2k-1) (2k-2) .. (2k-j)
+    D(x) = sum_(j<=k) binom(k, j)     x^j  / P_j,       P_j = (2k-1) (2k-2) .. (2k-j),  P_0 = 1
 
 Its error is of order (w d)^(2k) at the frequency w [rad/s]. The approximant with k in both degrees has one
 order more, but its gain at high frequency is +-1: a part of the command would act at once, for odd k with the
@@ -17,13 +17,14 @@ direct feedthrough. Each joint has the states R (k,); ' is d/dt:
     d R_i' = R_(i+1),   d R_k' = (u_c - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
 
 With an unknown delay the inner observer is fed with the command, as if it acted at once; with a known delay,
-with the torque that acts. The legs swap in the delay line as in the controller. A torque limit of the Walker
-acts behind the delay line. A limit of the drives (`torque_limit`) acts before it; with an unknown delay the
-observer is then fed with the limited command.
+with the torque that acts. At impact the legs swap in the delay line as in the controller. A torque limit of the
+Walker acts behind the delay line. A limit of the drives (`torque_limit`) acts before it; with an unknown delay
+the observer is then fed with the limited command.
 
 *Prediction* over a known delay, in sampled time: the controller gets the state at which its torque will act.
+A *tick* is a sample instant, and a(u) the acceleration q'' (n,) by the nominal model under the torque u.
 
-    q^ = q + d v + d^2/2 a(u_q),   v^ = v + d a(u_v)          a(u): D_s a + Omega = B_s u at (q, v)
+    q^ = q + d v + d^2/2 a(u_q),   v^ = v + d a(u_v)          D_s a + Omega = B_s u at (q, v)
 
 u_v is the mean of the torques that act until t + d, and u_q their mean with the weight 2 (t + d - s) / d^2 at
 the instant s. Both are exact if q'' depends on time through the torque alone. The torque computed at a tick
@@ -36,8 +37,8 @@ there is no delay. `SampledTime(delay_known=True)` shifts the torque instead and
 measured; with both the delay would count twice, so use this wrapper with delay_known=False. After an early
 tick, at an impact, torques act sooner than assumed here.
 
-d is the delay to predict: that of `SampledTime`, or half a period more for the hold between ticks. With d = 0
-the walk is that of the controller inside, bit for bit.
+d is the delay to predict: that of `SampledTime`, or half a period more for the hold between ticks. It has to
+be positive: without a delay this wrapper is left out.
 """
 
 from __future__ import annotations
@@ -81,14 +82,14 @@ class QueueState(NamedTuple):
 
 @dataclass(frozen=True)
 class Delayed(Around):
-    """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade
-    approximant of this order k, 1 to 10.
+    """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade approximant.
 
-    known: whether the observer inside is fed with the torque that acts, else with the command. torque_limit
-    [N m]: bound on the command, before the delay. It compiles around every controller that compiles in
-    continuous time. Raises InputError for numbers out of range.
+    order: k, 1 to 10. known: whether the observer inside is fed with the torque that acts, else with the
+    command. torque_limit [N m]: bound on the command, before the delay. It compiles around every controller
+    that compiles in continuous time. Raises InputError for numbers out of range.
     """
 
+    # none: `ImpactInvariant`, which uses this, goes inside
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     delay: PositiveFloat
@@ -98,7 +99,7 @@ class Delayed(Around):
 
     @derived
     def pade(self) -> tuple[Array, Array]:
-        """Coefficients N (k,) and D (k + 1,), lowest power first."""
+        """Coefficients N (k,) and D (k + 1,) of the approximant in s d, lowest power first."""
         return pade(self.order)
 
     @derived
@@ -107,17 +108,18 @@ class Delayed(Around):
         return math.inf if self.torque_limit is None else float(self.torque_limit)
 
     def asked(self, z: Any, m: Measurement) -> Array:
-        """The command (p,) [N m] that enters the delay line, within the drives' own limit; z: the
-        inner state.
+        """The command (p,) [N m] that enters the delay line: that of `inner` in its state z, within the drives'
+        own limit.
         """
         u = self.inner.output(z, m)
         return np.minimum(np.maximum(u, -self.limit), self.limit)
 
     def output(self, s: Any, m: Measurement) -> Array:
+        """The torque u (p,) [N m] that leaves the delay line; it does not depend on m, but on R alone."""
         return self.pade[0] @ s.R
 
     def initial_state(self, m: Measurement) -> Any:
-        """The inner state at the start, with R as if its command had acted for long enough."""
+        """The inner state at the start, and R (k, p) at rest under its command, as if it had always been so."""
         z = self.inner.initial_state(m)
         u = self.asked(z, m)
         R = np.zeros((self.order, len(u)))
@@ -125,6 +127,7 @@ class Delayed(Around):
         return DelayState(z, R)
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        """z' and R' of the module; the inner controller is fed with u, or with the command if not `known`."""
         (z, R), (_, D), rate = s, self.pade, 1.0 / self.delay
         asked = self.asked(z, m)
         dz = self.inner.flow(z, m, u if self.known else asked)
@@ -157,24 +160,27 @@ def pade(k: int) -> tuple[Array, Array]:
 
 
 def _weights(d: float, period: float) -> tuple[Array, Array]:
-    """Weights (N,) of the torques on their way in the means u_v and u_q, the oldest first; empty for d = 0.
+    """Weights (N,) of the N torques on their way in the means u_v and in u_q, the oldest first.
 
-    d [s]: the delay. period [s]: of the ticks.
+    d [s]: the delay. period [s]: T of the ticks. N = ceil(d / T), so N = 1 for d <= T.
     """
+    # WHOLE: a delay that is longer than whole periods by round-off alone has no torque more
     count = math.ceil(d / period - WHOLE)
-    # [s], from the first instant at which each torque acts to t + d
+    # [s], from the first instant at which each torque acts, now for the oldest one, to t + d
     left = np.minimum(np.arange(count, 0, -1) * period, d)
-    after = np.append(left[1:], 0.0)
+    after = np.append(left[1:], 0.0)  # [s], from the end of its action to t + d
     return (left - after) / d, (left**2 - after**2) / d**2
 
 
 @dataclass(frozen=True)
 class Predicted(Around):
-    """A wrapper that predicts the state over d = `prediction` [s] for `inner`; period [s]: set by `sampled`.
+    """A wrapper that predicts the state over d = `prediction` [s] for `inner`; its state is a `QueueState`.
 
+    period [s]: T of the ticks, which `sampled` sets; None until then.
     Raises InputError for d that is not positive, or longer than `timing.LONGEST_DELAY` periods.
     """
 
+    # none: `ImpactInvariant`, which uses this, goes inside
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     prediction: float
@@ -191,12 +197,13 @@ class Predicted(Around):
     @derived
     def weights(self) -> tuple[Array, Array]:
         """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `_weights`."""
+        # before `sampled` sets the period there is one torque on its way
         return _weights(self.prediction, self.period or self.prediction)
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
         """The measurement d later, predicted by the nominal model under the torques U (N, p) [N m].
 
-        Raises InputError for a controller that was not made for sampled time.
+        Its `t` is d later too; `step` and `t_step` remain those of m.
         """
 
         def acceleration(u: Array) -> Array:
@@ -204,6 +211,7 @@ class Predicted(Around):
             return np.concatenate((a, m.terms.A_N @ a + m.terms.a_N))
 
         d, (of_rate, of_angle) = self.prediction, self.weights
+        # (p,) a weighted mean of the torques, (n,) the acceleration under it
         a_q, a_v = acceleration(of_angle @ U), acceleration(of_rate @ U)
         assert m.elsewhere is not None
         q, v = m.q + d * m.v + 0.5 * d**2 * a_q, m.v + d * a_v
@@ -213,10 +221,12 @@ class Predicted(Around):
         return self.inner.output(s.inner, self.ahead(s.U, m))
 
     def initial_state(self, m: Measurement) -> Any:
+        """The inner state at the predicted start, and U = 0: no torque is on its way."""
         U = np.zeros((len(self.weights[0]), m.terms.kappa.shape[0]))
         return QueueState(self.inner.initial_state(self.ahead(U, m)), U)
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        """The state after impact: the torques on their way were computed before it, and are relabelled."""
         U = relabelled(s.U, swap)
         return QueueState(self.inner.jump(s.inner, self.ahead(U, after), swap), U)
 
@@ -224,6 +234,7 @@ class Predicted(Around):
         return s._replace(inner=self.inner.correct(s.inner, self.ahead(s.U, m)))
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        """The inner state at the next tick under u, and U without its oldest torque but with u (p,) [N m]."""
         z = self.inner.predict(s.inner, self.ahead(s.U, m), u)
         return QueueState(z, np.concatenate((s.U[1:], u[np.newaxis])))
 

@@ -1,8 +1,9 @@
 """A filter of the torque that brings the swing foot onto the next stone: exponential control barrier functions.
 
 x(q) [m] is how far the swing foot is ahead of the stance foot, and x_r(Theta) [m] how far the reference has it
-at the same phase Theta = c q. The reference makes steps of length L_r, the stone is at L. The barriers keep x
-within tol of a path x_c that leaves the reference smoothly and ends on the stone:
+at the same phase Theta = c q. The reference makes steps of length L_r, the next *stone*, on which the foot has
+to come down, is at L. The barriers keep x within tol of a path x_c that leaves the reference smoothly and ends
+on the stone:
 
     x_c = x_r + (L - L_r) beta(x_r / L_r),   e = x - x_c,   b_1 = tol - e >= 0,   b_2 = tol + e >= 0
 
@@ -11,9 +12,10 @@ angles q_N without a motor follow the actuated ones q_b, q_N'' = A_N q_b'' + a_N
 
     e'' = G q_b'' + g,   q_b'' = kappa u + xi^
 
-xi^ is the estimate of the observer inside, which contains what the model does not know; without an observer it
-is the model's xi. Each barrier has to fulfil b'' + 2 lambda b' + lambda^2 b >= 0, with both poles at -lambda.
-The two conditions together bound one number:
+G (p,) [m] and g [m/s^2] are the terms of e'', kappa (p, p) is the nominal model's input gain. xi^ (p,)
+[rad/s^2] is the estimate of the observer inside, which contains what the model does not know; without an
+observer it is the model's xi. Each barrier has to fulfil b'' + 2 lambda b' + lambda^2 b >= 0, with both poles
+at -lambda. The two conditions together bound one number:
 
     |e'' + 2 lambda e' + lambda^2 e| <= lambda^2 tol
 
@@ -54,7 +56,7 @@ _ROUND_OFF = 1e-6
 
 
 class FootError(NamedTuple):
-    """Error of the swing foot from its path: e [m], e' [m/s] and e'' = G q_b'' + g [m/s^2]."""
+    """Error of the swing foot from its path: e [m], e' = de [m/s] and e'' = G q_b'' + g [m/s^2]."""
 
     e: float
     de: float
@@ -75,7 +77,7 @@ class BarrierState(NamedTuple):
 
 @dataclass(frozen=True)
 class FootBarrier(Around):
-    """The module's filter around `inner`; its state is a `BarrierState`.
+    """The module's filter of the torque of `inner`; its state is a `BarrierState`.
 
     biped: the robot of the nominal model. stones: L of the steps [m], the first one first; behind the last one
     nothing is filtered. step: L_r [m], None for a reference that steps on the stones, as in `Footstep`.
@@ -103,7 +105,7 @@ class FootBarrier(Around):
 
     @derived
     def swing(self) -> LinkPoint:
-        """The swing foot as a point in closed form."""
+        """The swing foot as a function of q in closed form, from its vectors along the links."""
         robot = robot_of(self.biped)
         A, K = robot.A.astype(float), robot.K
         return LinkPoint(A, K.foot_re, K.foot_im, np.zeros(len(A)))
@@ -114,24 +116,32 @@ class FootBarrier(Around):
         return tracked_constraint(self.inner).phase
 
     def foot(self, q: Array, v: Array) -> tuple[float, float, Array, float]:
-        """x [m], x' [m/s], dx/dq (n,) [m], and x'' [m/s^2] without q'' of the swing foot."""
+        """x [m], x' [m/s], dx/dq (n,) [m] of the swing foot, and [m/s^2] the part of x'' at q'' = 0.
+
+        q (n,) [rad], v (n,) [rad/s].
+        """
         k, t = self.swing, turned(self.swing.A, q)
         rate2 = (k.A @ v) ** 2
         J: Any = jacobian(k.A, t, k.re, k.im)[0]
         x: Any = point(t, k.re, k.im)[0]
+        # x is a sum of cos a and sin a of absolute angles a = A q, and (cos a)'' = -a'^2 cos a for a'' = 0
         turning: Any = point(Turned(t.c * rate2, t.s * rate2), k.re, k.im)[0]
         return x, J @ v, J, -turning
 
     def corridor(self, x: float, L: float) -> tuple[float, float, float]:
-        """x_c [m] for a stone at L [m], and its two derivatives by x_r; x [m] is x_r, the reference's foot."""
+        """x_c [m], the centre of the corridor, for a stone at L [m], and dx_c/dx_r [1], d2x_c/dx_r2 [1/m].
+
+        x [m] is x_r, where the reference has its swing foot.
+        """
         L_r = L if self.step is None else self.step
+        # beta = 10 z^3 - 15 z^4 + 6 z^5; 0 before the foot passes the stance foot, 1 behind the end of the step
         z = np.minimum(np.maximum(x / L_r, 0.0), 1.0)
         beta, dbeta = z**3 * (10.0 - 15.0 * z + 6.0 * z**2), 30.0 * (z * (1.0 - z)) ** 2
         ddbeta, far = 60.0 * z * (1.0 - z) * (1.0 - 2.0 * z), L - L_r
         return x + far * beta, 1.0 + far * dbeta / L_r, far * ddbeta / L_r**2
 
     def error(self, m: Measurement) -> FootError:
-        """e, e' and the terms of e'' by the nominal model at a measurement.
+        """e, e' and the terms G, g of e'' by the nominal model at a measurement.
 
         The reference's posture q_r has the joints q_d and, without a motor, the angle that gives it the
         measured phase Theta = c q.
@@ -139,6 +149,7 @@ class FootBarrier(Around):
         c, p, terms = self.phase, len(m.terms.kappa), m.terms
         r = own_reference(self.inner)(m.t, m.q, m.v)
 
+        # the coordinates (n,) of the reference, from its phase and its joints; linear, so for rates too
         def on_reference(theta: float, q_b: Array) -> Array:
             return np.append(q_b, (theta - c[:p] @ q_b) / c[p])
 
@@ -147,7 +158,9 @@ class FootBarrier(Around):
         R = np.vstack((r.H, (c - c[:p] @ r.H) / c[p]))  # q_r'' = R q'' + a_r
         x, dx, J, ddx = self.foot(m.q, m.v)
         x_r, dx_r, J_r, ddx_r = self.foot(q_r, v_r)
+        # behind the last stone any length will do, since `missing` is 0 there
         x_c, slope, bend = self.corridor(x_r, length_of(self.stones, m.step, 1.0))
+        # e'' = G q'' + g, with G (n,) until q_N'' is inserted
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2
         return FootError(
@@ -155,12 +168,14 @@ class FootBarrier(Around):
         )
 
     def missing(self, s: Any, m: Measurement, u: Array) -> tuple[float, Array]:
-        """d [m/s^2], by which the torque u (p,) [N m] breaks the bound, and G (p,) [m] of e''.
+        """d [m/s^2], the change of e'' that is missing under the torque u (p,) [N m] to keep the bound, and G
+        (p,) [m] of e''.
 
-        s: state of the controller inside. Behind the last stone d is 0.
+        s: state of the controller inside. d is 0 within the bound, and behind the last stone.
         """
         x = self.inner.estimate(s, m) if self.observed else None
         f, xi, k = self.error(m), m.terms.xi if x is None else x.disturbance, self.rate
+        # y = e'' + 2 lambda e' + lambda^2 e, which has to stay within +-bound
         y = f.G @ (m.terms.kappa @ u + xi) + f.g + 2.0 * k * f.de + k * k * f.e
         bound = k * k * self.tolerance
         d: Any = np.maximum(-bound - y, 0.0) - np.maximum(y - bound, 0.0)
@@ -169,6 +184,7 @@ class FootBarrier(Around):
 
     def output(self, s: Any, m: Measurement) -> Array:
         u = self.inner.output(s.inner, m)
+        # the change G' d / |G|^2 of q_b'' changes e'' by d
         d, G = self.missing(s.inner, m, u)
         return u + m.terms.kappa_inverse @ (G * (d / (G @ G)))
 
@@ -176,12 +192,14 @@ class FootBarrier(Around):
         return BarrierState(self.inner.initial_state(m), 0.0)
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        # the count has the rate 0: it changes at sample instants alone
         return BarrierState(self.inner.flow(s.inner, m, u), 0.0)
 
     def correct(self, s: Any, m: Measurement) -> Any:
         return s._replace(inner=self.inner.correct(s.inner, m))
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
+        """The inner state at the next sample instant; this one is counted if the torque u breaks a bound."""
         infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > _ROUND_OFF, 1.0, 0.0)
         return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 

@@ -2,17 +2,20 @@
 
     h = f + R + b(s) (g - f)
 
-f and g are the members (v-, L) and (v+, L) of the family, functions of Theta; s is the share of the step in
-Theta, 0 to 1. R is a polynomial that brings f to the angles after impact, and fades out. v- is the speed of the
-member on which the step before ended, so that a step begins on its curve. L [m] is the length of the step, to
-the next stone where there are stones. b rises from 0 at the decision, s = DECISION of `gait.family`, to 1 at
-SETTLED. Until the decision v+ is computed anew at each sample instant, from y = sigma^2, with sigma [kg m^2/s]
-the angular momentum about the stance foot, and from the estimate r [N m] of the torque that acts on the
-unactuated row from outside. v+ is the speed for which y at the next decision is
+h gives the angles q_d of the p joints as functions of the phase Theta = c q, Theta+ at the start of the step. A
+*family* has a constraint, its *member*, for each speed v [m/s] and step length L [m], and its *cycle* is the
+periodic walk on that. f and g are the members (v-, L) and (v+, L), functions of Theta; s is the share of the
+step in Theta, 0 to 1. R is a polynomial that brings f to the angles after impact, and fades out. v- is the
+speed of the member on which the step before ended, so that a step begins on its curve. L [m] is the length of
+the step, to the next *stone*, on which the foot has to come down, where there are stones. b rises from 0 at the
+decision, s = DECISION of `gait.family`, to 1 at SETTLED. Until the decision v+ is computed anew at each sample
+instant, from y = sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot, and from the
+estimate r [N m] of the torque that acts on the unactuated row from outside. v+ is the speed for which y at the
+next decision is
 
     y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
 
-y_0 is the y of the cycle at the wanted speed, and y_free the y at the next decision if v+ is the speed whose
+y_0 is the y of the cycle at the speed to keep, and y_free the y at the next decision if v+ is the speed whose
 cycle has y_0 under the torque r. delta^2 is the factor of the cycle's zero dynamics, by which an error of y
 shrinks from step to step if nothing is decided; so it becomes `pole` times as large. y_next is kept between
 those of the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map from step to step is
@@ -50,14 +53,14 @@ from biped_adrc.model.ground import length_of
 SETTLED = 0.9
 """Share of a walking step, in Theta, from which h is the member g alone."""
 EARLY = 0.2
-"""Share of a walking step up to which a run may start and still bend the first step to its own posture (R)."""
+"""A run that starts at a smaller share of a walking step bends this first step to its own posture by R."""
 SLOWEST, FASTEST = 0.5, 1.1
 """Speeds [m/s] between whose cycles y at the next decision is kept."""
 
 
 def blend(s: float) -> tuple[float, float, float]:
-    """b, db/ds, d2b/ds2 at the share s of a step: 0 up to DECISION, 1 from SETTLED on; three derivatives of b
-    are continuous.
+    """b, db/ds, d2b/ds2 [1] at the share s of a step: b is 0 up to DECISION, 1 from SETTLED on; three
+    derivatives of b are continuous.
     """
     k = 1.0 / (SETTLED - DECISION)
     x = np.minimum(np.maximum(k * (s - DECISION), 0.0), 1.0)
@@ -68,7 +71,7 @@ def blend(s: float) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class StepCurve:
-    """h of one walking step, the module's first equation; with `base`, the correction c = h - base."""
+    """h of one walking step, the module's first equation; with `base`, the correction c = h - base to that."""
 
     family: GaitFamily
     begin: float
@@ -78,20 +81,21 @@ class StepCurve:
     L: float
     """Length of the step [m]."""
     plus: float
-    """Theta where the step began [rad]."""
+    """Theta+, where the step began [rad]."""
     reset: Array
-    """Coefficients of R, a `ResetPolynomial` (2, p)."""
+    """Coefficients (2, p) [rad] of R, a `ResetPolynomial`."""
     base: VirtualConstraint | None = None
     """The constraint to which c is added; None for h itself."""
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
-        """h or c, and two derivatives by Theta, each (p,)."""
+        """h or c, and two derivatives by Theta, each (p,), at theta [rad]."""
         mu = np.array((self.begin, self.L))
         minus = self.family.curve(mu)[2]
         rate = 1.0 / (minus - self.plus)
         f, df, ddf = self.family.h(mu, self.plus, theta)
         g, dg, ddg = self.family.h(np.array((self.end, self.L)), self.plus, theta)
         b, db, ddb = blend(rate * (theta - self.plus))
+        # c is R, whose x is 1 at Theta+ and 0 at the end of the step; d is g - f
         c, dc, ddc = ResetPolynomial(self.reset, minus, -rate)(theta)
         d, dd, ddd, db, ddb = g - f, dg - df, ddg - ddf, rate * db, rate * rate * ddb
         h = f + c + b * d
@@ -116,26 +120,27 @@ class StepState(NamedTuple):
     sigma: float
     """Estimate of the angular momentum about the stance foot [kg m^2/s]."""
     r: float
-    """Estimate of the torque from outside on the unactuated row [N m]."""
+    """Estimate of the torque from outside on the unactuated row of the dynamics [N m]."""
     plus: float
-    """Theta where the step began [rad]."""
+    """Theta+, where the step began [rad]."""
     reset: Array
-    """Coefficients of the reset (2, p)."""
+    """Coefficients (2, p) [rad] of R."""
 
 
 def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
-    """Coefficients (2, p) of R: with it the step along a member begins at q_b (p,) [rad] with dq_b/dTheta =
-    slope.
+    """Coefficients (2, p) [rad] of R: with it the step along a member begins at the joints' angles q_b (p,)
+    [rad] with dq_b/dTheta = slope.
 
     mu: the member's (speed [m/s], step length [m]). plus: Theta [rad] where the step begins. slope: (p,).
     """
     h, dh, _ = family.h(mu, plus, plus)
+    # at the start of the step x of the polynomial is 1
     return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - plus), q_b - h, slope - dh)
 
 
 @dataclass(frozen=True)
 class Footstep(OuterLoop):
-    """The module's controller around `inner`; its state is a `StepState`.
+    """The module's outer loop around `inner`, whose constraint becomes h; its own state w is a `StepState`.
 
     inner: the controller that tracks h. family: of gaits, from which each step is taken. speed [m/s]: the speed
     to keep. step [m]: length of the steps where there are no stones. stones [m]: lengths of the steps, the
@@ -182,7 +187,7 @@ class Footstep(OuterLoop):
         pole: float = 0.35,
         bandwidth: float = 20.0,
     ) -> Footstep:
-        """The controller around `inner`, with a stored family, by name or file.
+        """The controller around `inner`, with a stored family of `biped`, by its name or file.
 
         speed [m/s], step [m]: those of the gait if None. stones [m]: lengths of the steps. pole [1] and
         bandwidth [rad/s]: as fields of the class.
@@ -197,16 +202,16 @@ class Footstep(OuterLoop):
         return with_fields(self, inner=self.inner.sampled(period), period=period)
 
     def continuous(self) -> Self:
-        self._only_sampled()
+        self._only_sampled()  # decisions are made at sample instants
 
     @derived
     def gain(self) -> float:
-        """The factor 1 - pole / delta^2 of the module's equation."""
+        """The factor 1 - pole / delta^2 [1] of the module's equation, for the cycle at `speed` and `step`."""
         return float(1.0 - self.pole / self.family.steps.delta_squared(self.speed, self.step))
 
     @derived
     def base(self) -> VirtualConstraint:
-        """The constraint of the controller inside, whose place the family's takes."""
+        """The constraint of the controller inside, in whose place h comes: the correction is h - base."""
         return tracked_constraint(self.inner)
 
     def correction(self, w: StepState) -> Correction:
@@ -223,8 +228,10 @@ class Footstep(OuterLoop):
         The slope dq_b/dTheta after impact is that of the family, since rates measured there are noisy.
         """
         L, plus = self.length(m.step), float(self.family.phase @ m.q)
+        # the entries behind delta^2, 2 W', J' are dq_b/dTheta just after impact
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
         reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
+        # v+ = v at first; the last row of the momentum D q' is sigma
         return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset)
 
     def own_start(self, h: Constraint, m: Measurement) -> StepState:
@@ -240,7 +247,7 @@ class Footstep(OuterLoop):
         return self.begun(w.end, w.before, w.L, w.r, after)
 
     def own_correct(self, w: StepState, m: Measurement) -> StepState:
-        """Move the estimates of sigma and r on by a sampling period, and compute v+ anew until the decision."""
+        """Move the estimates of sigma and r on by a period (Euler), and compute v+ anew until the decision."""
         T, omega, x = self.period, self.bandwidth, w
         e = m.terms.D[-1] @ m.v - x.sigma
         r = x.r + T * omega**2 * e
@@ -251,16 +258,19 @@ class Footstep(OuterLoop):
         return x._replace(end=end, sigma=sigma, r=r)  # type: ignore[arg-type]
 
     def decision(self, x: StepState, y: float, r: float, step: int) -> float:
-        """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support with number `step`, by the module's
-        equation. x: state of the step.
+        """v+ [m/s] from y = sigma^2 [kg^2 m^4/s^2] and r [N m] now, by the module's equation.
+
+        x: state of the step. step: number of the single support.
         """
         steps, ahead = self.family.steps, self.length(step + 1)
         begin = np.array((x.begin, x.before))
 
+        # y at the next decision if this step ends on the member of the speed v
         def following(v: float) -> float:
             return steps.next_square(y, begin, np.array((v, x.L)), ahead, r)
 
         y_0 = steps.cycle_square(self.speed, ahead)
+        # y_free: v is the speed whose cycle has y_0 under r
         free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))
         goal = free + self.gain * (y_0 - free)
         low, high = (steps.cycle_square(v, ahead) for v in (SLOWEST, FASTEST))
@@ -268,15 +278,16 @@ class Footstep(OuterLoop):
         return self.zero(lambda v: following(v) - goal)
 
     def zero(self, f: Callable[[float], float]) -> float:
-        """The speed [m/s] in the family's range where f is 0, by the parabola through f at both ends and in the
-        middle of the range. Where that is 0 nowhere in it, the nearer end.
+        """The speed v [m/s] in the family's range at which f(v) is 0, by the parabola through f at both ends
+        and in the middle of the range. Where that is 0 nowhere in it, the nearer end.
 
-        A loop to a tolerance would not do, since f has to be straight-line code.
+        A loop to a tolerance would not do, since this becomes machine code without branches.
         """
         low, high = self.family.low[0], self.family.high[0]
         f_0, f_1, f_2 = f(low), f(0.5 * (low + high)), f(high)
         # f = f_0 + b z + c z^2 in z = (v - low) / (high - low), in [0, 1]
         b, c = 4.0 * f_1 - 3.0 * f_0 - f_2, 2.0 * (f_0 + f_2 - 2.0 * f_1)
-        # the floor keeps the root real where the parabola has no zero; y has a size of 100 kg^2 m^4/s^2
+        # the zero at which f rises, in the form without cancellation; the floor keeps the root real where the
+        # parabola has no zero; y has a size of 100 kg^2 m^4/s^2
         root = np.sqrt(np.maximum(b * b - 4.0 * c * f_0, 1e-6))
         return low + (high - low) * np.minimum(np.maximum(-2.0 * f_0 / (b + root), 0.0), 1.0)

@@ -2,10 +2,11 @@
 
     u = u_i + F,   F = share (viscous q_d' + static tanh(q_d' / w))
 
-u_i is the torque of the controller inside, q_d' the rates of a reference at the measured (Theta, Theta'), and
-w [rad/s] the width of the plant's own smoothed sign, `model.biped.STICTION_SPEED`. Measured rates have the
-noise of encoder counts, and static friction would change its sign with it; the rates of the reference are
-smooth, and equal to the true ones up to the tracking error.
+u_i (p,) is the torque of the controller inside, viscous [N m s/rad] and static [N m] are the coefficients of
+the friction in each joint with a motor, share [1] how much of it is cancelled, q_d' the rates of a reference at
+the measured (Theta, Theta'), and w [rad/s] the width of the plant's own smoothed sign,
+`model.biped.STICTION_SPEED`. Measured rates have the noise of encoder counts, and static friction would change
+its sign with it; the rates of the reference are smooth, and equal to the true ones up to the tracking error.
 
 The controller inside gets u - F as the applied torque, where u is the torque that acts. So for it the friction
 is reduced by F, after a saturation too, and its observer estimates the remaining disturbance,
@@ -13,8 +14,9 @@ is reduced by F, after a saturation too, and its observer estimates the remainin
     q_b'' = xi + kappa u = (xi + kappa F) + kappa (u - F)
 
 If it got u instead, its xi^ would contain all of the friction, which would then be compensated twice.
-`estimate` gives xi, without kappa F. With share = 1 F is the friction of the robot's record; with share = 0 the
-walk is that of the controller inside, bit for bit.
+Here kappa (p, p) is the input gain and xi the disturbance of the joints' accelerations. `estimate` gives xi,
+without kappa F. With share = 1 F is the friction of the robot's record; with share = 0 the walk is that of the
+controller inside, bit for bit.
 """
 
 from __future__ import annotations
@@ -64,6 +66,7 @@ class FrictionFeedforward(Around):
         return self.inner.output(s, m) + self.friction(m)
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
+        # u is the torque that acts; of it the friction F is not the inner controller's
         return self.inner.flow(s, m, u - self.friction(m))
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
@@ -73,15 +76,16 @@ class FrictionFeedforward(Around):
         x = self.inner.estimate(s, m)
         if x is None:
             return None
+        # of xi + kappa F, which the observer inside estimates, xi is left
         return x._replace(disturbance=x.disturbance - m.terms.kappa @ self.friction(m))
 
 
 def friction_feedforward(
     inner: Controller, reference: Reference, biped: Biped, feedforward: float
 ) -> Controller:
-    """Wrap a controller in the feedforward of the joint friction in the robot's record;
-    feedforward: its share [1].
+    """Wrap a controller in the feedforward of the joint friction in the robot's record (robot.toml).
 
+    reference: whose rates are used. feedforward: the share [1].
     The robot may be loaded with friction or without. Raises InputError for a record without friction.
     """
     viscous, static = (x[: biped.p] for x in biped.friction_coefficients)

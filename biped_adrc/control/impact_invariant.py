@@ -24,8 +24,8 @@ inside uses
     innovation   P (y - y^) in place of its observer's innovation y - y^; N = a_b for an observer of the joints'
                  angles, a_b - H a for one of their error, D a for one of the momentum D q'
 
-A touchdown is less than T away if the last one was less than T ago (t_step < T), or if the phase lets the next
-one expect in less than T: |Theta- - Theta| < T |Theta'|.
+A touchdown is less than T away if the last one was less than T ago (t_step < T), or if by the phase Theta = c
+q, which is Theta- at the end of a step, the next one is expected in less than T: |Theta- - Theta| < T |Theta'|.
 
 This wrapper puts a into `Measurement.impulse`. The law inside computes N and P (`control.tracking`), and says
 in `reads_impulse` in which of its methods it does.
@@ -60,7 +60,7 @@ from biped_adrc.model.reduction import BodyTerms
 def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
     """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse (x, z) on a foot with Jacobian J (2, n) [m].
 
-    D (n, n): inertia matrix; body: terms of the same posture. See the module for the equation.
+    D (n, n): inertia matrix; body: terms of the same posture. The equation is the module's for a.
     """
     J_m = body.F_a
     about_com = D - J_m.T @ J_m / body.mass
@@ -109,6 +109,7 @@ class ImpactInvariant(ContactWindow):
         u = self.inner.output(s, m)
         if not self.rates:
             return u
+        # both torques are computed: machine code has no branch here
         return self.near(m, self.inner.output(s, self.with_impulse(m)), u)
 
     def correct(self, s: Any, m: Measurement) -> Any:
@@ -118,11 +119,13 @@ class ImpactInvariant(ContactWindow):
         return self.near(m, self.inner.correct(s, self.with_impulse(m)), z)
 
     def landed(self, m: Measurement) -> bool:
-        """Whether the last touchdown was less than T ago; 1 or 0 on symbols."""
+        """Whether the last touchdown was less than T ago; 1 or 0 where machine code is made of it."""
         return m.t_step < self.until
 
     def expected(self, m: Measurement) -> bool:
-        """Whether the phase is within T of its end, before or after it; 1 or 0 on symbols."""
+        """Whether at its rate now the phase is less than T from its end Theta-, before or behind it; 1 or 0
+        where machine code is made of it.
+        """
         c, theta_minus = self.phase
         left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
         return abs(left) < self.until * abs(rate)
@@ -131,6 +134,7 @@ class ImpactInvariant(ContactWindow):
         """The measurement m with its `impulse`: a (n, 2) [1/(kg m)] of the foot that has just struck, or is
         about to.
         """
+        # the foot that has just struck is the support, on which q does not depend: J = 0
         body = body_of(m)
         J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
         return m._replace(impulse=impulse_response(m.terms.D, body, J))

@@ -1,14 +1,14 @@
 """Feedback linearisation with a momentum-based disturbance observer.
 
-    D q'' + Omega = B u + zeta,   r -> zeta              observers/momentum.py
+    D q'' + Omega = B u + zeta,   r -> zeta              observers.momentum
     u = kappa^-1 (a_d - xi) - r_b - A_N' r_N             NPD (28) of the paper, less both parts of r through
     (12) q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
 
-zeta (n,) [N m] is the external force, r its estimate, a_d = q_d'' + feedback. r_b is matched, one entry per
-motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot
-be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d) exactly, under any
-constant force. Unlike in ADRC the model compensates its own Omega, and the observer estimates the remaining
-force.
+q_b (p,) are the joints with motors, q_N the others. zeta (n,) [N m] is the external force, r = (r_b, r_N) its
+estimate, a_d = q_d'' + feedback. ' on q is d/dt, on a matrix a transpose. r_b is matched, one entry per motor;
+r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot be. For r =
+zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d) exactly, under any constant force.
+Unlike in ADRC the model compensates its own Omega, and the observer estimates the remaining force.
 
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
@@ -42,7 +42,7 @@ from biped_adrc.observers.momentum import MomentumObserver
 
 
 def _pushed(terms: Reduction, r: Array) -> Reduction:
-    """The reduction of D q'' + Omega = B u + r: xi and a_N of `terms` with the force r (n,) [N m] added."""
+    """The model's terms for D q'' + Omega = B u + r: Omega, xi and a_N are changed by r (n,) [N m]."""
     p = terms.kappa.shape[0]
     xi = terms.xi + terms.kappa @ (r[:p] + terms.A_N.T @ r[p:])
     a_N = terms.a_N + solve_positive(terms.D[p:, p:], r[p:], "D22")
@@ -53,8 +53,9 @@ def _pushed(terms: Reduction, r: Array) -> Reduction:
 class MomentumDOBController(ObservingController):
     """NPD (28) less the external force that a momentum observer estimates; the observer is the whole state.
 
-    solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as (28) is printed. reset: what
-    happens to the observer at impact.
+    reference: q_d, which the joints track. observer: of the force, by default with its poles at -200 rad/s.
+    gains: K_p [1/s^2], K_d [1/s]. solve_theta: whether the loop through Theta'' is solved (`tracking`); else h'
+    Theta'' is dropped, as (28) is printed. reset: what happens to the observer at impact.
     """
 
     needs_body: ClassVar[bool] = True
@@ -66,20 +67,23 @@ class MomentumDOBController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """Momentum pi = D q' (n,) [kg m^2/s] of the nominal model, and zero external force."""
+        """Momentum pi = D q' (n,) [kg m^2/s] of the nominal model, and zero external force, by which the
+        observer starts; the rate of pi, which it does not use, is 0 too.
+        """
         none = np.zeros(len(m.q))
         return Estimate(m.terms.D @ m.v, none, none)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """beta = C' q' - G + B u (n,) [N m] for the applied torque u (p,)."""
+        """beta = C' q' - G + B u (n,) [N m], the known part of pi', for the applied torque u (p,) [N m]."""
         body, p = body_of(m), m.terms.kappa.shape[0]
         beta = body.turning - body.G
         beta[:p] += u
         return beta
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-        """u (p,) [N m] for estimates x whose disturbance is a force (n,) [N m].
+        """u (p,) [N m] for the reference r now and estimates x whose disturbance is a force (n,) [N m].
 
+        Angles and rates are the measured ones in m.
         Raises SingularError where the loop through Theta'' is singular.
         """
         terms = _pushed(m.terms, x.disturbance)
@@ -87,11 +91,11 @@ class MomentumDOBController(ObservingController):
         return tracking_torque(self.gains, r, joints, m._replace(terms=terms), self.solve_theta)
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """The measured joints, and the total disturbance (14) of the model with the
-        estimated force (n,) [N m].
+        """Measured angles and rates of the joints, and the total disturbance xi (14), each (p,), of the model
+        with the estimated force.
         """
         return measured(m)._replace(disturbance=_pushed(m.terms, x.disturbance).xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change D a (n, 2) of the momentum when the rates change by a (n, 2)."""
+        """Change D a (n, 2) of the momentum when the rates q' change by each column of a (n, 2)."""
         return m.terms.D @ a

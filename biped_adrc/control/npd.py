@@ -2,8 +2,9 @@
 
     u = kappa^-1 (q_d'' - K_d (q_b' - q_d') - K_p (q_b - q_d) - xi)
 
-xi comes from the model, (14) without disturbances. The paper writes estimates x1^, x2^ here, though NPD
-has no observer: the measured state is used.
+q_b (p,) are the joints with motors, q_b'' = kappa u + xi by (13). q_d'' of a virtual constraint q_d = h(Theta)
+contains h' Theta'' and so the torque itself: `tracking` solves this loop. xi comes from the model, (14) without
+disturbances. The paper writes estimates x1^, x2^ here, though NPD has no observer: the measured state is used.
 
 The paper compares ADRC with it: the same gains, and the model's xi in place of an estimated one. With a right
 model and no push both loops have the same error dynamics. A push, or an error of the model, that changes xi by
@@ -25,8 +26,8 @@ from biped_adrc.gait.reference import Reference
 class NPDController(Controller):
     """NPD, eq. (28), a controller without a state.
 
-    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through
-    Theta'' (default), or drop h' Theta'' as printed.
+    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s]. solve_theta: whether the loop
+    through Theta'' is solved; else h' Theta'' is dropped, as the paper prints it.
 
     >>> controller = ba.NPDController(gait.constraint, ba.Gains(K_p=2500.0, K_d=100.0))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
@@ -40,5 +41,6 @@ class NPDController(Controller):
     solve_theta: bool = True
 
     def output(self, s: Array, m: Measurement) -> Array:
+        # the measurement takes the place of an observer's estimates
         r = self.reference(m.t, m.q, m.v)
         return tracking_torque(self.gains, r, measured(m), m, self.solve_theta)

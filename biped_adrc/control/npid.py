@@ -3,7 +3,8 @@
     e = q_b - q_d,   e_f'' = w^2 (e - e_f) - 2 zeta w e_f',   s' = e_f
     u = kappa^-1 (a - xi),   a = q_d'' - K_d e_f' - K_p e_f - K_i s
 
-So a - q_d'' = -C(s) e with
+q_b (p,) are the joints with motors, q_b'' = kappa u + xi by the nominal model. In C(s) and in polynomials s is
+Laplace's variable, else the integral of e_f. So a - q_d'' = -C(s) e with
 
     C(s) = (K_d s^2 + K_p s + K_i) / (s (s^2 / w^2 + 2 zeta s / w + 1)).
 
@@ -38,23 +39,24 @@ from biped_adrc.gait.reference import Reference
 
 
 class FilterState(NamedTuple):
-    """State of an `NPIDController`, or (from `flow`) the rate of it; each (p,)."""
+    """State of an `NPIDController`; what `flow` returns is its rate, in the same fields. Each (p,)."""
 
     e: Array
     """Filtered error e_f [rad]."""
     de: Array
     """Its rate e_f' [rad/s]."""
     total: Array
-    """Its integral s [rad s]."""
+    """Integral s of e_f [rad s]."""
 
 
 @dataclass(frozen=True)
 class NPIDController(Controller):
-    """Feedback linearisation with a PID of the filtered error, for a K_i [1/s^3] that leaves the loop stable.
+    """Feedback linearisation with a PID of the filtered error.
 
-    filter_bandwidth, damping: w [rad/s] and zeta [1] of the filter. period [s]: of the discrete form, in which
-    the error is held from tick to tick; set by `sampled`. Raises InputError for numbers that are not
-    positive, and for an unstable loop.
+    reference: q_d. gains: K_p [1/s^2], K_d [1/s]. K_i [1/s^3]: on the integral. filter_bandwidth, damping: w
+    [rad/s] and zeta [1] of the filter. period [s]: of the discrete form, in which the error is held from one
+    sample instant to the next; `sampled` sets it, None is for continuous time. Raises InputError for numbers
+    that are not positive, and for an unstable loop.
     """
 
     reference: Reference
@@ -86,7 +88,8 @@ class NPIDController(Controller):
     ) -> NPIDController:
         """The controller with C(s) of the linear ADRC whose three observer poles are at -bandwidth [rad/s].
 
-        gains: k_p [1/s^2] and k_d [1/s] of that ADRC, one number for all joints.
+        gains: k_p [1/s^2] and k_d [1/s] of that ADRC, one number for all joints; the equations are the
+        module's.
         """
         check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
         check_part(gains.K_p, "K_p of the ADRC", float)
@@ -108,6 +111,7 @@ class NPIDController(Controller):
         b = np.array([0.0, w * w, 0.0])
         if self.period is None:
             return A, b
+        # the exact solution over a period in which e, here a fourth state, is constant
         held = expm(np.block([[A, b[:, np.newaxis]], [np.zeros((1, 4))]]) * self.period)
         return held[:3, :3].copy(), held[:3, 3].copy()
 
@@ -117,7 +121,7 @@ class NPIDController(Controller):
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
     def initial_state(self, m: Measurement) -> FilterState:
-        """The filter with the measured error and its rate, and no integral."""
+        """The filter at the measured error and its rate, each (p,), with the integral 0."""
         r = self.reference(m.t, m.q, m.v)
         e, de = m.q_b - r.q_d, m.v_b - r.dq_d
         return FilterState(e, de, np.zeros(len(e)))
@@ -136,7 +140,7 @@ class NPIDController(Controller):
         return FilterState(*(M @ np.array(s) + np.outer(b, e)))
 
     def jump(self, s: FilterState, after: Measurement, swap: Indices) -> FilterState:
-        """The filter after impact: a new start, but for the integral, relabelled by swap (p,)."""
+        """The filter after impact: a new start, but for the integral, which is relabelled by swap (p,)."""
         return self.initial_state(after)._replace(total=relabelled(s.total, swap))
 
     def sampled(self, period: float) -> NPIDController:

@@ -2,13 +2,15 @@
 
     h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (inner, own),   own = w
 
-w is the loop's own state; it changes at impact, and between impacts only by `own_flow`. The inner controller,
-whichever it is, tracks the sum. Outer loops can be nested: their corrections add up.
+h gives the angles q_d of the p joints as functions of the phase Theta = c q. The *core* is the controller
+inside all loops; the reference *in force* is h with the corrections of all loops. w is the loop's own state; it
+changes at impact, and between impacts only by `own_flow`. The inner controller, whichever it is, tracks the
+sum. Outer loops can be nested: their corrections add up.
 
 An inner loop drives q_b - h(Theta) to zero, and cannot change how the zero dynamics respond to a push; an
 outer loop does so by changing h. The inner controller itself is not changed: at each call a copy of it tracks
-the corrected constraint. The core, inside all loops, starts and jumps last, when all corrections are known,
-since an observer of outputs starts from the error of the reference in force.
+the corrected constraint. The core starts and jumps (changes its state at impact) last, when all corrections are
+known, since an observer of outputs starts from the error of the reference in force.
 """
 
 from __future__ import annotations
@@ -43,6 +45,7 @@ class LoopState(NamedTuple):
 class OuterLoop(Around):
     """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
 
+    # none: `ImpactInvariant`, which uses this, goes inside an outer loop and not around one
     reads_impulse: ClassVar[tuple[str, ...]] = ()
 
     def __post_init__(self) -> None:
@@ -50,11 +53,16 @@ class OuterLoop(Around):
 
     @abstractmethod
     def own_start(self, h: Constraint, m: Measurement) -> Any:
-        """w at the start of a run; h is the constraint that the inner controller tracks."""
+        """w at the start of a run, at m; h is the constraint that the inner controller tracks, with the
+        corrections of loops further inside.
+        """
 
     @abstractmethod
     def own_jump(self, w: Any, h: Constraint, after: Measurement) -> Any:
-        """w after impact, from w before it; h is the constraint that the inner controller then tracks."""
+        """w after impact, from w before it; h is the constraint that the inner controller tracks after it.
+
+        after: the measurement after the impact.
+        """
 
     @abstractmethod
     def correction(self, w: Any) -> Correction:
@@ -81,6 +89,7 @@ class OuterLoop(Around):
         return self._acting(s.own).output(s.inner, m)
 
     def initial_state(self, m: Measurement) -> Any:
+        """(inner, w) at the start; the core starts a second time, with this correction in its reference."""
         z = self.inner.initial_state(m)
         s = LoopState(z, self.own_start(reference_in_force(self.inner, z), m))
         return with_core(self, s, innermost(self, s).initial_state(m))
@@ -95,6 +104,9 @@ class OuterLoop(Around):
         return LoopState(self._acting(s.own).predict(s.inner, m, u), s.own)
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        """(inner, w) after impact; the core jumps a second time, from its state before the impact, with this
+        correction in its reference.
+        """
         z = self.inner.jump(s.inner, after, swap)
         state = LoopState(z, self.own_jump(s.own, reference_in_force(self.inner, z), after))
         before = core_state(self, s)
@@ -108,13 +120,13 @@ class OuterLoop(Around):
 
 
 OF_A_LOOP = "an outer loop corrects the virtual constraint of its inner controller"
-"""Begin of an error's sentence, for a controller inside an outer loop."""
+"""Beginning of a message on a controller inside an outer loop."""
 
 
 def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualConstraint:
-    """The virtual constraint h of the controller inside all outer loops.
+    """The virtual constraint h, without corrections, of the controller inside all wrappers.
 
-    Raises InputError, beginning with `why`, if it tracks none.
+    Raises InputError if it tracks none; why: how the message begins.
     """
     h = own_reference(controller)
     if isinstance(h, CorrectedConstraint):
@@ -135,40 +147,41 @@ def own_reference(controller: Controller | None) -> Any:
 
 
 def tracking(controller: Controller, reference: Constraint) -> Controller:
-    """A copy of the controller, or of the one inside it (field `inner`), that tracks another reference."""
+    """A copy of the controller in which it, or else the one inside (field `inner`), tracks `reference`."""
     if hasattr(controller, "reference"):
         return with_fields(controller, reference=reference)
     return with_fields(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined]
 
 
 def reference_in_force(controller: Controller, s: Any) -> Constraint:
-    """The reference that a controller tracks in its state s, with the corrections of all outer loops in it.
+    """The reference in force of a controller in its state s: h with the corrections of all its outer loops.
 
     Raises InputError if the controller tracks no virtual constraint.
     """
     if isinstance(controller, OuterLoop):
         h = reference_in_force(controller.inner, s.inner)
         return CorrectedConstraint(h, controller.correction(s.own))
+    # without a reference the second call raises the error
     return own_reference(controller) or tracked_constraint(controller)
 
 
 def tracked_by(law: Controller, reference: Reference | OuterLoop) -> Reference | OuterLoop:
-    """The source of a controller's q_d: the controller itself if it is an outer loop, which corrects the
-    reference in each step; else the reference.
+    """From what `tracked_point` gets the q_d of a controller `law`: from itself if it is an outer loop, whose
+    state has the corrections; else from `reference`.
     """
     return law if isinstance(law, OuterLoop) else reference
 
 
 def tracked_point(h: Reference | OuterLoop, s: Any, m: Measurement) -> ReferencePoint:
-    """The point of a reference h at the measurement m; for an outer loop h, of the reference that it has in
-    force in its state s.
+    """The point (q_d, q_d', ..) of a reference h at the measurement m; for an outer loop h the point of the
+    reference in force in its state s.
     """
     r = reference_in_force(h, s) if isinstance(h, OuterLoop) else h
     return r(m.t, m.q, m.v)
 
 
 def innermost(loop: OuterLoop, s: LoopState) -> Controller:
-    """The controller inside all outer loops, tracking the reference in force in the state s.
+    """A copy of the core that tracks the reference in force in the state s of the outermost loop.
 
     An observer of outputs starts from the error of the reference in force, not of h alone.
     """
@@ -179,12 +192,12 @@ def innermost(loop: OuterLoop, s: LoopState) -> Controller:
 
 
 def core_state(controller: Controller, s: Any) -> Any:
-    """The state of the controller inside all outer loops, in a state s of the outermost."""
+    """The state of the core, in a state s of the outermost loop `controller`."""
     return core_state(controller.inner, s.inner) if isinstance(controller, OuterLoop) else s
 
 
 def with_core(controller: Controller, s: Any, core: Any) -> Any:
-    """A state s of nested outer loops with another state of the controller inside all of them."""
+    """The state s of the outermost loop `controller` with `core` as the state of the core in it."""
     if not isinstance(controller, OuterLoop):
         return core
     return s._replace(inner=with_core(controller.inner, s.inner, core))

@@ -4,11 +4,12 @@
     y'' = L u + xi_y,   L = (I - H_b - H_N A_N) kappa
     u   = L^-1 (-K_p y^ - K_d y'^ - xi_y^)
 
-With q_d'' = drift + H q'' and the split (12), (13) of the paper the model gives xi_y = M xi - drift - H_N a_N,
-M = I - H_b - H_N A_N. xi_y is not used between impacts: the reference's own acceleration, and the effect of the
-unactuated coordinate on it through Theta'', are estimated together with model error and external forces. In
-the joint form (20) q_d'' comes from the model, and an error of the model's Theta'' is an error of the
-reference that no observer of q_b'' can see. L is J D^-1 B for the Jacobian J of y.
+q_b (p,) are the joints with motors, q_N the others; H = (H_b, H_N) (p, n), kappa (p, p) is the input gain of
+(13). With q_d'' = drift + H q'' and the split (12), (13) of the paper the model gives xi_y = M xi - drift - H_N
+a_N, M = I - H_b - H_N A_N. This value is used at the start and at impact alone: the reference's own
+acceleration, and the effect of the unactuated coordinate on it through Theta'', are estimated together with
+model error and external forces. In the joint form (20) q_d'' comes from the model, and an error of the model's
+Theta'' is an error of the reference that no observer of q_b'' can see. L is J D^-1 B for the Jacobian J of y.
 
 Han, IEEE Trans. Industrial Electronics 56(3), 2009, for the total disturbance of an output; Westervelt,
 Grizzle, Koditschek, IEEE TAC 48(1), 2003, for y.
@@ -38,9 +39,11 @@ from biped_adrc.observers.gpi import GPIObserver
 class OutputADRCController(ObservingController):
     """ADRC of the output y = q_b - q_d, with an observer of y that is the whole state.
 
-    gains: K_p [1/s^2] and K_d [1/s] of y'' = -K_p y - K_d y', Table II by default as in the joint form. reset:
-    what happens to the observer at impact; MODEL takes y, y' from the measurement and xi_y from the model. The
-    exponential integration method does not fit: in continuous time with Table I take RK4(5e-5).
+    reference: q_d. observer: of xi_y (p,) [rad/s^2], by default (17) with the poles of Table I. gains: K_p
+    [1/s^2] and K_d [1/s] of y'' = -K_p y - K_d y', Table II by default as in the joint form. reset: what
+    happens to the observer at impact; MODEL takes y, y' from the measurement and xi_y from the model. The
+    exponential integration method does not fit: in continuous time with Table I take RK4, integration steps of
+    5e-5 s.
     """
 
     reference: Reference
@@ -60,11 +63,12 @@ class OutputADRCController(ObservingController):
         return output_matrix(self.point(m), m.terms) @ (m.terms.kappa @ u)
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-        """u (p,) [N m] for estimates x of the output.
+        """u (p,) [N m] for the point r of the reference and estimates x of y, y' and xi_y.
 
         Raises SingularError where M is exactly singular, with a pivot of 0.0; near that u grows
         without bound and without an error.
         """
+        # near a touchdown, inside `ImpactInvariant`, without what an impulse can change
         dy = x.velocity if m.impulse is None else unchanged(r, x.velocity, m.impulse)
         w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
         ddq_b = solve(
@@ -73,10 +77,9 @@ class OutputADRCController(ObservingController):
         return m.terms.kappa_inverse @ ddq_b
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """Convert estimates x of the output y = q_b - q_d and of its disturbance to those
-        of the joints, each (p,).
+        """Convert estimates x of y, y' and xi_y to those of q_b, q_b' and xi of the joints, each (p,).
 
-        The part of q_N'' that does not depend on the torque is that of the nominal model.
+        xi = M^-1 (xi_y + drift + H_N a_N), with a_N of the nominal model.
         """
         r, terms = self.point(m), m.terms
         p = len(r.q_d)
@@ -88,5 +91,5 @@ class OutputADRCController(ObservingController):
         return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of y' (p, 2) when the rates change by a (n, 2)."""
+        """Change of y' (p, 2) when the rates q' change by each column of a (n, 2)."""
         return rate_error_change(self.point(m), a)

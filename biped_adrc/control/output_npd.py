@@ -3,8 +3,9 @@
     y'' = J q'' + drift = w,   w = -K_p y - K_d y'
     u   = (J D^-1 B)^-1 (w - drift + J D^-1 Omega)
 
-Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative degree two. With (12), (13) of the paper,
-q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
+y (p,) are the outputs, as many as motors, J = dy/dq (p, n); D q'' + Omega = B u is the nominal model. q_b are
+the joints with motors, q_N the others. Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative
+degree two. With (12), (13) of the paper, q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
 
     (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)
 
@@ -38,7 +39,8 @@ of 1e-11, which a condition number of 1e9 makes 1e-2 in the torque."""
 class OutputNPDController(Controller):
     """Input-output linearisation with y'' = -K_p y - K_d y' for the nominal model; as many outputs as motors.
 
-    Raises InputError for another number of outputs, SingularError where J D^-1 B is singular.
+    outputs: y. gains: K_p [1/s^2], K_d [1/s]. Raises InputError for another number of outputs, SingularError
+    where J D^-1 B is singular.
     """
 
     outputs: Outputs
@@ -50,10 +52,10 @@ class OutputNPDController(Controller):
 
 
 def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
-    """Torque u (p,) [N m] that gives the outputs o the acceleration y'' = J q'' + drift = w
-    (p,) on the nominal model.
+    """Torque u (p,) [N m] that gives the outputs the acceleration y'' = J q'' + drift = w (p,).
 
-    Raises InputError when J is not (p, n), SingularError where J D^-1 B is singular.
+    o: the outputs now. terms: of the nominal model now. w: in the units of y, per s^2. Raises InputError when J
+    is not (p, n), SingularError where J D^-1 B is singular.
     """
     p, n = terms.kappa.shape[0], terms.D.shape[0]
     if o.J.shape != (p, n):
@@ -67,12 +69,13 @@ def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
 
 
 def _solve(M: Array, b: Array) -> Array:
-    """Solve M x = b. Raises SingularError when M is singular or its condition number above 1 / _SINGULAR."""
+    """Solve M x = b for M (p, p), b (p,). Raises SingularError for a condition number above 1 / _SINGULAR."""
     if len(M) == 0:
         return np.zeros_like(b)
     factors, pivots, _ = dgetrf(M)
+    # reciprocal condition number, in the norm of the largest column sum
     condition, _ = dgecon(factors, float(np.max(np.sum(np.abs(M), axis=0))))
-    if not condition > _SINGULAR:
+    if not condition > _SINGULAR:  # also for NaN
         raise SingularError(
             "the decoupling matrix J D^-1 B of the outputs is singular at this state: its reciprocal "
             f"condition number is {condition:.1e}, expected above {_SINGULAR:g}; choose outputs that the "

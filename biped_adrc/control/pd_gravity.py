@@ -2,10 +2,11 @@
 
     u = -K_p (q_b - q_d) - K_d (q_b' - q_d') + G_b(q)
 
-Takegaki, Arimoto, ASME J. Dynamic Systems, Measurement, and Control 103(2), 1981: on a fully actuated arm that
-stands still q_d is reached from everywhere, whatever the inertia, since the energy q'' D q' / 2 + K_p |q -
-q_d|^2 / 2 falls. On a walker G_b ignores the motion of the unactuated coordinate, and neither inertia nor
-q_d'' is used: the tracking error stays finite, and falls with the gains.
+q_b (p,) are the joints with motors, G_b (p,) [N m] their part of the weight's torques. Takegaki, Arimoto, ASME
+J. Dynamic Systems, Measurement, and Control 103(2), 1981: on a fully actuated arm that stands still q_d is
+reached from everywhere, whatever the inertia, since the energy q'^T D q' / 2 + K_p |q - q_d|^2 / 2 falls. On a
+walker G_b ignores the motion of the unactuated coordinate, and neither inertia nor q_d'' is used: the tracking
+error stays finite, and falls with the gains.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from biped_adrc.gait.reference import Reference
 class JointGains(Gains):
     """Stiffness K_p [N m/rad] and damping K_d [N m s/rad], one number for all joints or one per joint.
 
-    Not those of Table II, which multiply accelerations. The defaults walk RABBIT's published gait.
+    Not those of Table II, which multiply accelerations. With the defaults RABBIT walks its published gait.
     """
 
     SUCH_AS = "JointGains(3000.0, 250.0), K_p [N m/rad] and K_d [N m s/rad]"
@@ -36,7 +37,8 @@ class JointGains(Gains):
 class PDGravityController(Controller):
     """PD with gravity compensation, a controller without a state; `gains` are torques per angle and rate.
 
-    It needs the weight of the nominal model, `Measurement.body`, and no other part of it.
+    reference: q_d, which the joints track. The controller needs the weight of the nominal model,
+    `Measurement.body`, and no other part of it.
     """
 
     needs_body: ClassVar[bool] = True
@@ -46,4 +48,5 @@ class PDGravityController(Controller):
 
     def output(self, s: Array, m: Measurement) -> Array:
         r = self.reference(m.t, m.q, m.v)
+        # with `JointGains` the feedback is a torque [N m]
         return feedback(self.gains, r, m.q_b, m.v_b) + body_of(m).G[: len(r.q_d)]

@@ -1,7 +1,8 @@
-"""Reference reset: after impact the constraint is bent to the state, so that the error is zero.
+"""Reference reset: after impact the constraint is bent to the state, so that the tracking error is zero.
 
-The impact leaves the state off the constraint h if h is not hybrid invariant, or after a disturbance. With the
-error and its slope by Theta just after impact,
+The constraint gives the angles of the p joints as q_d = h(Theta), with the phase Theta = c q, which runs from
+Theta+ just after impact to Theta- at the next one. The impact leaves the state off h if h is not hybrid
+invariant, or after a disturbance. With the error and its slope by Theta just after impact,
 
     e = q_b - h(Theta),   de/dTheta = q_b' / Theta' - dh/dTheta,
 
@@ -9,11 +10,11 @@ the polynomial
 
     c(Theta) = x^3 (a_0 + a_1 x),   x = (Theta_e - Theta) / (Theta_e - Theta+),   0 past Theta_e
 
-is added to h, with a_0, a_1 from c = e and dc/dTheta = de/dTheta at that Theta. c and two of its derivatives
-reach zero at Theta_e, after a share of the step; from there on the reference is h again. The zero set of the
-error becomes invariant under the impact for any h; c does not depend on the speed, since the impact is linear
-in the rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback Control of Dynamic Bipedal
-Robot Locomotion, 2007, on transition controllers).
+is added to h (x = 1 at Theta+, 0 at Theta_e), with a_0, a_1 from c = e and dc/dTheta = de/dTheta at that Theta.
+c and two of its derivatives reach zero at Theta_e, after a share of the step; from there on the reference is h
+again. The zero set of the error becomes invariant under the impact for any h; c does not depend on the speed,
+since the impact is linear in the rates (Morris, Grizzle, IEEE TAC 54(8), 2009; Westervelt et al., Feedback
+Control of Dynamic Bipedal Robot Locomotion, 2007, on transition controllers).
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ LEAST_REACH = 0.2
 
 @dataclass(frozen=True)
 class ResetPolynomial:
-    """The correction c(Theta) with the coefficients a = (a_0, a_1) (2, p).
+    """The correction c(Theta) with the coefficients a = (a_0, a_1) (2, p) [rad].
 
     end: Theta_e [rad]. rate: dx/dTheta = -1 / (Theta_e - Theta+) [1/rad], where x is 1 at Theta+.
     """
@@ -46,7 +47,7 @@ class ResetPolynomial:
     rate: float
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
-        """c, dc/dTheta, d2c/dTheta2 at theta [rad], each (p,); all are zero past Theta_e."""
+        """c [rad], dc/dTheta, d2c/dTheta2 at theta [rad], each (p,); all are zero past Theta_e."""
         x, (a_0, a_1) = max(self.rate * (theta - self.end), 0.0), self.a
         return (
             x**3 * (a_0 + a_1 * x),
@@ -56,10 +57,9 @@ class ResetPolynomial:
 
 
 def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) -> Array:
-    """Coefficients a_0, a_1 (2, p) of the correction c with c = e [rad] and dc/dTheta =
-    slope [rad/rad] at this x.
+    """Coefficients a_0, a_1 (2, p) [rad] of the correction c with c = e and dc/dTheta = slope at this x.
 
-    rate: dx/dTheta [1/rad].
+    x [1]: a number, also as an array without axes. rate: dx/dTheta [1/rad]. e (p,) [rad]. slope (p,) [rad/rad].
     """
     A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
@@ -92,9 +92,12 @@ class ReferenceReset(OuterLoop):
         return h.theta_plus + reach, -1.0 / reach
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """(a_0, a_1) (2, p) for the reference h in force; zero where there is nothing to correct."""
+        """(a_0, a_1) (2, p) [rad], by which h is bent to the state in m; h: the reference with the corrections
+        of loops further inside. Zero where nothing is corrected.
+        """
         r, c, (end, rate) = h(m.t, m.q, m.v), tracked_constraint(self.inner).phase, self.range
         dtheta, x = c @ m.v, rate * (c @ m.q - end)
+        # Theta runs forwards if x falls; the values 1.0 below avoid a division by 0 where nothing is corrected
         bends = (x >= LEAST_REACH) * (dtheta * rate < 0.0)
         slope = (m.v_b - r.dq_d) / np.where(bends, dtheta, 1.0)
         a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope)

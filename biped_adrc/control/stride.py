@@ -1,10 +1,12 @@
 """PI control of the walking speed from step to step.
 
-At the k-th impact, with L the step length and T the duration of the step just finished,
+At the k-th impact, with v* [m/s] the speed to keep, L the step length and T the duration of the step just
+finished,
 
     e_k = v* - L / T,   I_k = I_(k-1) + e_k,   beta_(k+1) = K_P e_k + K_I I_k
 
-and the constraint of the next step is h(Theta) + beta b(s) d, with the direction d of the joints and the bump
+and the constraint of the next step is h(Theta) + beta b(s) d (p,) [rad], with the phase Theta = c q, which runs
+from Theta+ just after impact to Theta- at the next one, the direction d of the joints and the bump
 
     b(s) = 64 s^3 (1 - s)^3,   0 <= s <= 1,   s = (Theta - Theta+) / (Theta- - Theta+).
 
@@ -13,8 +15,8 @@ pose at impact: L is that of the gait. |beta| is bounded and K_I |I| with it (an
 Westervelt, Grizzle, Canudas de Wit, IEEE CDC 2003, Switching and PI control of walking motions of planar biped
 walkers, where an inner loop of any kind cannot reject what enters the zero dynamics.
 
-T is a state, tau' = 1 with tau+ = 0, so that the return map is a function of the state. In sampled time T
-counts to the last tick.
+T is the value at impact of a state tau, tau' = 1, with 0 after impact, so that the return map is a function of
+the state. In sampled time T counts to the last sample instant.
 """
 
 from __future__ import annotations
@@ -42,7 +44,7 @@ beta in the middle of the step. To lean forwards and back again slows the walk: 
 
 
 def bump(s: float) -> tuple[float, float, float]:
-    """Value of the bump b(s) = 64 s^3 (1 - s)^3, with db/ds and d2b/ds2; all are zero outside of [0, 1]."""
+    """The bump b(s) = 64 s^3 (1 - s)^3 [1], db/ds, d2b/ds2; all are zero outside of [0, 1], and b(1/2) = 1."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
@@ -59,7 +61,7 @@ class Bump:
     rate: float
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
-        """c and its two derivatives by Theta at theta [rad], each (p,)."""
+        """c [rad] and its two derivatives by Theta at theta [rad], each (p,)."""
         b, db, ddb = bump(self.rate * (theta - self.theta_plus))
         return b * self.shift, self.rate * db * self.shift, self.rate**2 * ddb * self.shift
 
@@ -83,7 +85,7 @@ class StrideState(NamedTuple):
     tau: float
     """Time since the single support began [s]."""
     I: float  # noqa: E741
-    """Integral of the speed's errors [m/s]."""
+    """Sum of the speed's errors e_k [m/s]."""
     beta: float
     """Amplitude of the correction [rad]."""
 
@@ -128,7 +130,10 @@ class StridePI(OuterLoop):
         speed: float | None = None,
         direction: tuple[float, ...] = TORSO_LEAN,
     ) -> StridePI:
-        """The PI around `inner` on a gait, with the gait's step length; speed [m/s]: v*, the gait's if None."""
+        """The PI around `inner` on a gait, with the gait's step length.
+
+        speed [m/s]: v*, the gait's if None. direction (p,) [1]: d, by which the joints bend.
+        """
         length = gait.step_length(biped)
         return cls(
             inner, length / gait.period if speed is None else speed, length, direction, gains
@@ -147,11 +152,11 @@ class StridePI(OuterLoop):
         return self.stepped(w)
 
     def stepped(self, w: StrideState) -> StrideState:
-        """State after an impact: I and beta by the PI on the speed of the
-        step just finished, bounded.
+        """w after an impact: I and beta by the PI on the speed of the step just finished, both bounded.
 
         With tau = 0, as when a run starts at the impact, no step has been timed and the state stays as it is.
         """
+        # 1.0: no division by 0 where nothing was timed
         timed, k = w.tau > 0.0, self.gains
         e = self.speed - self.step_length / np.where(timed, w.tau, 1.0)
         I = np.minimum(np.maximum(w.I + e, -self.most_I), self.most_I)  # noqa: E741
@@ -160,7 +165,7 @@ class StridePI(OuterLoop):
 
     @derived
     def most_I(self) -> float:
-        """Bound on the integral |I| [m/s], such that K_I |I| has the bound of |beta|."""
+        """Bound on |I| [m/s], such that |K_I I| has the bound of |beta|; infinite for K_I = 0."""
         return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
 
     @derived

@@ -3,7 +3,8 @@
     sigma = e' + lambda e,   e = q_b - q_d
     u = kappa^-1 (q_d'' - lambda e' - k_1 |sigma|^(1/2) sign(sigma) + z - xi),   z' = -k_2 sign(sigma)
 
-leaves sigma' = -k_1 |sigma|^(1/2) sign(sigma) + z + d for an error d [rad/s^2] of the model. With |d'| <= L and
+(q_b: the p joints with motors, q_b'' = kappa u + xi by the model) leaves sigma' = -k_1 |sigma|^(1/2)
+sign(sigma) + z + d for an error d [rad/s^2] of the model. With |d'| <= L and
 
     k_1 = 1.5 L^(1/2),   k_2 = 1.1 L
 
@@ -14,9 +15,9 @@ Here the root and the sign are smooth within a layer delta [rad/s], which gives 
 
     |sigma|^(1/2) sign(sigma)  ->  sigma / (|sigma| + delta)^(1/2),   sign(sigma)  ->  sigma / (|sigma| + delta)
 
-and d is rejected as by an integral of gain k_2 / delta. In sampled time sigma cannot stay below k_2 T^2: with a
-smaller delta the torque chatters from tick to tick by the order of kappa^-1 k_1 (k_2 T^2)^(1/2). A delta of a
-few k_2 T^2 ends that.
+and d is rejected as by an integral of gain k_2 / delta. In sampled time, with the period T, sigma cannot stay
+below k_2 T^2: with a smaller delta the torque chatters from one sample instant to the next by the order of
+kappa^-1 k_1 (k_2 T^2)^(1/2). A delta of a few k_2 T^2 ends that.
 """
 
 from __future__ import annotations
@@ -39,9 +40,9 @@ class SuperTwistingController(Controller):
     """Super-twisting sliding mode control about the reference, smooth within a layer around
     sigma = e' + lambda e = 0.
 
-    slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on the slope of the error
-    of the model. layer: delta [rad/s]. period [s]: of the discrete form; set by `sampled`. Raises InputError
-    for numbers that are not positive.
+    reference: q_d. slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on the slope
+    of the error of the model. layer: delta [rad/s]. period [s]: of the discrete form; `sampled` sets it, None
+    is for continuous time. Raises InputError for numbers that are not positive.
     """
 
     reference: Reference
@@ -73,7 +74,7 @@ class SuperTwistingController(Controller):
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
     def initial_state(self, m: Measurement) -> Array:
-        """z = 0 (p,) [rad/s^2] at the start: the model is assumed to be exact."""
+        """z = 0 (p,) [rad/s^2] at the start: the model is taken for exact."""
         return np.zeros(len(m.q_b))
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
@@ -84,6 +85,7 @@ class SuperTwistingController(Controller):
         return -self.k_2 * sigma / (np.abs(sigma) + self.layer)
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        """z (p,) [rad/s^2] one period later, by one step of Euler's method."""
         assert self.period is not None
         return s + self.period * self.flow(s, m, u)
 

@@ -4,24 +4,26 @@ and an observer as the state.
     u = kappa^-1 (a - xi),   a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
 
 is shared by the laws (20) and (28) of the paper. They differ in where x1, x2 and xi come from: an observer in
-(20), the measurement and the model in (28).
+(20), the measurement and the model in (28). The p joints q_b have motors, the coordinates q_N have none; (13)
+is q_b'' = kappa u + xi, with the input gain kappa (p, p) and the disturbance xi (p,) [rad/s^2].
 
-q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows q_N'' = A_N
-q_b'' + a_N of (12) and q_b'' = a,
+q_d'' = drift + H q'', H = (H_b, H_N) (p, n), contains q'' and so, through the model, the torque: for a virtual
+constraint q_d = h(Theta), with the phase Theta = c q, it is the *loop through Theta''*. With the unactuated
+rows q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
 
     (I - H_b - H_N A_N) a = drift + f + H_N a_N
 
 is solved for a. As printed, (20) and (28) drop H q''.
 
-ADRC, its output form and DOB have an observer that is their whole state:
+ADRC, its output form and DOB (disturbance observer) have an observer that is their whole state z:
 
     u = torque(r, x^, m),   z' = flow(z, y, input)          in continuous time
     z <- correct(z, y),     z <- predict(z, input)          at a tick
 
-r is the point of the reference, x^ the observer's estimate. An `ObservingController` defines the observer's
-measurement y, its input, and the torque, for every observer and every reference. In `adrc` y is q_b, in
-`output_adrc` the error q_b - q_d, in `momentum_dob` the momentum. All else, resets and time bases included, is
-here once.
+A *tick* is a sample instant. r is the point of the reference, x^ the observer's estimate. An
+`ObservingController` defines the observer's measurement y, its input, and the torque, for every observer and
+every reference. In `adrc` y is q_b, in `output_adrc` the error q_b - q_d, in `momentum_dob` the momentum. All
+else, resets and time bases included, is here once.
 """
 
 from __future__ import annotations
@@ -98,13 +100,14 @@ def tracking_torque(
     m: Measurement,
     solve_theta: bool,
 ) -> Array:
-    """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement m.
+    """Torque u (p,) [N m] of (20) or (28), by the reference r now and the joints' x1, x2, xi in x.
 
-    solve_theta: whether the loop through Theta'' is solved for the acceleration a; else a = drift + f, as the
-    paper prints it, whose error acts as a disturbance. Raises SingularError where that loop is singular.
+    x: from an observer, or measured. m: only its model terms and its impulse are used. solve_theta: whether the
+    loop through Theta'' is solved for the acceleration a; else a = drift + f, as the paper prints it, whose
+    error acts as a disturbance. Raises SingularError where that loop is singular.
     """
     x2 = x.velocity
-    if m.impulse is not None:
+    if m.impulse is not None:  # near a touchdown, inside `ImpactInvariant`
         x2 = r.dq_d + unchanged(r, x2 - r.dq_d, m.impulse)
     f = feedback(gains, r, x.position, x2)
     ddq_b = solved_acceleration(r, m.terms, f) if solve_theta else r.drift + f
@@ -112,15 +115,15 @@ def tracking_torque(
 
 
 def unchanged(r: ReferencePoint, de: Array, a: Array) -> Array:
-    """The part of the rate error de (p,) [rad/s] that a change of the rates q' in the two directions a (n, 2)
-    leaves as it is.
+    """The part of the rate error de = q_b' - q_d' (p,) [rad/s] that no change of the rates q' along the two
+    columns of a (n, 2) alters; r: the reference now.
     """
     return orthogonal_to(rate_error_change(r, a)) @ de
 
 
 def rate_error_change(r: ReferencePoint, a: Array) -> Array:
-    """Change of q_b' - q_d' (p, 2) when the rates change by each column of a (n, 2): a_b - H a, since q_d' is a
-    function of Theta'.
+    """Change of q_b' - q_d' (p, 2) when the rates q' change by each column of a (n, 2): a_b - H a, with a_b
+    its first p rows, since q_d' = H q' for a virtual constraint.
     """
     return a[: len(r.q_d)] - r.H @ a
 
@@ -159,15 +162,19 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
 
 
 def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
-    """M = I - H_b - H_N A_N (p, p) of the output y = q_b - q_d, whose acceleration is y'' = M q_b'' - drift -
-    H_N a_N.
+    """M = I - H_b - H_N A_N (p, p) of the output y = q_b - q_d, for which y'' = M q_b'' - drift - H_N a_N.
+
+    r: the reference now, with drift and H. terms: of the model, with A_N and a_N.
     """
     p = len(r.q_d)
     return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
 
 def orthogonal_to(N: Array) -> Array:
-    """Projection P = 1 - N (N' N)^-1 N' (k, k) onto the directions orthogonal to the columns of N (k, 2)."""
+    """Projection P = 1 - N (N' N)^-1 N' (k, k) onto the directions orthogonal to the columns of N (k, 2).
+
+    N' is the transpose of N.
+    """
     return np.eye(len(N)) - N @ solve_positive(N.T @ N, N.T, "N' N of two impulses")
 
 
@@ -185,10 +192,11 @@ def body_of(m: Measurement) -> BodyTerms:
 
 
 class ObservingController(Controller):
-    """Base of the controllers whose state is that of an observer.
+    """Base of the controllers whose state s is the state z of an observer.
 
-    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: what happens to
-    the observer at impact.
+    reference: the reference to track. observer: that observer. gains: K_p [1/s^2], K_d [1/s] on the estimates.
+    reset: what happens to the observer at impact. In the methods r is the point of the reference, x the
+    observer's estimates; y, its measurement, is `position` of `measured_output`.
 
     >>> controller = ba.ADRCController(gait.constraint)
     >>> isinstance(controller, ba.ObservingController), controller.observer.m
@@ -204,22 +212,23 @@ class ObservingController(Controller):
 
     @abstractmethod
     def measured_output(self, m: Measurement) -> Estimate:
-        """The observer's measurement y, its rate y', and the nominal model's value of what the observer takes
-        for a disturbance; in the units of the observer.
+        """The observer's measurement y, its rate y', and the nominal model's value of what the observer
+        estimates as the disturbance; in the units of the observer. Its start and reset use all three, its steps
+        y alone.
         """
 
     @abstractmethod
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """The observer's input under the torque u (p,) [N m]."""
+        """The observer's input under the torque u (p,) [N m], such as kappa u [rad/s^2]."""
 
     @abstractmethod
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-        """u (p,) [N m] for the estimates x."""
+        """u (p,) [N m] for the point r of the reference and the observer's own estimates x."""
 
     @abstractmethod
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Changes of y' (one column each) when the rates q' change by each column of a (n, 2), such as by each
-        component of a contact impulse.
+        """Changes of y', or of y where y is a momentum, when the rates q' change by each column of a (n, 2),
+        such as by each component of a contact impulse; one column each.
         """
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
@@ -245,6 +254,7 @@ class ObservingController(Controller):
         return self.observer.initial_state(*self.measured_output(m))
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
+        """The observer's state after impact by the policy `reset`; swap (p,): relabelling of the joints."""
         return self.observer.reset(s, self.reset, swap, *self.measured_output(after))
 
     def flow(self, s: Any, m: Measurement, u: Array) -> Any:
@@ -252,7 +262,8 @@ class ObservingController(Controller):
 
     def correct(self, s: Any, m: Measurement) -> Any:
         y = self.measured_output(m).position
-        if m.impulse is not None:  # the innovation y - y^ without the part that the impulse changes
+        # near a touchdown, inside `ImpactInvariant`: the innovation y - y^ without what an impulse can change
+        if m.impulse is not None:
             y_hat = self.observer.estimate(s).position
             y = y_hat + orthogonal_to(self.output_change(m, m.impulse)) @ (y - y_hat)
         return self.observer.correct(s, y)
@@ -267,6 +278,7 @@ class ObservingController(Controller):
         return replace(self, observer=self.observer.at_ticks(period))  # type: ignore[type-var]
 
     def continuous(self) -> Self:
+        # an observer that writes no flow was made for ticks
         if type(self.observer).flow is Observer.flow:
             self._only_sampled()
         return self

@@ -17,36 +17,43 @@ class ByValue:
     """Base of dataclasses that are equal by class and fields; a class that writes its own `__eq__` keeps it."""
 
     KEPT = frozenset({"__eq__", "__hash__"})
-    """Methods that a dataclass would otherwise replace by its own."""
+    """Methods that `@dataclass` replaces by its own unless the class itself has them, not a base."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        """Copy the inherited methods into the class."""
+        """Copy the inherited methods in KEPT into the class, so that `@dataclass` leaves them."""
         super().__init_subclass__(**kwargs)
         for name in cls.KEPT - vars(cls).keys():
             setattr(cls, name, getattr(cls, name))
 
     def __eq__(self, other: object) -> bool:
+        """Whether class and fields are equal; what is no dataclass equals itself alone."""
         if self is other or type(self) is not type(other):
             return self is other
         return is_dataclass(self) and value_of(self) == value_of(other)
 
     def __hash__(self) -> int:
+        """Hash of class and fields; for what is no dataclass, of its identity."""
         if not is_dataclass(self):
             return object.__hash__(self)
-        memory = vars(self).get("_once")  # of a part in which nothing can change (`core.once`)
+        memory = vars(self).get("_once")  # there only where nothing can change (`core.once`)
         return (
             memory.found("hash", lambda: hash(value_of(self))) if memory else hash(value_of(self))
         )
 
 
 def value_of(x: Any) -> Hashable:
-    """A value that stands for x, equal and with one hash for what is equal by class and numbers."""
+    """Convert x to a hashable value; two such values are equal where the x are equal by class and numbers.
+
+    Arrays, mappings, lists, tuples and dataclasses are converted with all that is in them. All else is its own
+    value, but for NaN.
+    """
     if isinstance(x, np.ndarray):
         return (np.ndarray, x.shape, x.dtype.str, value_of(x.tolist()))
     if isinstance(x, Mapping):
         return (type(x), frozenset((name, value_of(item)) for name, item in x.items()))
     if isinstance(x, tuple | list):
         return (type(x), *map(value_of, x))
+    # a dataclass with eq=False is compared by its identity
     if is_dataclass(x) and not isinstance(x, type) and type(x).__eq__ is not object.__eq__:
         return (type(x), *(value_of(getattr(x, f.name)) for f in fields(x) if f.compare))
     return "nan" if isinstance(x, float | complex) and x != x else x

@@ -2,6 +2,10 @@
 
 A dataclass calls `check_fields`, which checks each field against its own annotation, its range included
 (`Range`); a function calls `check_part` for one argument. Both raise InputError.
+
+A *part* is a dataclass such as a controller, an observer or a reference (`core.part`). A class or function is
+a *user's* where its file is neither of this package nor of an installed library. `what` begins a message and
+names the value, such as "the gain".
 """
 
 from __future__ import annotations
@@ -82,13 +86,13 @@ _NUMBERS: dict[Any, str] = {
     str: "a text",
     Mapping: "a Mapping, such as {'torso': 0.2}",
 }
-"""A type of numbers, of text or of tables -> its name in a sentence."""
+"""A type of Python's that can be checked -> its name in a sentence."""
 
 
 def check_part(value: object, what: str, *kinds: type) -> None:
     """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes `kinds`.
 
-    A class says in SUCH_AS an example of its objects, for the sentence.
+    For the kind float every real number will do. The message ends with an example, the SUCH_AS of a class.
     """
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
@@ -100,10 +104,10 @@ def check_part(value: object, what: str, *kinds: type) -> None:
 
 
 def check_fields(part: Any) -> None:
-    """Check every field of a dataclass that is annotated with a part, a number or a text, perhaps None.
+    """Raise InputError for a field of a dataclass that does not fit its annotation.
 
-    A value has to be an instance of its annotated type, and in the `Range` of its annotation, if that has one.
-    Raises InputError.
+    The value has to be an instance of an annotated type, where all of these are classes of this package,
+    numbers, texts, mappings or None; and in the `Range` of the annotation, if that has one.
     """
     cls: Any = type(part)
     for name, kinds, typed, range in _expected(cls):
@@ -118,10 +122,11 @@ def check_fields(part: Any) -> None:
 class Checked(ByValue):
     """Base of dataclasses whose fields are checked against their annotations when an object is made.
 
-    A subclass need not call the `__post_init__` above its own: the check comes before either.
+    A subclass that writes `__post_init__` need not call that of this class: the check comes before its own.
     """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Put the check before the `__post_init__` of a subclass that writes one."""
         super().__init_subclass__(**kwargs)
         own = vars(cls).get("__post_init__")
         if own is not None:
@@ -163,9 +168,9 @@ def returned(
 
     part: object of that class. shape: the expected one; None: any row of numbers. finite: whether NaN and
     infinity are refused. field: whether `method` is not a method, but the name of one of several arrays that
-    the class returned together. It is called at every tick, so an array that is right already costs less than a
-    microsecond. Raises InputError that names the class for None, complex numbers, text, objects and another
-    shape, and, where `finite`, NotFiniteError.
+    the class returned together. It is called at every sample instant, so an array that is right already costs
+    less than a microsecond. Raises InputError that names the class for None, complex numbers, text, objects and
+    another shape, and, where `finite`, NotFiniteError.
     """
     if type(found) is not np.ndarray or found.dtype != FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
@@ -203,11 +208,11 @@ def _numbers_returned(
     """
     try:
         array = np.asarray(found)
-    except ValueError:  # rows of different lengths
+    except ValueError:  # rows of different lengths; an array of objects is refused below
         array = np.empty(0, dtype=object)
     sentence = _sentence(part, method, field)
     expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
-    if array.dtype.kind not in "fiu":
+    if array.dtype.kind not in "fiu":  # neither floats nor whole numbers with or without sign
         forgot = "; is a return statement missing?" if found is None and not field else ""
         shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
         raise InputError(f"{sentence} {shown}, expected {expected}{forgot}")
@@ -252,7 +257,9 @@ def called_checked(cls: Any, kind: type) -> None:
 
 
 def spoken(part: object) -> str:
-    """Name of a part's class with those of the parts inside: "Delayed (ADRCController (MyObserver))"."""
+    """Names of the classes of a part and of the parts in its fields `inner`, `observer` and `parts`, such as
+    "Delayed (ADRCController (MyObserver))".
+    """
     inside = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
     each = [x for given in inside for x in (given if isinstance(given, tuple) else (given,))]
     names = [spoken(x) for x in each if isinstance(x, Checked)]
@@ -277,17 +284,18 @@ def handing_out() -> Iterator[None]:
 
 
 def sentence_of(error: Exception) -> str:
-    """Sentence on an exception in a user's code: "PD.output (own.py:12, `x = 1 / 0`) raised
-    ..."; empty for other code.
+    """Sentence on an exception in a user's code: "PD.output (own.py:12, `x = 1 / 0`) raised ..."; empty for
+    one in which no line of the user's was running.
     """
     frames = traceback.walk_tb(error.__traceback__)
     lines = zip(frames, traceback.extract_tb(error.__traceback__), strict=True)
     own = [(frame.f_code, line) for (frame, _), line in lines if is_users(line.filename)]
     if not own:
         return ""
-    code, line = own[-1]
+    code, line = own[-1]  # the innermost call
     name = code.co_qualname.rpartition("<locals>.")[2]
     where = f"{name} ({Path(line.filename).name}:{line.lineno}, `{line.line}`)"
+    # the arrays that a user's method is handed are read-only
     if isinstance(error, ValueError) and "read-only" in str(error):
         what = "writes into an array that it was handed and that others read"
         return f"{where} {what}; write into a copy, such as v = m.v_b.copy()"
@@ -306,7 +314,7 @@ def is_users(file: str) -> bool:
 
 
 def hints_of(cls: type) -> dict[str, Any]:
-    """The annotations of a class with their names resolved; none where one of them cannot be read."""
+    """Field -> annotation of a class, with all names in them resolved; empty where one cannot be."""
     try:
         return get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
@@ -315,9 +323,9 @@ def hints_of(cls: type) -> dict[str, Any]:
 
 @lru_cache(maxsize=256)
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None], ...]:
-    """The fields of a class that are checked: (name, allowed types, whether these are checked, range) of each.
+    """The fields of a class to check: (name, allowed types, whether these are checked, range or None) of each.
 
-    Left out are fields whose annotation cannot be read, and those with other types and without a range.
+    Left out are fields whose annotation cannot be read, and those where neither types nor a range are checked.
     """
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
@@ -327,7 +335,7 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
-    """The types of an annotation, and its range if it has one."""
+    """The types that an annotation allows, and its range, None where it has none."""
     each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
     kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
@@ -337,7 +345,7 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type is checked: a class of this package that is no protocol, a number, text or None."""
+    """Whether a type can be checked: a class of this package but no protocol, one of `_NUMBERS`, or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
     return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
 
@@ -349,7 +357,7 @@ def _is_number(value: object) -> bool:
 
 
 def _shown(value: Any) -> str:
-    """Short text of a value with its type, for a message; a class is named as one."""
+    """Short text of a value and its type, for a message; of a class, that no object was made of it."""
     if isinstance(value, type):
         return f"the class {value.__name__}, not made as {value.__name__}(...)"
     text = repr(value)
@@ -362,5 +370,6 @@ def _shown(value: Any) -> str:
 def _a(kind: type) -> str:
     """Name of a class with its article: "an NPDController", "a Gait"."""
     name = kind.__name__
+    # NLMRSFH: capitals that are spelled out begin with a vowel, as N in NPD
     vowel = name[0] in "AEIOaeio" or (name[0] in "NLMRSFH" and name[:2].isupper())
     return f"{'an' if vowel else 'a'} {name}"

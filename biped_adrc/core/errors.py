@@ -53,17 +53,17 @@ class GaitError(InputError):
 
 
 class ReachError(GaitError):
-    """A stone is at a step length that no member of a family has (exit code 3)."""
+    """A stepping stone asks for a step length that no gait of a family has (exit code 3)."""
 
 
 class SingularError(BipedError, ArithmeticError):
-    """A matrix the law must invert is singular at this state (exit code 4)."""
+    """A matrix that a control law must invert is singular at this state (exit code 4)."""
 
     exit_code = 4
 
 
 class SimulationError(BipedError, RuntimeError):
-    """A run ended before its goal, such as a return to the section (exit code 4)."""
+    """A run ended before its goal, such as the return to a Poincare section (exit code 4)."""
 
     exit_code = 4
 
@@ -79,7 +79,7 @@ class OutputError(BipedError, OSError):
 
 
 class WalkWarning(UserWarning):
-    """A remark on a walk that `walk` made: what was not as it was asked for, or what its numbers are not.
+    """A remark on a walk that `walk` made: something was not as asked for, or a number is not what it seems.
 
     >>> import warnings
     >>> push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=9, start=0.1, stop=0.3)
@@ -92,9 +92,10 @@ class WalkWarning(UserWarning):
 
 @contextmanager
 def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
-    """Context of the import of a library of an extra. Raises InputError that says how to install it.
+    """Context in which an optional library is imported. Raises InputError that says how to install it.
 
-    extra: its name. need: the sentence before, such as "MuJoCo is not installed". instead: text behind.
+    extra: name for `pip install 'biped-adrc[extra]'`. need: how the message begins, such as "MuJoCo is not
+    installed". instead: how it ends, such as what works without the library.
     """
     try:
         yield
@@ -137,19 +138,21 @@ def _if_text(value: object) -> str:
 
 
 MANY = 20
-"""Names that a message lists at most, before it names the records alone."""
+"""Most names that a message lists; where there are more, it lists their records alone."""
 
 
 def unknown(name: str, known: Iterable[str]) -> str:
-    """The sentence for a name that does not exist; it proposes known names with the same or a similar last
-    part, similar names, or all names beside it in its record.
+    """The sentence for a name that does not exist: it proposes up to three of the `known` names, or all.
+
+    Names may be dotted, record.value. Those with the same last part are proposed; where there are none, similar
+    ones, of the same record alone if that is known.
     """
     known, (record, dot, last) = list(known), name.rpartition(".")
     beside = [whole for whole in known if dot and whole.startswith(record + dot)]
     ends: dict[str, list[str]] = {}
     for whole in known:
         parts = whole.split(".")
-        for k in range(len(parts)):  # records have names too
+        for k in range(len(parts)):  # for a.b.c the records a.b and a may be meant too
             ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
     alike = [ends[end][0] for end in get_close_matches(last, ends, 2)]
     near = ends.get(last) or [*get_close_matches(name, known, 2, 0.8), *alike]
@@ -164,7 +167,8 @@ def unknown(name: str, known: Iterable[str]) -> str:
 
 
 def complaint(error: Mapping[str, Any]) -> str:
-    """Text of one of pydantic's errors: what was found and what was expected."""
+    """Text of an entry of pydantic's `ValidationError.errors()`: what was found and what was expected."""
+    # a user writes a list into a file, and knows no tuple
     text: str = error["msg"].removeprefix("Value error, ").replace("tuple", "list")
     if text.startswith("Input should"):
         return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
@@ -172,17 +176,17 @@ def complaint(error: Mapping[str, Any]) -> str:
 
 
 LABELS = ("float", "constrained-float", "int", "bool", "str")
-"""What pydantic names the members of a union in the place of an error."""
+"""Types of a union, which pydantic puts into the place of an error; they are no names of values."""
 
 
 def dotted_place(error: Mapping[str, Any]) -> str:
-    """The dotted name of the value that an error of pydantic's is about."""
-    parts = map(str, error["loc"])
+    """The dotted name, record.value, of the value that an entry of pydantic's `errors()` is about."""
+    parts = map(str, error["loc"])  # also labels of pydantic's, such as "list[float]"
     return ".".join(part for part in parts if part not in LABELS and "[" not in part)
 
 
 def problem(error: Mapping[str, Any]) -> str:
-    """One error of pydantic's in words: its place, what was found and what was expected."""
+    """An entry of pydantic's `errors()` in words: its place, what was found and what was expected."""
     place = dotted_place(error)
     if error["type"] == "missing":
         return f"the key '{place}' is missing"

@@ -74,7 +74,7 @@ def check_place(path: Path) -> None:
 
 
 def check_folder(path: Path | str) -> None:
-    """Raise InputError where a folder for results is a file, or would be below one."""
+    """Raise InputError where the folder `path` for results is a file, or would lie below one."""
     whole = _named(path).absolute()
     there = next(each for each in (whole, *whole.parents) if os.path.lexists(each))
     if not there.is_dir():
@@ -83,7 +83,10 @@ def check_folder(path: Path | str) -> None:
 
 
 def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None:
-    """Raise `error`, beginning with `where`, for a device or a pipe; a file that does not exist passes."""
+    """Raise `error`, beginning with `where`, for a device or a pipe.
+
+    A folder and a file that does not exist pass: to open them is an error with a better text.
+    """
     try:
         mode = os.stat(path).st_mode
     except (OSError, ValueError):
@@ -94,7 +97,7 @@ def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None
 
 
 def beside(file: Path, name: object) -> Path:
-    """The path of the file that `file` names, which lies in its folder or below.
+    """The path of the file to which `file` refers by `name`, a path relative to the folder of `file`.
 
     Raises InputError for a path out of that folder, also by way of links.
     """
@@ -108,8 +111,9 @@ def beside(file: Path, name: object) -> Path:
 
 
 def _named(path: object) -> Path:
-    """The path, checked as a name. Raises InputError for a name that no file may have,
-    OutputError for one too long.
+    """Check a path as a name, whether or not it exists, and return it.
+
+    Raises InputError for a name that no file may have, OutputError for one too long.
     """
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
         raise InputError(f"cannot write {path!r}, expected a file name without control characters")
@@ -146,8 +150,8 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
     """Context in which a file is read: any exception is raised as `error`, with the name of the file.
 
     what: what the file is, such as "gait file". Missing files, wrong JSON or TOML, missing keys and values
-    of a wrong type or shape are covered. An error of this package, raised on purpose inside, keeps its
-    text behind the name of the file.
+    of a wrong type or shape are covered. An InputError raised inside keeps its text, behind the name of the
+    file; a SingularError and a SimulationError pass unchanged.
     """
     where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
     check_regular(path, where, error)
@@ -175,7 +179,7 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
 
 
 class CsvTable(NamedTuple):
-    """Content of a CSV file; entries without the blanks around them."""
+    """Content of a CSV file, as text; entries are without the blanks around them."""
 
     head: list[str]
     """Entries of the first line."""
@@ -195,7 +199,10 @@ class CsvTable(NamedTuple):
         return cls(head, rows[1:])
 
     def numbers(self, at: int) -> Array:
-        """Numbers (K,) of column `at`. Raises InputError for one that is not finite, with line and column."""
+        """Numbers (K,) in the K rows of column `at`, which counts from 0.
+
+        Raises InputError for one that is not finite, with line and column.
+        """
         result = np.full(len(self.rows), math.nan)
         for k, (line, row) in enumerate(self.rows):
             with suppress(ValueError):
@@ -208,18 +215,19 @@ class CsvTable(NamedTuple):
 
 
 def joint_columns(of: object, names: Mapping[str, str]) -> dict[str, Array]:
-    """Split arrays (K, n), attributes of `of`, into a column (K,) for each joint.
+    """Split arrays (K, n), attributes of `of`, into a column (K,) for each of n joints, by the column's name.
 
-    names: attribute -> name of its columns, such as "q{} [rad]".
+    names: attribute -> name of its columns, such as "q{} [rad]", with {} for the joint's number from 1.
     """
     arrays = ((name, getattr(of, attribute)) for attribute, name in names.items())
     return {name.format(i): x for name, array in arrays for i, x in enumerate(array.T, 1)}
 
 
 def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
-    """Write columns under their names; returns the path. Floats are read back to the last bit.
+    """Write a CSV file of columns, name -> list or array of one length; returns the path.
 
-    Raises InputError and OutputError as `output_path`.
+    Floats have all their digits, so that they are read back to the last bit. Raises InputError and OutputError
+    as `output_path`.
     """
     target = output_path(path, (".csv",), default=True)
     lists = [x if isinstance(x, list) else x.tolist() for x in columns.values()]
@@ -249,7 +257,7 @@ def plain(value: object) -> Any:
     """Convert a value to types that JSON has, recursively.
 
     Dataclasses and NamedTuples become dicts by field, arrays and tuples become lists. JSON has no infinity and
-    no NaN: such a number becomes the text "inf", "-inf" or "nan".
+    no NaN: such a number becomes the text "inf", "-inf" or "nan". Other values stay as they are.
     """
     if is_dataclass(value):
         value = {field.name: getattr(value, field.name) for field in fields(value)}
@@ -273,7 +281,9 @@ def one_line(text: str, keep: str = "") -> str:
 
 
 def c_comment(text: str) -> str:
-    """The text for a comment of C: one line of ASCII that cannot end it, continue it or hold a trigraph."""
+    """The text as one line of ASCII for a comment of C: a blank parts "*/", "/*" and trigraphs ("??"), and a
+    backslash, which would continue the line, is written as its code.
+    """
     plain = one_line(text.replace("\\", "\\x5c")).encode("ascii", "backslashreplace").decode()
     return re.sub(r"(?<=\*)(?=/)|(?<=/)(?=\*)|(?<=\?)(?=\?)", " ", plain)
 
@@ -289,7 +299,7 @@ def toml_key(name: str) -> str:
 
 
 def toml_value(x: object) -> str:
-    """A plain value as TOML: floats are read back to the same bits; None is the text "none"."""
+    """The text of a plain value (`plain`) in TOML: floats are read back to the same bits; None is "none"."""
     if x is None:
         return toml_value("none")
     if isinstance(x, Mapping):
@@ -332,7 +342,7 @@ def replacing(path: Path) -> Iterator[Path]:
         yield temporary
         with open(temporary, "rb") as file:
             os.fsync(file.fileno())
-        umask = os.umask(0)
+        umask = os.umask(0)  # the system tells it only to one who sets it
         os.umask(umask)
         os.chmod(temporary, 0o666 & ~umask)
         os.replace(temporary, path)
@@ -359,7 +369,10 @@ def data_folder(kind: str) -> Path:
 
 
 def data_file(kind: str, *names: str) -> Path:
-    """The path of a file in the package's data by names; one that is a path of its own leads to no file."""
+    """The path of a file in the package's data: names of folders, then of the file.
+
+    Slashes, and dots alone, become "_": a name from a user leads to no file outside.
+    """
     return data_folder(kind).joinpath(*(re.sub(r"[/\\]|^\.+$", "_", name) for name in names))
 
 

@@ -1,8 +1,8 @@
 """Small dense linear systems A X = B, solved by LAPACK directly.
 
 For matrices of a few rows `numpy.linalg.solve` spends most of its time on checks; dgesv (LU factors
-with partial pivoting) is called without them. Methods call these two functions by name: the tracer
-of the engine knows them and generates unrolled code in their place.
+with partial pivoting) is called without them. Control laws call these two functions by name: the
+tracer, which turns laws into machine code, knows them and generates unrolled code in their place.
 
 SciPy's module of LAPACK is loaded alone, as the package around it takes a third of the time of a short walk.
 """
@@ -22,7 +22,7 @@ from biped_adrc.core.types import Array
 
 
 def _lapack() -> Any:
-    """SciPy's module of LAPACK, loaded alone where that is possible."""
+    """SciPy's module of LAPACK, loaded without the package around it where that is possible."""
     name = "scipy.linalg._flapack"
     scipy: Any = find_spec("scipy")
     folders = [f"{folder}/linalg" for folder in scipy.submodule_search_locations]

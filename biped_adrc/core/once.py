@@ -1,7 +1,8 @@
 """Results that depend on a part alone are computed once and kept in the part: walks that share it share them.
 
-This is done only for a part in which nothing can change. A class of the user's may change, so nothing is kept
-there.
+A part is a frozen dataclass, such as a controller or a robot (`core.part`). This is done only for a part in
+which nothing can change; in an object of a user's class something may, so nothing is kept there. The results
+are in the part's attribute `_once`, its memory.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _REMEMBERED = 64
 
 
 class Memory(dict[Hashable, Any]):
-    """The last results, by what they were computed from; a copy by pickle is empty."""
+    """The latest results, each under a key that says from what it was computed; pickle makes an empty copy."""
 
     def found(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """The result for this key: the one that is kept, or else what make() gives, which is kept from then
@@ -37,7 +38,7 @@ class Memory(dict[Hashable, Any]):
         return result
 
     def keep(self, key: Hashable, result: Any) -> None:
-        """Keep a result; the oldest one goes where there are too many."""
+        """Keep a result; where there are _REMEMBERED already, the oldest one goes."""
         for oldest in [*self][: max(0, len(self) + 1 - _REMEMBERED)]:
             self.pop(oldest, None)
         self[key] = result
@@ -54,9 +55,11 @@ _SHARED = Memory()
 def constant(x: object) -> bool:
     """Whether nothing in x can change: a number, text, read-only array, or part of this package with such.
 
-    For a part "yes" is kept in its memory; a class of robots says it by its attribute `_constant`.
+    For a part "yes" is kept: it has a memory from then on, with that entry. A class of robots says "yes" by its
+    attribute `_constant`.
     """
     if isinstance(x, np.ndarray):
+        # a read-only view of a writable array can change
         return not x.flags.writeable and (x.base is None or constant(x.base))
     if isinstance(x, tuple):
         return all(map(constant, x))
@@ -90,16 +93,21 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
 
 
 def shared(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields; equal calls return one object, so that what `once` keeps is there."""
+    """A copy of a part with these fields changed; the part itself if they have these values already.
+
+    Equal calls return the same object, so that results which `once` keeps in it are found again.
+    """
     items = {f.name: getattr(part, f.name) for f in fields(part)} | values  # type: ignore[arg-type]
     same = all(getattr(part, name) is x for name, x in values.items())
-    # kept with the fields: while they live nothing else has their identities
+    # the fields are kept with the copy: while they live, no other object has the ids that are in the key
     made = lambda: (items, part if same else type(part)(**items))  # noqa: E731
     return _SHARED.found((type(part), *map(_known_by, items.values())), made)[1]
 
 
 def _known_by(x: object) -> Hashable:
-    """A number or a constant part by class and value; all else, and a robot, by its identity."""
+    """What stands for a field's value in a key: (class, value) of a number or a constant part; else, and for a
+    robot, its id.
+    """
     if is_part(x):
         by_value = constant(x) and isinstance(x, ByValue) and not hasattr(x, "_constant")
     else:

@@ -1,4 +1,4 @@
-"""Parts of a walker: frozen dataclasses with ordinary methods, which both engines run.
+"""Parts of a walker: frozen dataclasses with ordinary methods, run by Python or by the *engine*, a compiler.
 
 Controllers, observers, references, disturbances, sensors and touchdown detectors are parts, and parts may hold
 parts. Python calls their methods on numbers. The engine calls them once on symbols and writes machine code:
@@ -44,7 +44,7 @@ class derived(cached_property[_T]):
     """
 
     def __get__(self, instance: Any, owner: Any = None) -> Any:
-        """The value for an object; the descriptor itself for the class."""
+        """The value for an object, computed when it is first read; for the class, this descriptor itself."""
         if instance is None:
             return self
         name = self.attrname
@@ -55,17 +55,20 @@ class derived(cached_property[_T]):
 
 
 class Part(Checked, Shown, ABC):
-    """Base of all parts; a subclass is a frozen dataclass."""
+    """Base of all parts: fields are checked, parts are equal by value, and a repr is one line.
+
+    A subclass is a frozen dataclass.
+    """
 
 
 class Setup:
-    """Placeholder for a field of `setup` where methods run on symbols."""
+    """Stands for the value of a field of `setup` where methods run on symbols, which must not use it."""
 
 
 MEMORY = "_once"
 """Attribute of a part in which `core.once` keeps what was computed from it."""
 SETUP = {"setup": True}
-"""Metadata of a field that no method reads on symbols."""
+"""Metadata of a dataclass field by which `setup` marks it."""
 
 
 def setup(default: Any) -> Any:
@@ -81,7 +84,7 @@ def is_part(x: object) -> bool:
 
 
 def content(part: Any) -> dict[str, Any]:
-    """Fields and derived numbers of a part, by name, as methods on symbols use them."""
+    """Name -> value of the fields and derived numbers of a part, as the engine replaces them by symbols."""
     return {name: value(getattr(part, name)) for name, value in _values(type(part))}  # type: ignore[arg-type]
 
 
@@ -89,7 +92,7 @@ def content(part: Any) -> dict[str, Any]:
 def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     """Names in `content` for a class of parts, each with the function that converts its value.
 
-    Numbers of a field annotated as float become floats, even whole ones.
+    Whole numbers in a field annotated as float become floats: else they would be structure, and compiled in.
     """
     result: list[tuple[str, Callable[[Any], Any]]] = []
     hints = hints_of(cls)
@@ -112,16 +115,17 @@ def _as_floats(x: Any) -> Any:
 
 
 def with_content(part: _T, values: Mapping[str, Any], cls: type | None = None) -> _T:
-    """Make an object of the class of a part, or of `cls`, with these values by name, without any check."""
+    """Make an object of the class of a part, or of `cls`, with these attributes alone, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
     vars(new).update(values)
     return new
 
 
 def with_fields(part: _T, **values: Any) -> _T:
-    """A copy of a part with other fields, without any check; derived numbers stay.
+    """A copy of a part with these fields changed, without any check.
 
-    For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
+    Derived numbers that were computed already are copied, not computed anew. For methods that run on symbols
+    too: `dataclasses.replace` would check symbols as numbers.
     """
     return with_content(part, {k: x for k, x in vars(part).items() if k != MEMORY} | values)
 

@@ -1,7 +1,8 @@
 """Worker processes of this machine, and a list of different tasks run by them.
 
-Processes are forked from a server that has imported `preload`, so that they share its memory. They ignore
-Ctrl-C, which reaches every process of a terminal and which the parent handles, and end with the parent.
+Processes are forked from a server that has imported the modules `preload`, so that they share its memory.
+They ignore Ctrl-C, which reaches every process of a terminal and which the parent handles, and end with the
+parent.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Task(Generic[T_co]):
     """function(*arguments) under a name; function and arguments are pickled to reach another process."""
 
     name: str
-    """Name shown while it runs."""
+    """Name for messages of progress."""
     function: Callable[..., T_co]
     arguments: tuple[object, ...] = ()
 
@@ -60,16 +61,18 @@ def cores() -> int:
 
 
 def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
-    """Start worker processes, one per core if None, which share the modules `preload`.
+    """Start `count` worker processes, one per core if None, which share the modules `preload`.
 
     Raises InputError for less than 1 or more than `MOST_WORKERS`, and in a script without a main guard.
     """
     if count is not None and not 1 <= count <= MOST_WORKERS:
         raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
+    # this process is itself a worker, which is importing the script that starts workers
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise InputError("workers import this script: start them under if __name__ == '__main__':")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
+    # the server and its forks inherit this: they import nothing from the working directory
     before, os.environ[SAFE_PATH] = os.environ.get(SAFE_PATH, ""), "1"
     try:
         resource_tracker.ensure_running()
@@ -109,7 +112,7 @@ def run_tasks(
     try:
         futures = {executor.submit(_timed, task): task.name for task in tasks}
         for done, future in enumerate(as_completed(futures), 1):
-            future.result()
+            future.result()  # raises the error of a task at once
             report(done, len(tasks), futures[future])
         return [future.result() for future in futures]
     finally:
@@ -133,5 +136,5 @@ def _begin() -> None:
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     bytearray(KEPT)  # allocated and freed at once, for its effect on glibc; see KEPT
-    gc.freeze()
+    gc.freeze()  # the search for garbage writes into all other objects, and pages written to are not shared
     Thread(target=end_with_parent, daemon=True).start()

@@ -1,6 +1,6 @@
 """The registry: which controllers, observers, disturbances, curves, robots and gaits a scenario may name.
 
-Each packaged thing is one line of `registry.toml`: its class or function as `module:name`, words for a reader,
+Each packaged part is one line of `registry.toml`: its class or function as `module:name`, words for a reader,
 and values where a scenario has none. Besides these a name may be one that `register` added in this process, or
 `package.module:Class` of the user's own, in Python, on the command line and in study files alike.
 
@@ -53,13 +53,14 @@ class _Entry:
     home: str
     """Its class or function as `module:name`."""
     words: str = ""
-    """A description for a reader."""
+    """A description, which a list of the names shows."""
     defaults: Mapping[str, float] = field(default_factory=dict)
-    """Values of a scenario that it takes where the scenario has none."""
+    """Values that it gets where a scenario states none, by their names in a scenario."""
     units: Mapping[str, str] = field(default_factory=dict)
     """Units of the values that only this part takes, and of K_p and K_d if they differ from NPD's."""
     over_steps: bool = False
-    """For a disturbance: whether it goes on over impacts, with its window in the time of the walk."""
+    """For a disturbance: whether it goes on over impacts, with its window in the time of the walk; else its
+    window is in the time of one single support."""
     given: Callable[..., object] | None = None
     """The object itself, where `register` was given it; None: it is imported from `home`."""
 
@@ -83,7 +84,7 @@ def names(kind: str) -> tuple[str, ...]:
 
 
 def stored(kind: str) -> Iterable[str]:
-    """Names that are no lines of registry.toml: folders of robots, files of gaits."""
+    """Names of this kind beside those of registry.toml: folders of robots, files of gaits; else none."""
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
@@ -92,11 +93,11 @@ def stored(kind: str) -> Iterable[str]:
 def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
-    name: by which scenarios have it. thing: the class or function. kind: "controller", "contact", "observer",
-    "sensor", "touchdown", "disturbance", "plant", "curve", "robot" or "gait". words: for a reader. Records of
-    scenarios write it as `module:Class`, so that other processes find it. Raises InputError for an unknown
-    kind, and for a name that is taken or reads as `module:Class`; a thing of another kind raises it where it is
-    used.
+    name: that by which scenarios refer to it. thing: the class or function. kind: "controller", "contact",
+    "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot" or "gait". words: for a list of
+    names. Records of scenarios write it as `module:Class`, so that other processes find it. Raises InputError
+    for an unknown kind, and for a name that is taken or reads as `module:Class`; what is of another kind raises
+    it where a walker is built.
 
     >>> def soft_npd(reference):
     ...     return ba.NPDController(reference, ba.Gains(2500.0, 35.0))
@@ -116,7 +117,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
 
 
 def portable(kind: str, name: str) -> str:
-    """The name by which another process finds it: `module:Class` for what was registered in this one."""
+    """The name by which another process finds it: `module:Class` for what was registered in this one alone."""
     entry = REGISTRY[kind].get(name)
     return entry.home if entry is not None and entry.given is not None else name
 
@@ -124,7 +125,8 @@ def portable(kind: str, name: str) -> str:
 def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[_T]) -> _T | None:
     """The robot or gait that the user's class or function of this name makes; None where a file has the name.
 
-    Raises InputError as `construct`, and where it cannot be imported.
+    values: arguments of that class or function, by name. base: class that the result has to be of. Raises
+    InputError as `construct`, and where it cannot be imported.
     """
     if is_own(name) or name in REGISTRY[kind]:
         return construct(f"{kind} '{name}'", find(kind, name).load(), values, base)
@@ -137,8 +139,9 @@ def is_own(name: str) -> bool:
 
 
 def find(kind: str, name: str) -> _Entry:
-    """The entry of a name, whatever its capitals; a new one for `module:Class`. Raises InputError with the
-    known names, the nearest first.
+    """The entry of a name, whatever its capitals; a new one for `module:Class`.
+
+    Raises InputError for an unknown name, with the known ones that are most alike.
     """
     return REGISTRY[kind].get(known_name(kind, name)) or _Entry(name)
 
@@ -146,8 +149,8 @@ def find(kind: str, name: str) -> _Entry:
 def known_name(kind: str, name: str) -> str:
     """The name as the registry spells it, whatever its capitals, hyphens and underscores.
 
-    package.module:Class, and the file of a robot or a gait, are unchanged. Raises InputError for others, with
-    the nearest first.
+    A package.module:Class, and the file of a robot or a gait, are unchanged. Raises InputError for an unknown
+    name, with the known ones that are most alike.
     """
     known = next((x for x in names(kind) if _plain(x) == _plain(name)), name)
     if known in REGISTRY[kind] or is_own(known) or kind in ("robot", "gait"):
@@ -156,7 +159,7 @@ def known_name(kind: str, name: str) -> str:
 
 
 def unit_in(kind: str, name: object, value: str, usual: str) -> str:
-    """The unit of the value named `value` of the part `name`, from its entry; `usual` if that states none."""
+    """The unit of the value named `value` of the part `name`, as its entry says; `usual` if that says none."""
     entries = REGISTRY.get(kind, {}).items()
     stated = (entry.units for known, entry in entries if _plain(known) == _plain(str(name)))
     return next(stated, {}).get(value, usual)
@@ -168,7 +171,7 @@ def _plain(name: str) -> str:
 
 
 def top_of(home: str) -> str:
-    """The module or package of `package.module:Class` that lies in a folder of the path."""
+    """The part of `package.module:Class` before its first dot or colon, which lies in a folder of the path."""
     return home.partition(":")[0].partition(".")[0]
 
 
@@ -181,6 +184,7 @@ def _imported(home: str) -> Callable[..., object]:
     """
     (module, _, _), here = home.partition(":"), os.getcwd()
     with _IMPORTING:
+        # keys of a dict, to have each folder once and in order; an imported module needs none
         places = {} if module in sys.modules else {FOLDERS.get(top_of(home), here): 0, here: 0}
         added = [x for x in places if x not in sys.path and PathFinder.find_spec(top_of(home), [x])]
         sys.path += added
@@ -197,9 +201,10 @@ def _imported(home: str) -> Callable[..., object]:
 
 @lru_cache(maxsize=1024)
 def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
-    """The parameters of a class or function that may be given by name; each walk of a study asks for the same.
+    """Name -> parameter of a class or function, but for *args and **kwargs.
 
-    Raises InputError for what has no signature, such as functions written in C.
+    The latest results are kept, since each walk of a study asks for the same. Raises InputError for what has no
+    signature, such as functions written in C.
     """
     try:
         result = signature(make).parameters
@@ -209,7 +214,7 @@ def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
 
 
 def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:
-    """Names of parameters without a default that are not among the values."""
+    """Names of parameters of `make` that have no default and are not among the names `values`."""
     parameters = (p for p in takes(make).values() if p.default is Parameter.empty)
     return [p.name for p in parameters if p.name not in values]
 
@@ -221,10 +226,12 @@ def construct(
     kind: type[_T],
     place: str = "",
 ) -> _T:
-    """Call make with those of the values that it takes by name; the result has to be a `kind`.
+    """Call make with those values whose names are parameters of it; the result, which is returned, has to be a
+    `kind`.
 
-    what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record.
-    Raises InputError for values that are missing, an error inside of make, and a result of another class.
+    what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record in a
+    scenario, for the message; "" for none. Raises InputError for values that are missing, an error inside of
+    make, and a result of another class.
     """
     names, missing = takes(make), lacking(make, values)
     if missing:

@@ -27,14 +27,14 @@ SHORT = 48
 class Shown(ByValue):
     """Base of dataclasses whose repr is `as_line`; a class that writes a `__repr__` keeps it."""
 
-    KEPT = ByValue.KEPT | {"__repr__"}
+    KEPT = ByValue.KEPT | {"__repr__"}  # see there
 
     def __repr__(self) -> str:
         return as_line(self)
 
 
 def as_line(thing: Any) -> str:
-    """Text Name(field=value, ...) of an object in at most `LONGEST` characters.
+    """Text Name(field=value, ...) of a dataclass or NamedTuple in at most `LONGEST` characters.
 
     Fields at their defaults, and empty mappings, are left out.
     """
@@ -42,14 +42,16 @@ def as_line(thing: Any) -> str:
 
 
 def call_text(name: str, fields: Iterable[tuple[str, str]]) -> str:
-    """Text Name(field=text, ...) from pairs (field, text), in at most `LONGEST` characters."""
+    """Text Name(field=text, ...) from pairs (field, text), cut off after `LONGEST` characters."""
     told = ", ".join(f"{key}={text}" for key, text in fields)
-    room = LONGEST - len(name) - 2
+    room = LONGEST - len(name) - 2  # for the parentheses
     return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
 
 
 def short(x: Any) -> str:
-    """Short text of a value: numbers as they are, an array by its shape, a long part by its class."""
+    """Short text of a value: numbers as they are, a long array by its shape, an object with a repr longer than
+    `SHORT` by its class.
+    """
     if isinstance(x, np.ndarray):
         few = x.ndim == 1 and x.size <= FEW and x.dtype.kind in "bifc"
         return f"[{' '.join(f'{number:.6g}' for number in x)}]" if few else f"array{x.shape}"
@@ -82,7 +84,7 @@ def _fields_of(thing: Any) -> list[tuple[str, Any]]:
 
 
 def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:
-    """Whether field `key` has its default in `usual`, or is an empty mapping."""
+    """Whether field `key` is not to be shown: it has its default in `usual`, or is an empty mapping."""
     x = getattr(thing, key)
     if isinstance(x, Mapping) and not x:
         return True

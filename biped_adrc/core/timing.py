@@ -2,8 +2,8 @@
 
 `ContinuousTime` is the paper's setting: torque is a function of the state at every stage of the integrator.
 `SampledTime` is a computer: it measures at sample instants (ticks), its torque begins to act after a
-computation delay and is then held until the next one arrives. Timing is a field of `Walker`; classes of
-`control` and `observers` have methods for either base.
+computation delay and is then held until the next one arrives. Timing is a field of `Walker` (robot,
+controller and clock); classes of `control` and `observers` have methods for either base.
 """
 
 from __future__ import annotations
@@ -44,13 +44,13 @@ class SampledTime(Checked):
     period [s]: time between two sample instants.
     restart: the sampling clock restarts at impact. A free-running clock makes the return map depend
     on the phase of the clock at impact, so it has no fixed point in general. With a restart, a
-    discrete observer takes what it is reset to at impact for its prediction of the next sample
-    instant.
+    discrete observer takes the state to which it is reset at impact for its prediction of the next
+    sample instant.
     delay [s]: from a sample instant to the instant at which its torque begins to act, the time of
     computation. It may be longer than a period. A clock that restarts at impact samples early
     there; torque that is on its way then acts up to one period sooner.
     delay_known: the controller's observer is fed with the torque that acts until the next sample
-    instant (known delay), instead of the one just computed (unknown delay).
+    instant (known delay), instead of the one just computed, as if that acted at once (unknown delay).
 
     Raises InputError for a period shorter than `LEAST_PERIOD` or longer than `LONGEST_PERIOD`, and for a
     delay that is negative or longer than `LONGEST_DELAY` periods.
@@ -73,7 +73,7 @@ class SampledTime(Checked):
 
 
 def check_ends(max_step_time: float, fall_height: float, speed: float, torque: float) -> None:
-    """Raise InputError for limits with which a run could not end: NaN, a time that is not
+    """Raise InputError for limits with which a run has no end or ends at once: NaN, numbers that are not
     positive, a height of 1 or more.
 
     max_step_time [s]: the longest single support before the walk counts as stalled. fall_height [1]: the robot

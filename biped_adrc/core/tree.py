@@ -23,7 +23,7 @@ _T = TypeVar("_T")
 
 
 def flatten(tree: Any) -> Array:
-    """The numbers of a tree as a vector (size,), one leaf after the other; None has no numbers."""
+    """The numbers of a tree as a vector (size,), one array or number after the other; None has no numbers."""
     if isinstance(tree, tuple):
         parts = [flatten(x) for x in tree if x is not None]
         return np.concatenate(parts) if parts else np.zeros(0)
@@ -51,7 +51,7 @@ def zeros_like(tree: Any) -> Any:
 
 
 def _like(kind: Any, parts: list[Any]) -> Any:
-    """A tuple or NamedTuple of these parts."""
+    """A tuple or NamedTuple of the class `kind` with these parts."""
     return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
 
 
@@ -59,9 +59,9 @@ class Layout(NamedTuple):
     """The classes and shapes of a tree without its numbers, and the order in which `flatten` has these."""
 
     kind: type | None
-    """Class of a tuple or of None; None for an array or a number."""
+    """Class of a tuple, or NoneType for the tree None; None for an array or a number."""
     parts: tuple[Any, ...]
-    """Layouts of a tuple's parts; for an array its shape."""
+    """Layouts of a tuple's parts; for an array its shape, () for a number."""
     size: int
     """Number of numbers in the tree."""
 
@@ -77,7 +77,7 @@ class Layout(NamedTuple):
         return cls(None, shape, math.prod(shape))
 
     def tree(self, x: Array) -> Any:
-        """The tree of a vector (.., size), its arrays views of it, with the leading axes of x."""
+        """The tree whose numbers are x (.., size); its arrays are views of x, with the leading axes of x."""
         if self.kind is None:
             if self.parts:
                 return x.reshape(x.shape[:-1] + self.parts)
@@ -92,7 +92,7 @@ class Layout(NamedTuple):
         return _like(self.kind, parts)
 
     def place(self, *path: str) -> slice:
-        """The slice of the vector that has the part at a path of field names, such as ("tail", "own")."""
+        """The slice of the vector that a part of the tree takes; path: its fields, such as "tail", "own"."""
         at, part = 0, self
         for name in path:
             i = part.kind._fields.index(name)  # type: ignore[union-attr]
@@ -101,14 +101,14 @@ class Layout(NamedTuple):
         return slice(at, at + part.size)
 
     def starts(self) -> list[int]:
-        """The index in the vector at which each array or number begins."""
+        """The index in the vector at which each array or number of the tree begins, in order."""
         if self.kind is None or self.kind is type(None):
             return [0]
         ends = accumulate((x.size for x in self.parts), initial=0)
         return [at + start for at, x in zip(ends, self.parts, strict=False) for start in x.starts()]
 
     def names(self, name: str = "") -> Iterator[str]:
-        """Iterate over the names of all numbers, such as line.u[0]."""
+        """Iterate over the names of all numbers of the tree, such as line.u[0]; name: what they begin with."""
         if self.kind is None:
             for i in np.ndindex(*self.parts):
                 yield name + (f"[{', '.join(map(str, i))}]" if i else "")
@@ -131,6 +131,7 @@ def returned_tree(
         return returned(found, layout.parts, part, method, finite)
     if layout is None and not isinstance(found, tuple):
         numeric = isinstance(found, np.ndarray | Real)
+        # None for what is no number, which `returned` then refuses
         shape: tuple[int, ...] | None = np.shape(found) if numeric else None
         return returned(found, shape, part, method, finite)
     if layout is not None and type(found) is not kind:

@@ -53,8 +53,9 @@ def frozen(value: _T) -> _T:
 
 
 def relabelled(rows: Array, swap: Indices) -> Array:
-    """Numbers of the p joints (.., p) in the order of the joints after an impact: joint i gets entry swap[i] of
-    (rows, -rows), so a joint between the legs may change its sign.
+    """Numbers `rows` (.., p) of the p joints, in the order of the joints after an impact, where the legs swap.
+
+    Joint i gets entry swap[i] of (rows, -rows), (.., 2 p), so a joint between the legs may change its sign.
     """
     return np.concatenate((rows, -rows), axis=-1)[..., swap]
 

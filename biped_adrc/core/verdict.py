@@ -5,7 +5,7 @@ of a URDF. The verdict is stored beside value and limit, so that a reader of the
 limit. Each check is of one kind:
 
     law            physics and numerics that hold whatever a paper says, such as conservation of energy
-    consistency    what was built in has to come out, such as a gait designed to close on x*
+    consistency    what was built in has to come out, such as a gait designed to return to its start x*
     reproduced     a claim of the paper, which could have failed
 
 Make a check with `at_most`, `at_least`, `below` or `between`; they write the limit as text and
@@ -35,27 +35,27 @@ class Check:
     holds: bool
 
     def __str__(self) -> str:
-        """The check on one line, such as "residual of the orbit: 3.1e-12 <= 1e-09"; with "is
-        not" if it does not hold.
+        """The check on one line, such as "residual of the orbit: 3.1e-12 <= 1e-09"; if it does not hold, with
+        "is not" before the limit.
         """
         return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:
-    """Check value <= limit, both in the unit that `name` states; NaN does not hold."""
+    """The Check value <= limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f"<= {limit:g}", bool(value <= limit))
 
 
 def at_least(name: str, kind: str, value: float, limit: float) -> Check:
-    """Check value >= limit, both in the unit that `name` states; NaN does not hold."""
+    """The Check value >= limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f">= {limit:g}", bool(value >= limit))
 
 
 def below(name: str, kind: str, value: float, limit: float) -> Check:
-    """Check value < limit, strictly, both in the unit that `name` states; NaN does not hold."""
+    """The Check value < limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f"< {limit:g}", bool(value < limit))
 
 
 def between(name: str, kind: str, value: float, low: float, high: float) -> Check:
-    """Check low <= value <= high, all in the unit that `name` states; NaN does not hold."""
+    """The Check low <= value <= high, of a `kind` above, all in the unit in `name`; NaN does not hold."""
     return Check(name, kind, float(value), f"in [{low:g}, {high:g}]", bool(low <= value <= high))

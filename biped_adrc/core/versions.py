@@ -20,7 +20,7 @@ from biped_adrc import __version__
 _SHOWN = ("biped-adrc", "pin", "numpy", "scipy", "meshcat", "matplotlib")
 """Packages that a report lists."""
 NUMERICAL = (*_SHOWN[:4], "casadi", "llvmlite", "qpsolvers", "daqp")
-"""Packages on which the digits of a run depend."""
+"""Packages on which the digits of a run depend: those of `_SHOWN` that do not only draw, and more."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
 
@@ -38,8 +38,8 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
 
 def differences(found: Mapping[str, object], expected: Mapping[str, object]) -> str:
-    """Text that lists the values that differ, of `found` ("there") and of `expected` ("here"); empty if
-    equal.
+    """Text of the entries that differ, those of `found`, such as in a store, as "there" and those of `expected`
+    as "here"; empty if there are none.
     """
     names = sorted({*found, *expected})
     pairs = [(name, found.get(name), expected.get(name)) for name in names]

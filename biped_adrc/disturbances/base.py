@@ -2,13 +2,14 @@
 
     D(q) q'' + Omega(q, q') = B u + zeta(t, step, t_start, q, q')
 
-zeta (n,) [N m] acts on all coordinates q1..qN, the unactuated pitch among them. The controller does not know
-it. Where it comes from a force in the world, the ground has to carry that force too: `resultant` (2,) [N].
+step is the number of the single support, from 1, and t_start [s] the time at which it began. zeta (n,) [N m]
+acts on all coordinates q1..qN, the unactuated pitch among them. The controller does not know it. Where it comes
+from a force in the world, the ground has to carry that force too: `resultant` (2,) [N].
 
 A disturbance is a pure function, so a run may be repeated and an integration step repeated. It is written as
 the method `torque`, which both engines run. `acts` says when it acts; `zeta` and `net_force` are zero at other
 times. Integrators end their steps at `switching_times`, since a method of high order loses its accuracy across
-a jump.
+a jump. A sum has several terms, and each is compiled by itself.
 
 `closed_loop.walker` evaluates it, `scenario.build` makes it by name.
 """
@@ -62,26 +63,29 @@ class Disturbance(Part):
         return np.zeros(2)
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        """A number above 0 where torque and resultant act; elsewhere they are zero and not computed."""
+        """A number above 0 where torque and resultant act; elsewhere they are zero and not computed.
+
+        It is a number and no bool, so that it can be computed on symbols for machine code.
+        """
         return 1.0
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """Times (step, s) at which it is not smooth: s [s] after that single support began,
-        or after the run for step 0.
+        """Times (step, s) at which it is not smooth: s [s] after single support `step` began; for step 0 after
+        the start of the run.
         """
         return ()
 
     def check_size(self, n: int) -> None:
-        """Raise InputError where the disturbance is known to have another number of coordinates than n."""
+        """Raise InputError where the torque is known to have not n coordinates; by default nothing is known."""
 
     @property
     def terms(self) -> tuple[Disturbance, ...]:
-        """The disturbances of which it is the sum; each term is compiled by itself."""
+        """The disturbances of which it is the sum, sums within it resolved; itself where it is none."""
         return (self,)
 
     def zeta(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """The sum of `torque` (n,) [N m] over the terms that act.
+        """zeta (n,) [N m]: the sum of `torque` over the terms that act, zero where none does.
 
         Raises InputError for a torque of another shape, NotFiniteError for NaN.
         """
@@ -100,12 +104,16 @@ class Disturbance(Part):
         return total
 
     def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        """Times [s] of the run at which the torque is not smooth in this step, which began at t_start [s]."""
+        """Times [s] of the run at which the torque is not smooth in single support `step`.
+
+        t_start [s]: when it began. All switches that count from the start of the run are among them, also those
+        that lie in other single supports.
+        """
         return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
 
     @property
     def pulls(self) -> bool:
-        """Whether a force acts on the robot as a whole, so that `resultant` may differ from zero."""
+        """Whether a force from outside may act on the robot as a whole: one of the terms writes `resultant`."""
         return any(type(term).resultant is not Disturbance.resultant for term in self.terms)
 
     def __add__(self, other: Disturbance) -> Disturbance:
@@ -139,13 +147,13 @@ class Sum(Disturbance):
 
 
 def summands(disturbance: Disturbance) -> tuple[Disturbance, ...]:
-    """The parts of a sum, or the disturbance itself."""
+    """The parts of a sum, or the disturbance itself as the only one."""
     return disturbance.parts if isinstance(disturbance, Sum) else (disturbance,)
 
 
 @dataclass(frozen=True)
 class Windowed(Disturbance):
-    """A torque that acts between `start` and `stop` [s].
+    """A torque that acts between `start` and `stop` [s], its window.
 
     amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step`, from 1, the window counts from the start
     of that single support and closes at its end at the latest; without, from the start of the run. The base of
@@ -178,22 +186,26 @@ class Windowed(Disturbance):
 
     @derived
     def support(self) -> float:
-        """Number of the single support in which the window opens, as a float; 0 where it counts
-        from the start of the run.
+        """Number of the single support in which the window opens; 0 where it counts from the start of the run.
+
+        It is a float, since in machine code floats are data: another step needs no new code.
         """
         return float(self.step or 0)
 
     @derived
     def end(self) -> float:
-        """Time from which the torque is zero [s], counted as `start`."""
+        """Time from which the torque is zero [s], counted as `start`: `stop`, or later where edges rise."""
         return float(self.stop)
 
     def onset(self, t_start: float) -> float:
-        """Time of the run at which the window opens [s], for a single support that began at t_start [s]."""
+        """Time of the run at which the window opens [s], for a single support that began at t_start [s].
+
+        t_start counts only where the window has a `step`.
+        """
         return 1.0 * (self.support > 0) * t_start + self.start
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        """A number above 0 in the window, start <= t < end, and 0 outside.
+        """A number above 0 in the window, start <= t < end (counted from t_start if it has a `step`), else 0.
 
         A product of comparisons in place of `if`, so that it runs on symbols too.
         """
@@ -204,7 +216,9 @@ class Windowed(Disturbance):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """Both ends of the window, where the torque jumps; (step, time in it [s])."""
+        """Both ends of the window, where the torque jumps, as (step, or 0 for the run; time [s] since it
+        began).
+        """
         ends = (self.start, self.stop)
         return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
 
@@ -230,4 +244,5 @@ class WindowedTorque(Windowed):
         """Factor on the amplitude [1], s [s] after onset."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        # float(): the user's profile gets a plain number; on symbols the engine's float() changes nothing
         return self.amplitude * self.profile(float(t - self.onset(t_start)))

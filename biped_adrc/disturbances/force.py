@@ -61,6 +61,7 @@ class OnLink(Disturbance):
             raise InputError(
                 f"amplitude {self.wave.amplitude} on link '{self.link}', expected (F_x, F_z, M) [N, N, N m]"
             )
+        # computed now, so that an unknown link is an error at once
         _ = self.point
 
     @derived
@@ -76,7 +77,7 @@ class OnLink(Disturbance):
         return self.wave.acts(t, step, t_start)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """J(q)' (F_x, F_z, M) (n,) [N m]."""
+        """zeta = J(q)' (F_x, F_z, M) (n,) [N m], with the three numbers of the wave at t."""
         return wrench_torque(self.point, q, self.wave.torque(t, step, t_start, *AT_REST))
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
@@ -108,7 +109,7 @@ class HipForce(Disturbance):
 
     @derived
     def span(self) -> tuple[float, float]:
-        """The first and the last single support, infinite for no last one."""
+        """The first and the last single support in which it acts, as floats; (0, inf) for all."""
         first, last = self.steps or (0, math.inf)
         return float(first), float(last)
 
@@ -127,8 +128,10 @@ class HipForce(Disturbance):
 
 @dataclass(frozen=True)
 class AddedForce(Disturbance):
-    """A force (2,) [N] on `point`, which its owner may change before each sample; not
-    computed while it is zero.
+    """A force on `point`, which its owner may change before each sample.
+
+    force: (F_x, F_z) (2,) [N]. `acts` is its square, so that nothing is computed while it is zero. There is no
+    moment, so the torque is J(q)' force with the Jacobian J (2, n) of the point.
     """
 
     force: Array

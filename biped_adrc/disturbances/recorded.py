@@ -11,7 +11,7 @@ at the last, and steps end there.
 for pushes by hand: torques on the coordinates, and a force on a point of a link, constant from row to row. The
 rows belong to one single support, and the last one lasts until its end. The page on which a person pushes a
 walking robot (`extras.play`) records them, one row for each sample in which the push changed. zeta jumps at
-each row, so each is a switching time.
+each row, so each is a switching time. "Hand" below stands for such pushes.
 
 Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms of
 `PIECES` rows each, which share one machine code; only one term of a recording acts at a time.
@@ -55,6 +55,7 @@ class Lines(Windowed):
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         """zeta (n,) [N m]: the torque at the beginning plus the change over all pieces passed."""
         s = t - self.onset(t_start)
+        # the clip is the time spent in each piece so far: 0 before it, its width after it
         return self.amplitude + self.slopes @ np.clip(s - self.begin, 0.0, self.width)
 
 
@@ -81,6 +82,7 @@ class RecordedTorque(Disturbance):
                 f"times of shape {times.shape} and torques of {torques.shape}, expected (K,) and (K, n), K >= 2"
             )
         finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
+        # -inf in front of the times, so that the first row counts as later than the one before
         bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
         if len(bad):
             raise InputError(
@@ -106,9 +108,11 @@ class RecordedTorque(Disturbance):
         with reading("recording", file, InputError):
             table = CsvTable.read(file)
             head = table.head
+            # one column t, no name twice, and at least one joint
             if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
                 raise InputError(f"columns {head}, expected one 't' [s] and different joints")
             columns = {name: table.numbers(k) for k, name in enumerate(head)}
+            # += below, since one joint may have two columns, by its name and as q_i: they add up
             times = columns.pop("t")
             torques = np.zeros((len(times), biped.n))
             for joint, values in columns.items():
@@ -117,12 +121,12 @@ class RecordedTorque(Disturbance):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """The beginning and the end, where it jumps; (step, time in it [s])."""
+        """The beginning and the end, where it jumps, as (step, or 0 for the run; time [s] since it began)."""
         return tuple((self.step or 0, float(self.start + t)) for t in self.times[[0, -1]])
 
     @cached_property
     def terms(self) -> tuple[Disturbance, ...]:
-        """The recording as `Lines` of `PIECES` pieces each."""
+        """The recording as `Lines` of up to `PIECES` pieces; the last row of each is the first of the next."""
         ends = [*range(0, len(self.times) - 1, PIECES), len(self.times) - 1]
         return tuple(self._lines(*part) for part in pairwise(ends))
 
@@ -130,7 +134,7 @@ class RecordedTorque(Disturbance):
         return self.zeta(t, step, t_start, q, v)
 
     def _lines(self, first: int, last: int) -> Lines:
-        """The term with the pieces between two rows."""
+        """The term with the linear pieces from row `first` to row `last`; pieces that are left over stay 0."""
         t, zeta = self.times[first : last + 1], self.torques[first : last + 1]
         begin, width = np.zeros(PIECES), np.zeros(PIECES)
         slopes = np.zeros((zeta.shape[1], PIECES))
@@ -144,13 +148,16 @@ class RecordedTorque(Disturbance):
 class HeldRows(Windowed):
     """One term of a hand: piecewise constant in its window, with its first row as amplitude.
 
-    times (PIECES,) [s]: of its rows, counted as `start`. jumps (size, PIECES): change at each of them.
+    times (PIECES,) [s]: of its rows, since single support `step` began; infinite for rows that are not used.
+    jumps (size, PIECES): change at each of them, 0 at the first, in [N m] for size = n torques, or in [N, N, N
+    m] for (F_x, F_z, M), size = 3, as the wave of an `OnLink`.
     """
 
     times: Array = field(kw_only=True)
     jumps: Array = field(kw_only=True)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        # 1 for each row whose time has come, whose jump counts then
         past = 1.0 * (t >= t_start + self.times)
         return self.amplitude + self.jumps @ past
 
@@ -171,8 +178,9 @@ def by_hand(
 ) -> Disturbance:
     """Make the disturbance of a hand that pushes in single support `step`, constant from row to row.
 
-    times (K,) [s]: of the rows, since the single support began. torques (K, n) [N m]. forces (K, 2) [N]: on
-    `point` (x, z) [m] of the link `on`.
+    times (K,) [s]: of the rows, since the single support began; the last row acts until its end. torques (K, n)
+    [N m]: empty for none. forces (K, 2) [N]: on `point` (x, z) [m] in the frame of the link `on`; not read
+    where `on` is None.
 
     Raises InputError for rows that are not as many as times, and times that do not increase from 0.
     """
@@ -191,8 +199,8 @@ def _terms(
 ) -> list[HeldRows]:
     """Cut rows (K, size) at times t (K,) [s] into terms of PIECES rows.
 
-    moment: number of zeros behind each row, 1 for forces (F_x, F_z) that become (F_x, F_z, M). what: name of
-    the rows for messages.
+    moment: number of zeros put behind each row, 1 for forces (F_x, F_z) that become (F_x, F_z, M). what: name
+    of the rows for messages. No rows give no terms. A term ends where the next begins, the last one never.
     """
     y = numbers(rows, f"the {what} of the hand")
     if not y.size:

@@ -61,7 +61,7 @@ class TorquePulse(Windowed):
 
     @derived
     def width(self) -> float:
-        """Time from the beginning of the rise to that of the fall [s]."""
+        """Time from the beginning of the rise to the beginning of the fall [s], stop - start."""
         return float(self.stop) - float(self.start)
 
     @derived
@@ -70,21 +70,22 @@ class TorquePulse(Windowed):
         return float(self.stop) + float(self.rise)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """Torque zeta = amplitude (r(t - start) - r(t - stop)) (n,) [N m], r the unit step
-        or a ramp of length `rise`.
+        """zeta = amplitude (r(t - start) - r(t - stop)) (n,) [N m], r the unit step or a ramp of length `rise`.
 
-        The forms with vertical edges and with a rise are both computed and one is selected:
-        machine code has no branch here.
+        The forms with vertical edges and with a rise are both computed and one is selected: machine code has no
+        branch here. It is called only within the window (`acts`), so the form with vertical edges is constant.
         """
         s = t - self.onset(t_start)
         sloping = self.rise > 0.0
+        # 1 in place of 0: no division by zero in the form that is not selected
         rise = np.where(sloping, self.rise, 1.0)
         up, down = np.minimum(s / rise, 1.0), np.clip((s - self.width) / rise, 0.0, 1.0)
         return np.where(sloping, up - down, 1.0) * self.amplitude
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """The four corners, two where the edges are vertical; (step, time in it [s]).
+        """The four corners, two where the edges are vertical: (step, or 0 for the run; time [s] since it
+        began).
 
         With a rise the torque has corners and no jumps; integrators stop there too, since rises are short.
         """
@@ -163,7 +164,10 @@ class TorqueNoise(Windowed):
 
     @derived
     def drawn(self) -> tuple[Array, Array]:
-        """Frequencies f [Hz] and phases phi [rad] of the sines, each (n, K)."""
+        """Frequencies f [Hz] and phases phi [rad] of the sines, each (n, K), drawn from the seed.
+
+        The frequency of sine k lies in the k-th of K equal parts of (0, bandwidth).
+        """
         random, shape = np.random.default_rng(self.seed), (len(self.amplitude), self.sines)
         part = np.arange(self.sines) + random.uniform(size=shape)
         return self.bandwidth * part / self.sines, random.uniform(0.0, 2.0 * math.pi, shape)

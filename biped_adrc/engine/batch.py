@@ -4,8 +4,8 @@ any result.
 For return maps, basins and sweeps, where thousands of walks are made and only their impacts matter.
 What touches Python (checks, controllers that run in Python, Pinocchio) is done in the caller's thread,
 when a case is prepared; the threads then run kernels without the GIL, each on arrays of its own.
-What a run needs is made when it starts and given up when it ends: memory does not grow with the
-number of runs, but for the few numbers that each of them leaves.
+The memory of a run is taken when it starts and freed when it ends, so memory does not grow with the
+number of runs, but for the few numbers that each of them leaves (`BatchWalk`).
 
 `analysis` asks for `strides`, studies and `bench` for `simulate_many`.
 """
@@ -40,7 +40,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 _AHEAD = 4
 """Number of cases that are prepared beforehand for each thread, so that no thread waits for Python."""
 _AT_ONCE = 25
-"""Number of impacts for whose nodes memory is taken at the same time."""
+"""Most single supports for whose nodes memory is taken at a time; a longer walk is made in several calls."""
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,12 @@ class Case(Shown):
     - walker: plant, controller and all the rest.
     - q (n,) [rad], v (n,) [rad/s]: the state at the start of a single support; by default the gait's.
     - method: of integration, with one step for all of the walk.
-    - impacts: the walk ends after so many.
+    - impacts: the walk ends after so many, at the latest after that many times `walker.max_step_time`.
     - mode: the single support in which it starts.
     - curve: the reference from which errors are measured in `BatchWalk.table`; None keeps none.
-    - gait: the one whose orbit is the start, in place of q and v.
+    - gait: the gait from whose orbit the walk starts where q and v are left out.
 
-    Raises InputError for a part that is none, and without a start.
+    Raises InputError for a field of another class, and where both gait and q, v are left out.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     >>> case = ba.Case(walker, *gait.start(biped), ba.RK4(1e-3), impacts=3)
@@ -92,12 +92,12 @@ class Case(Shown):
 
 @dataclass(frozen=True)
 class BatchWalk(Shown):
-    """What one walk of a batch leaves; M impacts, states of nx numbers."""
+    """The result of one walk of a batch: M impacts, states of nx numbers."""
 
     status: Status
     """How it ended."""
     detail: str
-    """The error's own text, where one ended it."""
+    """The text of the error that ended it; empty for other ends."""
     times: Array
     """Times of the impacts (M,) [s]."""
     x_minus: Array
@@ -107,14 +107,15 @@ class BatchWalk(Shown):
     t_end: float
     """End of the walk [s]."""
     engine: str
-    """What ran: compiled, compiled plant, or pinocchio."""
+    """Name of the engine that ran: compiled, compiled plant, or pinocchio."""
     t_start: float = 0.0
     """Start of the walk [s]."""
     table: Array | None = None
-    """Nodes of the compiled walk of a case with a curve: rows (K, width), a `NodeRow` in each; one at each
-    integration step, after the sample instant there, and at the end of each single support."""
+    """K nodes of the walk of a case with a curve, rows (K, width), each a `NodeRow` as `node_layout` has it:
+    one at each integration step, after the sample instant there, and at the end of each single support. None
+    without a curve, and for a walk in continuous time, in Python, or with a detector of touchdowns."""
     trajectory: Trajectory | None = None
-    """The whole run of a case with a curve whose walk has no table, as one in continuous time; else None."""
+    """The whole run of a case with a curve whose walk has no table; else None."""
 
     @property
     def impacts(self) -> int:
@@ -128,9 +129,9 @@ class BatchWalk(Shown):
 
 
 def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator[BatchWalk]:
-    """The walks in the order of their cases, made in parallel threads and handed over as they come.
+    """Iterate over the walks in the order of their cases; parallel threads make them meanwhile.
 
-    - cases: may be a generator, of which a few are taken ahead.
+    - cases: may be a generator, of which a few cases are taken ahead.
     - threads: number of threads; None: the number of cores.
 
     A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
@@ -149,10 +150,10 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
 
 
 def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
-    """Yield the walks of the cases in order, from a queue of futures whose first one is yielded when it is done
-    or the queue is full.
+    """Yield the walks of the cases in order.
 
-    Closing the generator cancels the walks that have not begun.
+    They wait in a queue of futures. Its first walk is yielded when it is done, or waited for when the queue is
+    full, so that cases are not prepared far ahead. Closing the generator cancels the walks that have not begun.
     """
     waiting: deque[Future[BatchWalk]] = deque()
     with ThreadPoolExecutor(threads) as pool:
@@ -171,8 +172,9 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
 def run_case(case: Case) -> Callable[[], BatchWalk]:
     """Prepare a case and return the function that simulates it, which may run in any thread.
 
-    Python's and Pinocchio's parts are called here only, in the caller's thread. What they raise becomes the
-    status of this walk; an InputError, which is a mistake of the caller, is raised.
+    Python's and Pinocchio's parts are called here only, in the caller's thread. An exception of theirs becomes
+    the status of this walk, whose state stays that of the start; an InputError, a mistake of the caller, is
+    raised.
     """
     try:
         return _prepared(case)
@@ -187,7 +189,9 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
-    """Prepare a case for `run_case`; a walk without a compiled form is simulated here at once, in Python."""
+    """Prepare a case as `run_case` does, but let errors pass; a walk whose parts cannot all be compiled is
+    simulated here at once, in the caller's thread.
+    """
     walker, options = case.walker, case.options
     x = walker.initial_state(case.q, case.v, case.mode)
     options.check(x)
@@ -200,10 +204,12 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
             run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))
         except NotFiniteError:
             raise
-        except InputError as error:  # what a user's code gives later on than at the start
+        # the start has been checked, so what a user's code returned later on is no mistake in the case
+        except InputError as error:
             raise RaisedError(str(error)) from error
         return lambda: left_by(case, run)
     read, table = 0, case.curve is not None
+    # only compiled walks in sampled time that know touchdowns at once have a table; others leave their run
     if table and (not walker.sampled or walker.touchdown is not None):
         return lambda: left_by(case, simulate_compiled(compiled, x, case.mode, options))
     if table:
@@ -214,11 +220,10 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
 def _strides(
     compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int, read: int = 0
 ) -> BatchWalk:
-    """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s] at the
-    latest.
+    """Simulate the walk from x (nx,) at the start of the single support `mode`, in compiled code.
 
-    impacts: the walk ends after so many. read: address of the function that computes a row of the table, 0 for
-    no table.
+    It ends after so many impacts, at t_end [s] at the latest. read: address of the function that computes a row
+    of the table, 0 for no table.
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:
@@ -234,7 +239,7 @@ def _strides(
 
 
 def left_by(case: Case, run: Trajectory) -> BatchWalk:
-    """What the run of a case leaves, and the run itself where it is recorded."""
+    """Make the `BatchWalk` of a run of a case; the run itself is in it where the case has a curve."""
     x, engine = run.final_state, run.settings["engine"]
     times = np.array([event.t for event in run.events(FOOT_STRIKE)])
     before, start = run.before(FOOT_STRIKE).reshape(-1, len(x)), case.mode.start
@@ -245,11 +250,10 @@ def left_by(case: Case, run: Trajectory) -> BatchWalk:
 def strides(
     compiled: CompiledWalker, starts: Sequence[tuple[Array, Mode]], t_end: float
 ) -> list[BatchWalk]:
-    """Single supports of one walker from many (x, mode), for return maps, in parallel threads: up to the next
-    impact, or a status.
+    """Simulate one single support from each of many starts (x, mode), for return maps, in parallel threads.
 
-    x (nx,) is the state right after the impact that began the single support `mode`. t_end [s]: longest
-    duration of one single support.
+    Each ends at its impact, or with another status. x (nx,) is the state right after the impact that began the
+    single support `mode`. t_end [s]: longest duration of one single support.
     """
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         runs = [pool.submit(_strides, compiled, x, m, m.start + t_end, 1) for x, m in starts]

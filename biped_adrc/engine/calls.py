@@ -1,8 +1,10 @@
 """Generated code that Python calls: methods of parts, and terms of a disturbance.
 
-For controllers that run in Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine
-code that are asked for at every instant, traced from `model.planar_robot`; kinematics, contact and all else
-stay Pinocchio's. `compiled_references` does the same for the references of a controller.
+A generated function is `void f(double* K, double* inp, double* out)`: K has the numbers of the part that it was
+made from, inp its inputs, out its outputs, arrays joined one after the other. For controllers that run in
+Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine code that are asked for at
+every instant, traced from `model.planar_robot`; kinematics, contact and all else stay Pinocchio's.
+`compiled_references` does the same for the references of a controller.
 """
 
 from __future__ import annotations
@@ -44,8 +46,8 @@ Shape = tuple[int, ...]
 """Shape of an array."""
 
 FUNCTION = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-"""Type of f(K, inp, out) with three addresses, called with Python's lock held: releasing it would cost as much
-as the call."""
+"""ctypes' type of f(K, inp, out), three addresses; called with Python's lock held, since to release it would
+cost as much as the call."""
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -63,23 +65,27 @@ def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
 
 
 class Call:
-    """One generated function with its own output array; not to be shared between threads."""
+    """One generated function with arrays of its own for inputs and outputs; not to be shared between threads.
+
+    A caller writes to `inp` and then calls it; a change of the numbers in `K` counts from the next call on.
+    """
 
     def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
-        """K (size,): its parameters; inputs, outputs: how many numbers."""
+        """name: of the function in `machine`; K (size,): its parameters; inputs, outputs: how many numbers."""
         self.K, self.inp, self.out = K, np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = FUNCTION(machine.addresses[name])
         self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
     def __call__(self) -> Array:
-        """The outputs (outputs,) of what is in `inp`; a copy, read-only."""
+        """The outputs (outputs,) for the inputs in `inp`, as a read-only copy."""
         self._function(*self._at)
         out = self.out.copy()
         out.setflags(write=False)  # once, for all the views that are handed out
         return out
 
     def rows(self, inp: Array) -> Array:
-        """The outputs (N, outputs) of all rows of inp (N, inputs)."""
+        """The outputs (N, outputs) for N rows of inputs, inp (N, inputs); the array `inp` of the object
+        stays."""
         inp, out = np.ascontiguousarray(inp), np.empty((len(inp), len(self.out)))
         starts = inp.ctypes.data, out.ctypes.data
         K, inputs, outputs = self.K.ctypes.data, inp.strides[0], out.strides[0]
@@ -89,7 +95,8 @@ class Call:
 
 
 def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
-    """The functions of a disturbance's terms, (t, step, t_start, q, v) -> (zeta, force), for n coordinates.
+    """The functions of a disturbance's terms, each (t, step, t_start, q, v) -> (zeta (n,) [N m], force (2,)
+    [N]), for n coordinates; an empty list without a disturbance.
 
     Raises NotCompiled for a term without machine code.
     """
@@ -99,17 +106,19 @@ def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
 
 
 def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) -> Array:
-    """zeta (K, n) [N m] at K times [s], in rows (q, q', ..) of n coordinates."""
+    """The sum zeta (K, n) [N m] of the `terms`, functions of `pushes`, at K times t (K,) [s] of one single
+    support; rows (K, ..) begin with q and q', n numbers each.
+    """
     when = np.broadcast_to((mode.step, mode.start), (len(t), 2))
     inp = np.column_stack((t, when, rows[:, : 2 * n]))
     return sum((term.rows(inp)[:, :n] for term in terms), np.zeros((len(t), n)))
 
 
 def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:
-    """A function that computes in machine code what a method of a part returns, for arguments with the shapes
-    of `examples`.
+    """A function that computes in machine code what a method of a part returns, an array or a tuple of arrays.
 
-    Raises NotCompiled, also where the method raises at the examples.
+    examples: arguments with the right shapes, at which the method is called once in Python for the shapes of
+    its result. Any thread may call the function. Raises NotCompiled, also where the method raises at them.
     """
     with located(getattr(part, method)):
         result = getattr(part, method)(*examples)
@@ -122,6 +131,7 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
         from biped_adrc.engine.symbols import Vector, column, symbols_of
         from biped_adrc.engine.tracer import Tracer, apply
 
+        # symbols: the part with symbols in place of its numbers
         (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
         symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
         law = methodcaller(method, *(inp.take(*size) for size in sizes))
@@ -151,15 +161,17 @@ class CompiledBiped(Biped):
     """
 
     robot: PlanarRobot | None = None
-    """The same robot in closed form, from which the code is made."""
+    """The same robot in closed form, whose methods of these names are traced; never None after
+    `compiled_biped`."""
 
     @cached_property
     def _made(self) -> dict[str, Callable[..., Any]]:
-        """Methods of `robot` in machine code, each made when it is called first."""
+        """Methods of `robot` in machine code, by name; `_called` adds each one when it is called first."""
         return {}
 
     def _called(self, method: str, *arguments: Array) -> Any:
-        """Call a method in machine code at q and v, each (n,), and at further arguments."""
+        """Call a method in machine code at q [rad] and v [rad/s], each (n,) and checked, and further
+        arguments."""
         arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
         if method not in self._made:
             zeros = map(np.zeros_like, arguments)
@@ -171,7 +183,7 @@ class CompiledBiped(Biped):
         return cast(Reduction, self._called("reduction", q, v))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
+        """The `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
         return cast(BodyTerms, self._called("body_terms", q, v))
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
@@ -185,18 +197,18 @@ class CompiledBiped(Biped):
 
 @once
 def compiled_biped(biped: Biped) -> CompiledBiped:
-    """A robot with its formulas in machine code, remembered for the last robots. Raises ModelError for one that
-    is no planar tree.
+    """A copy of a robot with its dynamics in machine code, made once for each robot. Raises ModelError for one
+    that is no planar tree.
     """
     values = {f.name: getattr(biped, f.name) for f in fields(Biped)}
     return CompiledBiped(**values, robot=robot_of(biped))
 
 
 class CompiledReference:
-    """A reference for n coordinates in machine code. Raises NotCompiled.
+    """A reference for n coordinates in machine code. Raises NotCompiled for one that cannot be compiled.
 
-    `twin` is an object of the reference's own class whose call runs the code; a copy of the twin with other
-    numbers, such as `replace` makes, runs in Python.
+    `twin` takes the reference's place in a controller: it is of a subclass of the reference's class, and a call
+    of it runs the code. A copy of the twin with other numbers, such as `replace` makes, runs in Python.
     """
 
     def __init__(self, reference: Reference, n: int):
@@ -205,7 +217,8 @@ class CompiledReference:
         self.reference, self.twin = reference, with_content(reference, content(reference), kind)
         self._point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
         self.known: tuple[float, Array, Array, ReferencePoint] | None = None
-        """t, q, v and the point there. A call with these very arrays, which are read-only, and t returns it."""
+        """t [s], q, v and the point there, or None. A call with these very arrays, which are read-only, and
+        this t returns the point without computing it; `engine.ticks` sets it."""
 
         def called(this: Reference, t: float, q: Array, v: Array) -> ReferencePoint:
             return self(t, q, v) if this is self.twin else base.__call__(this, t, q, v)
@@ -221,10 +234,11 @@ class CompiledReference:
 
 
 def compiled_references(part: object, n: int, references: list[CompiledReference]) -> Any:
-    """A controller, or a part of one, with the references in its fields compiled, for n coordinates.
+    """A controller, or a part of one, with `CompiledReference.twin` in place of the references in its fields,
+    for n coordinates.
 
-    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. The compiled ones are
-    appended to `references`. What cannot be compiled stays as it is.
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. Each `CompiledReference` is
+    appended to the list `references`. A reference that cannot be compiled stays as it is.
     """
     if isinstance(part, Reference):
         with suppress(NotCompiled):

@@ -8,10 +8,13 @@
     push      (t, step, t_start, q, v) -> zeta, force         of the disturbance, with numbers of its own
     to, back, remainder                                       coordinates of the exponential method
 
-`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is an
-input, so that another disturbance does not compile the walker again.
-flow, tick, impact and remainder add, after their result, the least pivot of the matrices that the controller
-inverts; flow, tick and remainder -1 in its place where a torque is beyond the walker's bound.
+t [s] is the time, step the number of the single support, t_start [s] its start, x (nx,) the state, and drop [m]
+how much lower the ground is where the single support ends. `force` (2,) [N], from outside on the robot as a
+whole, changes what a foot carries. zeta (n,) [N m] is an input, so that another disturbance does not compile
+the walker again.
+flow, tick, impact and remainder add, after their result, the least pivot, the smallest |pivot| of the matrices
+that the controller inverts: 0 where one is singular, infinite where it inverts none. flow, tick and remainder
+have -1 in its place where a torque is beyond the walker's bound.
 
 The functions of `closed_loop.semantics` run on a `SymbolicLoop`, so their lines become generated code. The
 structure of `WalkerNumbers` decides the code; their floats are the vector K at run time. `engine.program` asks
@@ -66,7 +69,7 @@ class SymbolicLoop(NamedTuple):
     plant: PlanarRobot
     """The robot that moves, on symbols."""
     nominal: PlanarRobot
-    """The controller's model, on symbols; the same ones where it is the plant."""
+    """The controller's model, on symbols; the plant's own where no other model is given."""
     numbers: WalkerNumbers
     """All numbers of the walker, on symbols."""
     trace: Tracer
@@ -91,7 +94,8 @@ class SymbolicLoop(NamedTuple):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the actuated joints (p,), numbers of the structure."""
+        """Relabelling of the actuated joints at an impact (p,): whole numbers, and so a part of the
+        structure."""
         return self.plant.swap
 
     @property
@@ -100,12 +104,12 @@ class SymbolicLoop(NamedTuple):
         return self.numbers.impact_gain
 
     def layout_of(self, x: Array) -> Layout:
-        """The layout of all states."""
+        """The layout of a state x, the same for all of them."""
         return self.layout
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """The measurement at q (n,) [rad], v (n,) [rad/s], always with the terms of the body: what no method
-        asks for leaves no code.
+        """The measurement at q (n,) [rad], v (n,) [rad/s], always with the `BodyTerms`: terms that no method
+        uses leave no code.
         """
         return semantics.measurement(self, t, q, v, mode, body=True)
 
@@ -121,7 +125,8 @@ class SymbolicLoop(NamedTuple):
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
-        """Vertical forces of the ground on both feet [N]: `force` where the plant moves by itself."""
+        """Vertical forces of the ground on stance and swing foot [N]: inputs where the plant moves by
+        itself."""
         if self.numbers.moves:
             return self.force[0], self.force[1]
         return semantics.on_stance_foot(self, self.force, t, q, v, tail, mode)
@@ -133,41 +138,44 @@ class SymbolicLoop(NamedTuple):
 
     @property
     def lost(self) -> Scalar:
-        """The number that each function returns behind its result: the least pivot, or -1 where a finite
-        torque is beyond the bound.
+        """The number that each function returns behind its result: the least pivot, or -1 where a torque is
+        beyond the bound.
         """
         least = self.trace.solver.least
         if not self.torques:
             return least
+        # an infinite torque, or one of a singular matrix, is no such case: it ends the run by another status
         u = functools.reduce(maximum, map(abs, self.torques))
         return where((u > self.numbers.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """The symbols of zeta (n,) [N m]."""
+        """The symbols of zeta (n,) [N m], which are inputs, so that time and state do not matter here."""
         return self.zeta
 
 
 class SymbolicInstant(NamedTuple):
-    """The symbols of one instant, and the loop that they are given to."""
+    """The symbols of one instant, and the loop whose functions get them."""
 
     inp: Vector
-    """All inputs, as one vector."""
+    """All inputs of the generated function, as one vector."""
     loop: SymbolicLoop
+    """The loop, with zeta and `force` from the same inputs."""
     t: float
+    """Time [s]."""
     x: Array
     """State (nx,)."""
     mode: Mode
-    """Single support and its start, symbols too."""
+    """Number of the single support and its start [s]."""
 
     def does(self, function: Callable[..., _T], *more: object) -> _T:
-        """Call a function of `semantics`, or one with the same first arguments, on the symbols of this
-        instant.
+        """The result of function(loop, t, x, mode, *more) on the symbols of this instant; a function of
+        `semantics`, or one with the same first arguments.
         """
         return self.loop.trace(function)(self.loop, self.t, self.x, self.mode, *more)
 
 
 class SymbolicFunction(NamedTuple):
-    """`void f(double* K, double* inp, double* out)` as CasADi's columns: out as an expression of K and inp."""
+    """A function `void f(double* K, double* inp, double* out)` before it is compiled, as CasADi's columns."""
 
     K: ca.SX
     """Symbols of the parameters."""
@@ -182,7 +190,7 @@ class SymbolicFunction(NamedTuple):
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of one structure, each traced when it is asked for."""
+    """The functions of walkers of one structure; each of the methods below traces one of them."""
 
     layout: Layout
     """Layout of a state x."""
@@ -191,7 +199,8 @@ class Equations:
 
     @cached_property
     def symbols(self) -> tuple[ca.SX, WalkerNumbers]:
-        """CasADi's column of symbols for the floats of `numbers`, and these in their places."""
+        """CasADi's column K of symbols for the floats of `numbers`, and `numbers` with them in place of
+        floats."""
         return symbols_of(self.numbers)
 
     @property
@@ -200,7 +209,11 @@ class Equations:
         return self.layout.size
 
     def loop(self, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
-        """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
+        """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N].
+
+        It has a new tracer, so that pivots and torques are those of one generated function.
+        """
+        # K: the walker's numbers as symbols. `sparse` has a plain 0 for terms that the robot does not have
         (_, K), trace = self.symbols, Tracer()
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
@@ -208,14 +221,15 @@ class Equations:
         return SymbolicLoop(plant, model, K, trace, calls, held, self.layout, [], zeta, force)
 
     def at(self) -> SymbolicInstant:
-        """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
+        """Make the symbols of the inputs (t, step, t_start, x, zeta, force), in this order, and a loop for
+        them."""
         n = self.numbers.plant.n
         inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
         return SymbolicInstant(inp, self.loop(inp.take(n), inp.take(OUTSIDE)), t, x, mode)
 
     def function(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
-        """The function of these inputs, its parts one after the other."""
+        """The function of the inputs `inp` whose outputs are these expressions, one after the other."""
         return SymbolicFunction(self.symbols[0], inp.symbol, column(*parts))
 
     def flow(self) -> SymbolicFunction:
@@ -236,7 +250,10 @@ class Equations:
         return self.function(at.inp, x, at.loop.lost, a)
 
     def view(self, read: Reading) -> SymbolicFunction:
-        """The function whose result is all that `read` returns, its arrays joined into one column."""
+        """The function whose result is all that `read` returns, its arrays joined into one column.
+
+        Errors are taken from the reference `numbers.curve`; without one, `read` gets None as reference.
+        """
         at, curve = self.at(), self.symbols[1].curve
         tracked = None if curve is None else partial(apply, at.loop.trace, tracked_point, curve)
         return self.function(at.inp, *at.does(read, tracked))
@@ -245,6 +262,7 @@ class Equations:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
         """
+        # Mode(step, t), since that single support begins now
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
@@ -255,8 +273,8 @@ class Equations:
         return self.function(inp, x, loop.lost)
 
     def events(self) -> SymbolicFunction:
-        """The three event functions: clearance [m], hip margin [m], time left [s]; then x of the
-        swing foot [m].
+        """The three event functions: clearance of the swing foot [m], height of the hip over its limit [m],
+        time left for the single support [s]; then x of the swing foot from the stance foot [m].
         """
         K, plant = self.symbols[1], self.loop().plant
         inp = Vector("inp", 3 + plant.n)
@@ -267,11 +285,11 @@ class Equations:
         return self.function(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
     def _split(self, trace: Tracer) -> ErrorForm:
-        """The coordinates of the exponential method on symbols."""
+        """The change of coordinates x -> (w, E) of the exponential method, as an object on symbols."""
         return trace.on_symbols(self.symbols[1].split)
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
-        """w and E (k, p) of the flat vector y."""
+        """w and E (k, p) of the vector y = (w, E), in which E is stored row by row."""
         assert self.numbers.split is not None
         p = self.numbers.plant.p
         stiff = len(self.numbers.split.A) * p
@@ -289,7 +307,7 @@ class Equations:
         return self.function(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:
-        """N_w, row 1 of N_E, and the least pivot, at y = (w, E) in place of x."""
+        """N_w, row 1 of N_E (p,), and the least pivot, at y = (w, E), which the inputs have in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
         form = self._split(at.loop.trace)
@@ -298,16 +316,18 @@ class Equations:
 
 
 def matvec_function(k: int, p: int) -> SymbolicFunction:
-    """M E for E (k, p) and a matrix M (k, k) of the exponential method, which stands in the place of K."""
+    """The function M E of E (k, p), for a matrix M (k, k) of the exponential method, which is its argument
+    K."""
     M, E = Vector("M", k * k), Vector("E", k * p)
     return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
 
 def push_function(term: Disturbance, n: int) -> SymbolicFunction:
-    """zeta (n,) [N m] and the force from outside (2,) [N] of a term at (t, step, t_start, q, v).
+    """The function (t, step, t_start, q, v) -> zeta (n,) [N m] and force from outside (2,) [N] of one term of a
+    disturbance.
 
-    The code computes nothing where the term does not act, since most pushes act for a small part of a walk.
-    Raises NotCompiled for a term that cannot be traced or returns other shapes.
+    Where `term.acts` is not above 0 the code computes nothing and gives zeros, since most pushes act for a
+    small part of a walk. Raises NotCompiled for a term that cannot be traced or returns other shapes.
     """
     (K, symbols), inp, trace = symbols_of(term), Vector("inp", 3 + 2 * n), Tracer()
     when, state = (inp.take(), inp.take(), inp.take()), (inp.take(n), inp.take(n))

@@ -1,4 +1,8 @@
-"""Machine code of functions by their structure, in memory and on disk; traced only where neither has it."""
+"""Machine code of functions, found by their structure in memory or on disk, else compiled.
+
+The structure of a function is all that decides its code, without the values of floats (`engine.structure`). To
+trace is to run its Python once on symbols, which gives the expression that is compiled.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +17,17 @@ if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
 _Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
-"""Functions by name; each value is called, where its code is not there, to trace the expression."""
+"""Name of a function -> what is called, without arguments, to trace it where its code is neither in memory
+nor on disk."""
 _IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
-"""Code by structure, or why there is none; a function is a value, so this is no state."""
+"""Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
 def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> LoadedCode:
-    """Machine code of these functions in memory; they are traced once per structure.
+    """The machine code of these functions; they are traced once per structure.
 
-    - key: the structure of what they are made from (`engine.structure`).
+    - key: the structure of what they are made from; equal keys have to mean equal code.
+    - functions: name -> what traces its expression when it is called.
     - vectors: whether LLVM joins like operations into vector instructions (`machine.object_code`).
 
     Raises NotCompiled for functions that cannot be traced; a second call raises it without tracing anew.
@@ -42,13 +48,14 @@ def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> Lo
 
 def _text(key: Hashable, functions: _Functions) -> str:
     """LLVM's text of these functions; from the disk where another process has traced the same structure."""
-    link = lasting(key)
-    there = fetch(link) if link else None
-    if there is not None:
-        return there.decode()
-    from biped_adrc.engine.ir import module_text  # and with it CasADi, for what is traced alone
+    name_on_disk = lasting(key)  # empty for a structure with classes of the user's
+    stored = fetch(name_on_disk) if name_on_disk else None
+    if stored is not None:
+        return stored.decode()
+    # imported here, since it imports CasADi, which is needed only where something is traced
+    from biped_adrc.engine.ir import module_text
 
     result = module_text({name: f() for name, f in functions.items()})
-    if link:
-        store(link, result.encode())
+    if name_on_disk:
+        store(name_on_disk, result.encode())
     return result

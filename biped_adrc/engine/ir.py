@@ -1,7 +1,7 @@
 """The operations of a CasADi function, one after the other, written as text in any language.
 
 CasADi lists the instructions of an expression in order, common subexpressions taken out; `straight_line` gives
-each value a place of its own, and a language has a pattern for each operation (here and in
+each value a place of its own, its index in a list, and a language has a pattern for each operation (here and in
 `extras.export.c_text`). Nothing is re-ordered by value, so every language computes the same numbers.
 
     pattern     one line, or several in a row
@@ -27,7 +27,7 @@ from biped_adrc.engine.not_compiled import NotCompiled
 CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
 Patterns = Mapping[int, str]
-"""Lines by operation."""
+"""Pattern by CasADi's code of the operation."""
 OF_C: dict[int, str] = {
     getattr(ca, f"OP_{name.upper()}"): name
     for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
@@ -41,8 +41,8 @@ class Operation(NamedTuple):
     code: int
     """CasADi's code of the operation, or CHOICE."""
     of: tuple[int, ...]
-    """Places of its operands, which are operations before it. An input has here 0 for K or 1 for inp, and its
-    index there; an output has the place of its value, and its own index."""
+    """Places of its operands, which are operations before it in the list. An input has here 0 for K or 1 for
+    inp, and its index there; an output has the place of its value, and its own index in out."""
     number: float = 0.0
     """Value of a constant."""
 
@@ -54,9 +54,11 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
     """
     f = ca.Function("f", [function.K, function.inp], ca.cse([function.out]))
     result, places = list[Operation](), dict[Operation, int]()
-    work = dict[int, int]()  # places of the values in CasADi's registers
+    # CasADi's registers -> the place of the value that each has now; CasADi uses a register for many values
+    work = dict[int, int]()
     for i in range(f.n_instructions()):
         code, a, o = f.instruction_id(i), f.instruction_input(i), f.instruction_output(i)
+        # a: numbers of registers, for an input its vector and index, which are taken as they are
         of = tuple(a if code == ca.OP_INPUT else map(work.__getitem__, a))
         if code == ca.OP_ASSIGN:
             work[o[0]] = of[0]
@@ -65,6 +67,7 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
         elif code in _PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
             number = f.instruction_constant(i) if code == ca.OP_CONST else 0.0
             one = _choice(result, of) if code == ca.OP_ADD else Operation(code, of, number)
+            # an equal operation before it has the same value, and its place serves for both
             work[o[0]] = places.setdefault(one, len(result))
             if work[o[0]] == len(result):
                 result.append(one)
@@ -76,9 +79,11 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
 
 
 def _choice(line: list[Operation], of: tuple[int, ...]) -> Operation:
-    """The sum of two values of a line, as CHOICE where they are two choices of which exactly one is made.
+    """The operation that adds the values at the two places `of` in the list `line`; a CHOICE where the sum is
+    one.
 
-    CasADi writes if_else(condition, a, b) as such a sum; as one choice it costs less.
+    CasADi writes if_else(c, a, b) as the sum of "a if c, else 0" and "b if not c, else 0"; as one choice it
+    costs less.
     """
     one, other = (line[k] for k in of)
     if one.code == other.code == ca.OP_IF_ELSE_ZERO:
@@ -123,20 +128,23 @@ _PATTERNS: Patterns = {
 """Lines of LLVM by operation."""
 DECLARATIONS = "\n".join(
     f"declare double @{name}(double{', double' if code in _OF_TWO else ''}) nounwind readnone willreturn"
-    for name, code in {name: code for code, name in CALLED.items()}.items()
+    for name, code in {name: code for code, name in CALLED.items()}.items()  # `pow` has two codes
 )
-"""Head of every module."""
+"""Head of every module: the functions that its code may call, each declared once."""
 
 
 def module_text(functions: dict[str, SymbolicFunction]) -> str:
-    """A module of functions, by name. Raises InputError for an operation that has no line here."""
+    """The text of a module with these functions, each under its name. Raises NotCompiled for an operation that
+    has no pattern here.
+    """
     return "\n".join([DECLARATIONS, *(function_text(name, f) for name, f in functions.items())])
 
 
 def function_text(name: str, function: SymbolicFunction) -> str:
-    """The text of one function with arguments K, inp, out, which do not overlap.
+    """The text of one function with the arguments K, inp, out, which do not overlap in memory.
 
-    With `acts` it computes that number first, into out, and where it is not above 0 writes zeros and returns.
+    Where `function.acts` is an expression, the code computes it first, into out[0], and where it is not above 0
+    writes zeros to out and returns.
     """
     head = f"define void @{name}(ptr noalias %K, ptr noalias %inp, ptr noalias %out) nounwind {{"
     lines = [*_lines("v", function, function.out), "ret void"]
@@ -156,11 +164,12 @@ def function_text(name: str, function: SymbolicFunction) -> str:
 
 
 def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
-    """The lines of LLVM that compute and store the expressions `out` of a function's K and inp.
+    """The lines of LLVM that compute the expressions `out` of a function's K and inp and store them in its out.
 
-    Names of values begin with this letter and are numbered, since LLVM wants each of them to be assigned once.
-    Outputs are stored last, since they may lie where an input is.
+    Names of values are the letter and a number, since LLVM wants each name of a function to be assigned once;
+    another block of the same function has another letter. Outputs are stored last, after all inputs are read.
     """
+    # names: of the value at each place of the line
     lines, stores, names, count = list[str](), list[str](), list[str](), 0
 
     def new(text: str, into: list[str] = lines) -> str:

@@ -1,4 +1,8 @@
-"""The numbers of a tree of parts, tuples and arrays, in the order in which machine code reads them."""
+"""The numbers of a tree of parts, tuples and arrays, in the order in which machine code reads them.
+
+Numbers are floats and arrays of floats here; whole numbers are part of the code. A part is a dataclass
+(`core.part`), whose content, fields and derived numbers, is searched to any depth.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +17,28 @@ from biped_adrc.core.part import Setup, content, is_part
 from biped_adrc.core.tree import Layout
 from biped_adrc.model.biped import Biped
 
-REALS, LISTS = (float, np.floating), (tuple, list)  # float | np.floating is made anew each time
+# tuples of classes, since float | np.floating would be made anew at each call
+REALS, LISTS = (float, np.floating), (tuple, list)
 _RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
 HIDDEN = (Biped, complex, np.complexfloating, Setup, *_RANDOM)
-"""What is neither number nor structure in a part; machine code must not depend on it."""
+"""Classes of what is neither number nor structure in a part: machine code must not depend on it."""
 
 
 def floats(tree: object) -> list[float]:
-    """The numbers that `Vector.like` takes symbols for, in its order."""
+    """The numbers of a tree, as they stand in the vector K: those for which `Vector.like` takes symbols, in the
+    same order.
+    """
     if isinstance(tree, REALS):
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    if isinstance(tree, Layout):
+    if isinstance(tree, Layout):  # a large tuple without floats, so this saves time
         return []
     return _floats(tree) if is_part(tree) else _floats_inside(tree)
 
 
 def _floats_inside(tree: object) -> list[float]:
-    """The numbers of a tuple, list or part, of its members one after the other."""
+    """The numbers of the members of a tuple, list or part, one after the other; none of any other object."""
     return [number for _, x in _inside(tree) for number in floats(x)]
 
 
@@ -40,13 +47,15 @@ _floats = once(_floats_inside)
 
 
 def paths(tree: object) -> list[str]:
-    """Name of each number in `floats`, in the same order, such as k.tracking.K_p[0]."""
+    """Name of each number in `floats`, in the same order: field names and indices, such as
+    k.tracking.K_p[0]."""
     places = ((name, np.ndindex(*np.shape(x))) for name, x in leaves(tree))
     return [name + (f"[{', '.join(map(str, i))}]" if i else "") for name, at in places for i in at]
 
 
 def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Numbers and arrays of numbers in a tree, each with its name."""
+    """Yield the numbers and arrays of numbers in a tree, each with its name; `name`: that of the tree
+    itself."""
     if isinstance(tree, REALS) or (isinstance(tree, np.ndarray) and tree.dtype.kind == "f"):
         yield name, tree
     for part, x in _inside(tree):
@@ -55,7 +64,8 @@ def leaves(tree: object, name: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def _inside(tree: object) -> Iterator[tuple[str | int, object]]:
-    """The parts of a tuple, list or part, each with its name or place."""
+    """Yield the members of a tuple, list or part, each with its field name or its index; none for other
+    objects."""
     if is_part(tree) and not isinstance(tree, HIDDEN):
         yield from content(tree).items()
     elif isinstance(tree, LISTS):
@@ -63,5 +73,5 @@ def _inside(tree: object) -> Iterator[tuple[str | int, object]]:
 
 
 def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
-    """A tuple, NamedTuple or list of the same class with other parts."""
+    """A tuple, NamedTuple or list of the class of `like` with these members."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)

@@ -1,8 +1,9 @@
 """Machine code of modules in LLVM's language, kept on disk with checksums.
 
-Last stage of the compiler. Object code is stored under the hash of the text and of what compiles it. Files are
-written beside and moved into place, so several processes may make the same one; a damaged file is made again,
-and where nothing can be written code is made in memory each time.
+Last stage of the compiler. Object code is stored under the hash of the text and of what compiles it; other
+stages store texts in the same way (`fetch`, `store`). A file is written under another name and then renamed, so
+several processes may make the same one; a damaged file is made again, and where nothing can be written code is
+made in memory each time.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ from biped_adrc.core.errors import OutputError
 from biped_adrc.core.files import write_bytes
 
 CHECK = 32
-"""Bytes of the checksum before the object code."""
+"""Number of bytes of the checksum (SHA-256) with which a file begins."""
 LOCK = threading.RLock()
-"""One thread at a time compiles or loads."""
+"""Held by the one thread that compiles or loads."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +56,8 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
 
 
 def hash_of(*made_from: str) -> str:
-    """Hash of these texts, of this processor with its instructions, and of the version of LLVM: a file's
-    name."""
+    """Hash of these texts, of this processor with its instructions, and of the version of LLVM, by which a file
+    is named: 32 hexadecimal digits."""
     host = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
     parts = (*made_from, *host, str(binding.llvm_version_info))
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
@@ -75,7 +76,7 @@ def _target() -> binding.TargetMachine:
 
 
 def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:
-    """A module in LLVM's language for this target machine."""
+    """The module of a text in LLVM's language, checked for syntax, for this target machine."""
     module = binding.parse_assembly(text)
     module.triple, module.data_layout = machine.triple, str(machine.target_data)
     return module
@@ -102,7 +103,9 @@ _ENGINES: list[object] = []
 
 
 def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
-    """Object code of a text in memory, with the addresses of these functions."""
+    """Load object code into memory and find the addresses of the functions `names`; text: what it was made
+    from."""
+    # the engine wants a module of its own, which is empty; the functions come with the object file
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -112,10 +115,10 @@ def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
 
 
 def _path(key: str) -> Path:
-    """File of the object code stored under `key`.
+    """The file of what is stored under `key`.
 
-    What lies there is executed. Raises OSError for a folder that is relative, and may have come with other
-    files.
+    Code in it is executed, so the folder has to be the user's own: raises OSError for a relative path, which
+    could lead into a folder of somebody else's files.
     """
     named = os.environ.get(VARIABLE, "").strip()
     folder = Path(named or user_cache_path("biped_adrc", appauthor=False))
@@ -125,7 +128,7 @@ def _path(key: str) -> Path:
 
 
 def fetch(key: str) -> bytes | None:
-    """Object code from the disk; None when it is not there or its checksum is wrong.
+    """The object code or text stored on disk under `key`; None when it is not there or its checksum is wrong.
 
     The checksum covers the key too, so a file under a wrong name is noticed.
     """
@@ -138,7 +141,7 @@ def fetch(key: str) -> bytes | None:
 
 
 def store(key: str, code: bytes) -> None:
-    """Write object code with its checksum, where that is possible."""
+    """Store object code or a text on disk under `key`, with a checksum; where that fails, nothing happens."""
     with suppress(OSError, OutputError):
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
 

@@ -1,4 +1,8 @@
-"""What cannot be compiled, and where: errors of laws on symbols, with the user's class, file and line."""
+"""Errors of what cannot be compiled, with the user's class, file and line.
+
+They arise where the compiler runs a law, a method of a controller or another part, on symbols in place of
+numbers.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +28,8 @@ class Located(NotCompiled):
 
 @contextmanager
 def located(f: object) -> Iterator[None]:
-    """Context that turns each error, such as NumPy's about objects that are no floats, into a Located with its
-    place.
+    """Context that turns each exception, such as NumPy's about objects that are no floats, into a Located that
+    names the place where it arose; f: the function that runs, named where no better place is known.
     """
     try:
         yield
@@ -36,7 +40,9 @@ def located(f: object) -> Iterator[None]:
 
 
 def _place(error: Exception, f: Any) -> str:
-    """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
+    """The place where an error arose, as text such as PD.output (own.py:12, `x`): the innermost line of the
+    user's; without one that of a method of this package, the compiler left out; else the name of f.
+    """
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
@@ -53,3 +59,4 @@ def _place(error: Exception, f: Any) -> str:
 
 
 _HERE = str(Path(__file__).parent)
+"""Folder of the compiler."""

@@ -1,7 +1,8 @@
 """The numbers of a walker that machine code gets at run time, such as masses, gains and limits, by name.
 
-`engine.leaves.floats` writes them in this order into the vector K, an argument of every compiled function. Open
-this module to give machine code another number.
+`engine.leaves.floats` writes the floats among them in this order into the vector K, an argument of every
+compiled function; whole numbers and flags decide the code itself. A number that machine code is to get in
+addition becomes a field here.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 Reading = Callable[..., tuple[Array, ...]]
-"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
+"""read(loop, t, x, mode, reference) -> arrays, such as `signals_at`: what is read off the loop at one instant,
+t in [s], x (nx,); reference(s, m) is the point of the reference from which it takes errors."""
 
 
 NONE = np.zeros(0)
@@ -30,16 +32,16 @@ NONE = np.zeros(0)
 
 
 class WalkerNumbers(NamedTuple):
-    """All numbers of a walker that are given at run time, in the order of the vector K."""
+    """All numbers of a walker that machine code gets at run time, in the order of the vector K."""
 
     plant: PlanarRobot
-    """The robot that moves."""
+    """The robot that moves; where the plant moves by itself, the controller's model."""
     model: PlanarRobot | None
-    """The controller's model, None where it is the plant."""
+    """The controller's model, None where it is `plant`."""
     controller: Controller
-    """The controller in its form for the time base of the walker."""
+    """The controller in its form for the walker's time base, continuous or sampled."""
     torque_limit: float
-    """[N m], infinite without one."""
+    """Limit at which every motor saturates [N m], infinite without one."""
     tan_slope: float = 0.0
     """Tangent of the ground's slope [1], positive downhill."""
     lowest_hip: float = 0.0
@@ -51,9 +53,9 @@ class WalkerNumbers(NamedTuple):
     held: HeldParts | tuple[()] = ()
     """Parameters of what is held between sample instants, empty in continuous time."""
     impact_gain: Array = NONE
-    """Relative errors of v+ (n,) [1], empty without."""
+    """Relative errors of v+, the rates after an impact, (n,) [1]; empty without."""
     split: ErrorForm | None = None
-    """Coordinates of the exponential method."""
+    """Coordinates of the exponential method; None for other methods."""
     curve: Reference | OuterLoop | None = None
     """Reference from which readings take errors; no other function uses it."""
     moves: bool = False
@@ -63,10 +65,11 @@ class WalkerNumbers(NamedTuple):
 def numbers_of(
     walker: Walker, split: ErrorForm | None = None, curve: Reference | OuterLoop | None = None
 ) -> WalkerNumbers:
-    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
+    """All numbers of a walker by name, as K lists them; what a walker does not have is empty and has no number
+    in K.
 
-    split: coordinates of the exponential method. curve: reference from which readings take errors. Raises
-    ModelError for a robot that is no planar tree.
+    split: coordinates of the exponential method, None for other methods. curve: reference from which readings
+    take errors. Raises ModelError for a robot that is no planar tree.
     """
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),
@@ -80,7 +83,9 @@ def numbers_of(
 
 
 def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
-    """The numbers of a controller in sampled time and of its model, without plant and ground."""
+    """The numbers of a loop's controller, with `robot` as its model and as the plant; those of the ground, of
+    another model and of impacts have their defaults.
+    """
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
     return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)

@@ -45,8 +45,11 @@ from biped_adrc.model.planar_robot import robot_of
 def fastest_loop(
     walker: Walker, plant: SteppingPlant, engine: str = COMPILED, first_step: int = 1
 ) -> SteppingLoop:
-    """Make the loop of `other_plant.stepping_loop`, with compiled sample instants where its parts have machine
-    code.
+    """Make the loop of `other_plant.stepping_loop`: the controller, sensors and clock of a walker around a
+    plant that moves by itself.
+
+    engine: "compiled" for sample instants in machine code, as far as their parts have it; any other runs in
+    Python. first_step: number of the first single support.
     """
     kind = CompiledLoop if engine == COMPILED else SteppingLoop
     return other_plant.stepping_loop(walker, plant, first_step, kind)
@@ -58,10 +61,9 @@ COMPILED_MODEL = "compiled model"
 
 @dataclass(frozen=True)
 class CompiledLoop(SteppingLoop):
-    """A `SteppingLoop` in machine code, with the same fields: its walk is the same to round-off, and much
-    faster.
+    """A `SteppingLoop` in machine code: its walk is the same to round-off, and much faster.
 
-    `prepared` makes the machine code at the start of each run.
+    `prepared` fills in the two fields below at the start of each run; all others are those of `SteppingLoop`.
     """
 
     program: Program | None = None
@@ -70,10 +72,11 @@ class CompiledLoop(SteppingLoop):
     """Terms of its disturbance in machine code; None where Python computes them."""
 
     def prepared(self, x: Array) -> tuple[CompiledLoop, dict[str, str]]:
-        """The loop for one run from x, with work space of its own, and the settings that say which engine runs.
+        """A copy of the loop for one run from x (nx,), with work space of its own, and the trajectory's
+        settings "engine" and "why".
 
-        What cannot be compiled still gets the terms of its model and its references in machine code, where they
-        have any.
+        Where its sample instants cannot be compiled, the controller still gets the terms of its model and its
+        references in machine code, where they have any.
         """
         values, engine = dict[str, Any](), {"engine": COMPILED}
         with suppress(NotCompiled):
@@ -81,9 +84,10 @@ class CompiledLoop(SteppingLoop):
         try:
             if not isinstance(self.model, Biped):
                 raise NotCompiled(f"the model is a {type(self.model).__name__}, expected a Biped")
+            # moves: the plant moves by itself, so `tick` is the only function
             numbers = controller_numbers(robot_of(self.model), self)._replace(moves=True)
             values["program"] = Program(self.layout_of(x), numbers)
-            _ = values["program"].machine
+            _ = values["program"].machine  # compiles, or raises NotCompiled
         except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
@@ -95,19 +99,21 @@ class CompiledLoop(SteppingLoop):
 
     @cached_property
     def sample(self) -> Call:
-        """The function `tick` of the program, with memory for its inputs."""
+        """The function `sample` of the module, with memory for its inputs; its name in the program is
+        `tick`."""
         assert self.program is not None
         code, nx = self.program.machine, self.program.nx
         return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after the sample instant at t [s]. Where it is not finite, Python repeats the tick for its
-        error.
+        """x (nx,) after the sample instant at t [s]. Where that is not finite or the least pivot not above 0,
+        Python repeats the sample instant, for its error.
         """
         if self.program is None:
             return super().tick(t, x, mode)
         inp = self.sample.inp
         inp[0], inp[1], inp[2] = t, mode.step, mode.start
+        # behind x n numbers stay 0: the place of zeta, which the plant alone feels
         inp[3 : 3 + len(x)] = x
         if self.touchdown is not None and self.touchdown.needs_force:
             q, v, _, tail = parts(self, x)
@@ -119,8 +125,8 @@ class CompiledLoop(SteppingLoop):
         return super().tick(t, x, mode)
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
-        """The forces from outside, by machine code; where they are not finite, Python computes them again for
-        its error.
+        """The forces from outside on the plant in the state `row` = (q, q', ..) at t [s], by machine code;
+        where they are not finite, Python computes them again, for its error.
         """
         if self.pushes is None:
             return super().load(t, row, mode)
@@ -136,11 +142,14 @@ class CompiledLoop(SteppingLoop):
 
     @cached_property
     def pushed_in_python(self) -> bool:
-        """Whether its disturbance is not compiled."""
+        """Whether Python computes zeta at each node during the run: there is a disturbance without machine
+        code."""
         return self.disturbance is not None and self.pushes is None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
+        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, ..), for a disturbance in machine
+        code or none.
+        """
         if self.pushes is None:
             return super().zetas(t, rows, mode)
         return zeta_rows(self.pushes, t, rows, mode, self.plant.n)

@@ -1,5 +1,7 @@
 """A walker as machine code: its functions, the vector K of its numbers, and the plan of its runs.
 
+A plan is the memory of a run that has not begun; the march is the compiled loop that moves a run through time.
+
 One compilation serves every robot, gain and gait of the same structure, which has no floats in it
 (`engine.structure`). So a program is made in microseconds where its functions are in memory, in milliseconds
 where they are on disk; only for a new structure is anything traced and compiled.
@@ -50,9 +52,10 @@ COMPILED = "compiled"
 
 @dataclass(frozen=True)
 class Program:
-    """Functions by name, compiled, and the numbers they are called with.
+    """A walker's functions in machine code, by name, and the vector K of numbers with which they are called.
 
-    Raises NotCompiled for a part whose content cannot be compared, when it is asked for.
+    Made at once; code is looked up or compiled when it is first used, and then NotCompiled is raised for a part
+    that cannot be compiled.
     """
 
     layout: Layout
@@ -62,7 +65,7 @@ class Program:
 
     @cached_property
     def equations(self) -> Equations:
-        """The functions on symbols; CasADi is imported here, where something is traced."""
+        """The functions on symbols; the import here, where something is traced, brings CasADi in."""
         from biped_adrc.engine.equations import Equations
 
         return Equations(self.layout, self.numbers)
@@ -74,7 +77,9 @@ class Program:
 
     @property
     def names(self) -> list[str]:
-        """Names of the functions that this walker has; each is a method of `Equations`."""
+        """Names of the functions that this walker needs, each a method of `Equations`: `tick` in sampled time,
+        the last three for the exponential method.
+        """
         if self.numbers.moves:
             return ["tick"]
         split = [] if self.numbers.split is None else ["to", "back", "remainder"]
@@ -82,7 +87,10 @@ class Program:
 
     @cached_property
     def K(self) -> Array:
-        """The numbers as a vector; its last entry is unused, so that it is never empty."""
+        """The floats of `numbers` as a vector; its last entry is unused, so that it is never empty.
+
+        Raises NotCompiled for NaN: the walk then runs in Python, which names the part with the NaN.
+        """
         K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
             name = type(self.numbers.controller).__name__
@@ -91,28 +99,34 @@ class Program:
 
     @cached_property
     def key(self) -> Hashable:
-        """The structure that decides all code of the program except that of readings."""
+        """The structure that decides all code of the program except that of readings, which alone use the
+        curve."""
         return self.layout, structure(self.numbers._replace(curve=None))
 
     @cached_property
     def machine(self) -> LoadedCode:
-        """The program's functions in memory, each compiled when it is asked for first.
+        """The program's functions `names` in memory, compiled together at the first use.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
         return generated(self.key, {name: partial(self._traced, name) for name in self.names})
 
     def reading(self, read: Reading) -> LoadedCode:
-        """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
+        """Machine code of `read`, with the address "reading"; its inputs are those of `tick`, its output all
+        arrays that `read` returns. Raises NotCompiled for a curve without a compiled form.
+        """
         key = read, self.key, structure(self.numbers.curve)
         return generated(key, {"reading": lambda: self.equations.view(read)})
 
     def _traced(self, name: str) -> SymbolicFunction:
+        """The function `name` on symbols; an error names the place in the user's code."""
         with located(name):
             return getattr(self.equations, name)()
 
     def address(self, name: str) -> int:
-        """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
+        """Address of a compiled function, a name of `kernels.record.FUNCTIONS`; 0 for one that this walker does
+        not need, which no kernel calls then.
+        """
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
@@ -121,30 +135,38 @@ class Program:
 
 
 def push_code(term: Disturbance, n: int) -> LoadedCode:
-    """Machine code with the function `push` of a term of a disturbance of n coordinates.
+    """Machine code with the function `push` of a disturbance's term: its torque on n coordinates, and its
+    force.
 
     Terms are compiled by themselves, so that other pushes do not compile the walker again. Raises NotCompiled
     for one that cannot be traced, with the reason.
     """
+    # compiled loops get the table `switches`, and could not call a `switching_times` of the user's
     if type(term).switching_times is not Disturbance.switching_times:
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
     return generated(("push", n, structure(term)), {"push": partial(_push, term, n)})
 
 
 def _push(term: Disturbance, n: int) -> SymbolicFunction:
+    """The function `push` of a term on symbols; the import is here, as it brings CasADi in."""
     from biped_adrc.engine.equations import push_function
 
     return push_function(term, n)
 
 
 def _matvec(k: int, p: int) -> SymbolicFunction:
+    """The function `matvec` on symbols, M (k, k) times E (k, p); the import is here, as it brings CasADi in."""
     from biped_adrc.engine.equations import matvec_function
 
     return matvec_function(k, p)
 
 
 def at_rest(layout: Layout) -> Layout:
-    """A layout of the same size; controller, sensors and belief are rows of numbers that nothing reads."""
+    """The layout of a state x for a walker whose sample instants run in Python; its size is the same.
+
+    Machine code then reads q, q' and the torques on their way alone. The states of controller, sensors and
+    belief, whatever their classes are, become plain rows of numbers that it carries along.
+    """
     q, v, s, tail = layout.parts
     line, none = tail.parts[-1], Layout.of(None)
     own = tail.size - line.size
@@ -161,11 +183,11 @@ class CompiledWalker:
     """A walker that the compiled loops can run."""
 
     walker: Walker
-    """Plant, controller and all the rest."""
+    """The walker that was compiled."""
     program: Program
-    """Keeps the code in memory and holds the parameters."""
+    """Its functions, and the vector K of its numbers."""
     plan: CompiledRun
-    """A run that has not begun: sizes, addresses and settings."""
+    """A run that has not begun: sizes, addresses, tables and settings; each run starts in a copy of it."""
     label: str
     """Name and step of the method of integration, for records."""
 
@@ -182,8 +204,9 @@ class CompiledWalker:
         """Make the tables of a run that begins at t_first [s], for states of this layout
         (`ClosedLoop.layout_of`).
 
-        reference: the curve from which readings of the program take errors. in_python: sample instants and
-        impacts are those of `engine.ticks`, in sampled time. Compiles functions that are neither in memory nor
+        reference: the curve from which readings of the program take errors; None for a program without
+        readings. in_python: whether sample instants and impacts are those of `engine.ticks`, in sampled time,
+        so that the controller is not compiled. Compiles functions that are neither in memory nor
         on disk. Raises NotCompiled where a part or the method cannot be compiled, InputError for a method
         without coordinates.
         """
@@ -191,7 +214,8 @@ class CompiledWalker:
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         codes = [push_code(x, n).addresses["push"] for x in push.terms]
-        # of each term the address of its code and how many numbers it has, whole numbers in cells of floats
+        # of each term the address of its code and how many numbers it has; `view` keeps the bits of these whole
+        # numbers in a table of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
@@ -204,7 +228,8 @@ class CompiledWalker:
 
 
 class _Still(NamedTuple):
-    """The parts of a `CompiledWalker` that walkers share which differ in their disturbance alone."""
+    """What a walker without its disturbance needs to run: walkers that differ in their disturbance alone share
+    it."""
 
     program: Program
     tables: dict[str, Array]
@@ -212,10 +237,12 @@ class _Still(NamedTuple):
     fields: dict[str, float]
     """Fields of `kernels.record.Run` by name."""
     plans: dict[tuple[int, ...], CompiledRun]
-    """Plans by the sizes of the disturbance's tables, since these decide where everything lies."""
+    """Plans made so far, by the sizes of the disturbance's tables, which decide where everything lies in
+    memory."""
 
     def plan(self, tables: dict[str, Array]) -> CompiledRun:
-        """A plan with these tables of a disturbance."""
+        """A plan of a run with these tables of a disturbance, by name: a copy of one of equal sizes, filled
+        in."""
         sizes = tuple(len(table) for table in tables.values())
         if sizes not in self.plans:
             self.plans[sizes] = plan({**self.tables, **tables}, self.fields)
@@ -230,8 +257,8 @@ def _still(
     reference: Reference | None,
     in_python: bool,
 ) -> _Still:
-    """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next
-    call."""
+    """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next call;
+    arguments as there."""
     if not isinstance(method, RK4 | Exponential):
         raise NotCompiled(
             f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
@@ -241,6 +268,7 @@ def _still(
     if etd and split is None:
         raise no_coordinates()
     numbers = numbers_of(walker, split, reference)
+    # `Passive` has no numbers: the march calls Python where the controller acts, so its numbers are not in K
     if in_python:
         held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
         numbers, layout = numbers._replace(controller=Passive(), held=held), at_rest(layout)
@@ -257,6 +285,7 @@ def _still(
         "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
         "phi": np.zeros(0) if split is None else phi_levels(method.h, split.A),
     }
+    # what is left out is 0: no clock, no lag
     fields = dict[str, float]()
     if isinstance(walker.timing, SampledTime) and walker.held is not None:
         T = walker.timing.period

@@ -1,10 +1,10 @@
-"""One run of a walker by the engine asked for, with the trajectory that the Python engine would leave.
+"""One run of a walker by one of two engines; both leave the same trajectory up to round-off.
 
 "pinocchio" runs the loop of `hybrid.simulator` on Pinocchio's dynamics. "compiled" takes the fastest way that
 fits:
 
-- all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
-  is one call of a kernel;
+- all compiled: controller, observer, disturbance and method of integration can be compiled; an arc, the
+  flow between two impacts, is one call of a kernel, the compiled loop over time;
 - compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
   (`engine.ticks`);
 - compiled plant otherwise: the loop of `hybrid.simulator` on compiled dynamics;
@@ -43,8 +43,8 @@ ENGINES = (PINOCCHIO, COMPILED)
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
 ONWARD, STORE = 0.005, 1_000_000
-"""`detail_of` repeats so much of a lost run in Python, from its last good state on [s]; `store_every` there and
-in batches, so large that nodes are kept at the ends of arcs alone."""
+"""Time [s] that `detail_of` simulates in Python after the last good state of a lost run; `store_every` there
+and in batches, so large that nodes are kept at the ends of arcs alone."""
 
 
 def check_engine(engine: str) -> None:
@@ -65,9 +65,10 @@ def simulate_by(
 ) -> Trajectory:
     """Run a walker from x0 (nx,) by an engine of ENGINES; options are the fields of `RunOptions`.
 
-    impacts: the run ends after so many. A robot that is no planar tree is simulated with Pinocchio by any
-    engine. settings["engine"] says what ran, and settings["why"] why it is not the `engine` of the call. Raises
-    InputError for an unknown engine, a start that is not finite, and parts that do not fit together.
+    mode: the single support in which it starts. impacts: the run ends after so many. A robot that is no planar
+    tree is simulated with Pinocchio by any engine. settings["engine"] says what ran, and settings["why"] why it
+    is not the `engine` of the call. Raises InputError for an unknown engine, a start that is not finite, and
+    parts that do not fit together.
     """
     check_engine(engine)
     if impacts is not None:
@@ -83,7 +84,7 @@ def simulate_by(
 
 
 def _with_step(run: Trajectory, method: OneStepMethod) -> Trajectory:
-    """The run; where it ran away, with the integration step added to its text `detail`.
+    """The same run; where it ran away, with the method and its integration step added to the text `detail`.
 
     A fixed step that is too long for the controller's poles is the most frequent cause.
     """
@@ -96,7 +97,7 @@ def run_compiled(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """Run a walker from x0 (nx,) as `hybrid.simulator.run` does, with all of it or its plant alone in machine
-    code.
+    code, in the order that the module lists.
 
     Raises InputError for a start that is not finite or parts that do not fit, ModelError for a robot that
     is no planar tree.
@@ -109,6 +110,7 @@ def run_compiled(
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
         why = f"{reason}; it runs in Python on the compiled plant"
+    # `result` stays None where not even the march can be compiled
     (walker, references), result = compiled_plant(walker), None
     if walker.sampled:
         # where this fails too, for instance by the method, the loop of `hybrid.simulator` follows below
@@ -128,10 +130,10 @@ def simulate_compiled(
     options: RunOptions,
     ticks: PythonTicks | None = None,
 ) -> Trajectory:
-    """The run of a walker that is compiled already, from x0 (nx,), in any thread.
+    """Run a walker that is compiled already from x0 (nx,); any thread may do so.
 
-    compiled: its program, method and plan. mode: the single support in which it starts. ticks: its sample
-    instants and impacts in Python; None where machine code has them.
+    compiled: its program, method and plan. mode: the single support in which it starts. ticks: the Python
+    functions of its sample instants and impacts, which `compiled.plan` calls; None where machine code has them.
     """
     run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
     longest, left = compiled.walker.max_step_time, options.t_end - options.t0
@@ -142,11 +144,12 @@ def simulate_compiled(
     def flown(t: float, x: Array, mode: Mode, fired: Event | None) -> FlownArc:
         """Move one arc to the end of the run or to its first event, and make the impact there.
 
-        Its arguments are not read: the run in memory is already where the last arc ended.
+        Its arguments, which `run_arcs` gives to any engine, are not read: the run in memory is already where
+        the last arc ended.
         """
         nx, event, outcome = run.nx, None, None
         status, strikes = run.stride(1)
-        for t, *x in strikes:
+        for t, *x in strikes:  # one row (t, x-, x+), or none
             outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
             event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
         if status in TERMINAL:
@@ -155,6 +158,7 @@ def simulate_compiled(
         arc = Arc(mode, at[:, 0], x, dx, event)
         if ticks is not None and ticks.error is not None:
             return FlownArc(arc, *simulator.status_of(ticks.error, begun=len(arc.t) > 1))
+        # `run_arcs` decides whether the end of the time is a TIME_OUT
         detail = f"after t = {arc.t[-1]:.6g} s" if status in simulator.FAILURES else ""
         status = Status.COMPLETED if status is Status.TIME_OUT else status
         return FlownArc(arc, status, detail, outcome)
@@ -164,11 +168,11 @@ def simulate_compiled(
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
-    """The text `detail` of a run; where compiled code met NaN, with the error that the next steps raise in
-    Python.
+    """The text `detail` of a run of machine code; where it was lost, with what Python says of the same failure.
 
-    Machine code gives NaN without a name; the methods in Python name the class that gave it. So Python goes
-    on from the last good state for ONWARD seconds; where it ends otherwise, the text stays as it is.
+    Machine code returns NaN, or notes a singular matrix or a run away, and cannot say in which class that
+    arose; Python names the class. So Python simulates on from the last good state for ONWARD seconds; where
+    that does not fail in the same way, the text stays as it is.
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail
@@ -183,7 +187,9 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
 
 
 def compiled_plant(walker: Walker) -> tuple[Walker, list[CompiledReference]]:
-    """The walker with compiled dynamics and references, and these references. Raises ModelError."""
+    """A copy of the walker with the dynamics of plant and model, and the references of its controller, in
+    machine code; and a list of these references. Raises ModelError for a robot that is no planar tree.
+    """
     references = list[CompiledReference]()
     controller = compiled_references(walker.controller, walker.plant.n, references)
     model = None if walker.model is None else compiled_biped(walker.model)

@@ -6,7 +6,8 @@ u_c and zeta_w are those of the walker; torque (p,) [N m] adds to the motors', f
 of the trunk (`control.around`, `disturbances.force`). A sample goes from one sample instant to the
 next; where an impact restarts the clock, it ends there.
 
-A `CompiledWalk` lies in memory, and the kernel `samples` moves many of them in one call. A `PythonWalk` is
+A `CompiledWalk` is a walk in machine code, and the kernel `samples` (`engine.kernels.arc`) moves many of them
+in one call. A `PythonWalk` is
 moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled plant, or a plant of its own.
 """
 
@@ -44,11 +45,14 @@ from biped_adrc.hybrid.trajectory import Arc, Event
 from biped_adrc.model.planar import link_point
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
-"""A loop, time [s], state (nx,) before the sample instant there, and single support."""
+"""Arguments of a `Reading`: the loop, the time [s] that a walk has reached, the state (nx,) there before the
+sample instant, and the single support."""
 
 
 def with_inputs(walker: Walker) -> tuple[Walker, Array]:
-    """The walker under a torque and a force from outside, and the array (p + 2,) where Python reads both."""
+    """The walker under a torque and a force from outside, both zero at first, and the array (p + 2,) of the
+    torque [N m] and the force [N], which its owner overwrites before a sample that runs in Python.
+    """
     plant, p = walker.plant, walker.plant.p
     outside = np.zeros(p + 2)
     force = AddedForce(outside[p:], _trunk(plant))
@@ -58,24 +62,28 @@ def with_inputs(walker: Walker) -> tuple[Walker, Array]:
 
 
 _trunk = once(lambda biped: link_point(biped, biped.description.trunk))
-"""Origin of the trunk's frame of a robot."""
+"""The origin of a robot's trunk as a `LinkPoint`; computed once for each robot."""
 
 
 def torque_place(program: Program) -> int:
-    """Index in K at which the torque from outside (p,) begins: the last numbers of a controller with inputs."""
-    # K ends with one unused number (`Program.K`), before it stand the numbers behind the controller
+    """Index in K (`Program.K`) at which the torque from outside (p,) begins, for a walker of `with_inputs`.
+
+    It is the last field of the controller, and so has the last p of the controller's numbers.
+    """
+    # K ends with one unused number, and before it stand the numbers of the fields behind the controller
     behind = program.numbers[program.numbers._fields.index("controller") + 1 :]
     return len(program.K) - 1 - len(floats(behind)) - program.numbers.plant.p
 
 
 @dataclass(frozen=True)
 class CompiledWalk:
-    """One walk in memory."""
+    """One walk in machine code."""
 
     compiled: CompiledWalker
+    """Its walker and code; walks may share it."""
     run: CompiledRun
-    """The walk's present state in memory, moved on by the kernel `samples`. Its nodes are those of this single
-    support, rows as in `engine.batch.BatchWalk.table`; none where it is not judged."""
+    """The walk's present state in memory, moved on by the kernel `samples`. Its nodes are those of the present
+    single support, rows as in `engine.batch.BatchWalk.table`; it keeps none where no verdict is asked for."""
 
     @classmethod
     def of(
@@ -87,19 +95,20 @@ class CompiledWalk:
         curve: Reference | None,
         judged: bool,
     ) -> Self:
-        """Make the walk that starts at x (nx,) in the single support `mode`.
+        """Make the walk of a walker of `with_inputs` that starts at x (nx,) in the single support `mode`.
 
-        curve: reference from which errors are measured. judged: whether nodes are kept, for verdicts. Raises
-        NotCompiled for a part without machine code.
+        curve: reference from which errors are measured; None for none. judged: whether nodes are kept, for
+        verdicts, which need a curve. Raises NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.layout_of(x), mode.start, curve)
+        # t_end is t at first: the kernel sets it to the end of each sample
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
             look = compiled.program.reading(step_reading).addresses["reading"]
             run.keep(walker.max_step_time, 1, look)
         assert walker.disturbance is not None
-        # where the kernel writes torque and force; the last term, `AddedForce`, is added by it and not as a
-        # part
+        # addresses (8 bytes a number) where the kernel writes torque and force. The last term of the
+        # disturbance is the `AddedForce`: the kernel counts it among the terms only while it is not zero
         run["torque"] = run["K"] + 8 * torque_place(compiled.program)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
         run["pulled"] = any(term.pulls for term in walker.disturbance.terms[:-1])
@@ -108,7 +117,9 @@ class CompiledWalk:
 
     @property
     def at(self) -> At:
-        """Walker, time [s], state and mode of the walk now."""
+        """Walker, time [s], state (nx,) and mode of the walk now; the state is a view, which the next sample
+        overwrites.
+        """
         run = self.run
         return self.compiled.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
 
@@ -117,27 +128,31 @@ class CompiledWalk:
         return replace(self, run=self.run.copy())
 
     def law(self, view: Reading) -> int:
-        """Address of the machine code of `view`."""
+        """Address of the machine code that evaluates `view` at a state, for the kernel `looks`."""
         return self.compiled.program.reading(view).addresses["reading"]
 
 
 @dataclass(frozen=True)
 class PythonWalk:
-    """One walk in Python, by `flow_arc`; the sample instants of a clock without restart are counted from 0
-    s."""
+    """One walk in Python, moved on by `flow_arc`, with the plant in machine code where that is possible.
+
+    A clock without restart has its sample instants at multiples of the period from 0 s on.
+    """
 
     loop: ClosedLoop[Any]
     method: OneStepMethod
     """Method of integration; not used by a plant that moves by itself."""
     places: tuple[tuple[Array, slice], ...]
-    """Arrays in which inputs are read, each with its part of (torque, force)."""
+    """The arrays from which the walk's parts read their inputs, each with the slice of (torque, force) (p + 2,)
+    that belongs there."""
     t: float
     """Time that the walk has reached [s]."""
     x: Array
     """State (nx,) before the sample instant at t."""
     mode: Mode
+    """Single support at t."""
     fired: Event | None = None
-    """The event that has just happened; None for none."""
+    """The event that ended the arc before at t; None where the walk goes on in the middle of an arc."""
     arcs: tuple[Arc, ...] = ()
     """Arcs of the present single support so far."""
 
@@ -147,8 +162,8 @@ class PythonWalk:
     ) -> Self:
         """Make the walk that starts at x (nx,) in the single support `mode`.
 
-        loop: a walker of `with_inputs`, or its parts around another plant. outside (p + 2,): the array in which
-        these read torque and force.
+        loop: a walker of `with_inputs`, or the `SteppingLoop` of such a walker around another plant. outside
+        (p + 2,): the array of torque and force of `with_inputs`.
         """
         p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
@@ -158,7 +173,7 @@ class PythonWalk:
             if loop.program is not None:
                 at = torque_place(loop.program)
                 places.append((loop.program.K[at : at + p], slice(p)))
-            if loop.pushes is not None:
+            if loop.pushes is not None:  # K of the last term, `AddedForce`, begins with its force
                 places.append((loop.pushes[-1].K[:2], slice(p, None)))
         return cls(loop, method, tuple(places), mode.start, x, mode)
 
@@ -172,10 +187,11 @@ class PythonWalk:
         return self
 
     def sample(self, inputs: Array) -> tuple[Self, Status, list[Arc]]:
-        """Move on by one sample: the walk at its next sample instant, with the status COMPLETED, or at its end;
-        and the arcs of single supports that ended on the way.
+        """Move on by one sample: return the walk at its next sample instant, with the status COMPLETED, or at
+        its end, with another status; and one arc for each single support that ended on the way.
 
-        inputs (p + 2,): torque [N m] and force [N]. Raises RaisedError where a class of the user's raises.
+        inputs (p + 2,): torque [N m] and force [N], constant over the sample. Raises RaisedError where a class
+        of the user's raises.
         """
         for place, part in self.places:
             place[:] = inputs[part]
@@ -183,6 +199,7 @@ class PythonWalk:
         while True:
             start = walk.mode.start if timing.restart else 0.0
             until = next_tick(walk.t, start, timing.period)
+            # the last one is the start of the arc, from which a clock that restarts counts
             at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite_part(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
@@ -197,19 +214,22 @@ class PythonWalk:
                 return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
             t, (x, mode) = event.t, flown.outcome
             walk = replace(walk, t=t, x=x, mode=mode, fired=event, arcs=arcs)
-            if timing.restart or t >= until:
+            if timing.restart or t >= until:  # the impact itself is then a sample instant
                 return walk, flown.status, over
 
 
 def _joined(arcs: Sequence[Arc]) -> Arc:
-    """One arc of arcs of the same single support that follow one another."""
-    kept = [arc for arc in arcs if arc.read] or arcs  # one that failed at once has read nothing
+    """Join arcs of one single support, which follow one another, into one arc."""
+    # an arc that failed at its first node has no readings; with it the columns would differ in length
+    kept = [arc for arc in arcs if arc.read] or arcs
     t, x, dx = (np.concatenate([getattr(arc, name) for arc in kept]) for name in ("t", "x", "dx"))
     read = {name: np.concatenate([arc.read[name] for arc in kept]) for name in kept[0].read}
     return Arc(arcs[0].mode, t, x, dx, arcs[-1].event, read)
 
 
 def python_row(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
-    """Evaluate view(loop, t, x, mode, reference) at a walk's present state in Python, as one row."""
+    """Evaluate `view` at a walk's present state in Python, with errors from `curve`: its arrays joined into one
+    row.
+    """
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])

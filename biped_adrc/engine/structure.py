@@ -31,7 +31,8 @@ from biped_adrc.engine.not_compiled import NotCompiled
 def structure(tree: Any, exact: bool = False) -> Hashable:
     """The structure of a tree of parts, tuples, arrays and numbers: two trees with equal ones share their code.
 
-    exact: whether floats count by value too. Raises NotCompiled for an object whose content cannot be compared.
+    It is a nested tuple, to be compared and hashed. exact: whether floats count by value too. Raises
+    NotCompiled for an object whose content cannot be compared.
     """
     # a float is a symbol in the code, so its value does not count; an int decides a size or a branch, so it
     # does
@@ -56,6 +57,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
         raise NotCompiled(
             f"a part holds {tree!r}, a {type(tree).__name__} whose content cannot be compared"
         ) from None
+    # any other object, such as an Enum's: by itself, and by the values of the attributes that it has
     known = isinstance(tree, type | types.FunctionType | types.ModuleType)
     inside = {} if known else getattr(tree, "__dict__", {})
     return type(tree), tree, structure(inside, True) if inside else None
@@ -68,7 +70,8 @@ def _of_part(part: Any, exact: bool) -> Hashable:
 
 
 def lasting(key: Hashable) -> str:
-    """Make a name of a structure that is the same in every process with the same versions of the libraries.
+    """Make a name of a structure, a hash, that is the same in every process with the same versions of the
+    libraries; code on disk is found by it.
 
     Empty for a structure with classes or functions of the user's, and in a process in which one of this
     package's functions was replaced: nobody can say there that equal names mean equal code.
@@ -85,6 +88,7 @@ def _spelled(key: Hashable) -> str:
         return f"({','.join(map(_spelled, key))})"
     if isinstance(key, type | types.FunctionType):
         home = str(key.__module__).partition(".")[0]
+        # one that is not found by its name in its module was made inside a function: a KeyError, a LookupError
         own = home == "biped_adrc" and vars(sys.modules[key.__module__])[key.__qualname__] is key
         if own or home in ("builtins", "enum", "numpy"):
             return f"{key.__module__}.{key.__qualname__}"
@@ -94,11 +98,12 @@ def _spelled(key: Hashable) -> str:
 
 
 def _replaced() -> bool:
-    """Whether a function or method of this package is the user's in this process."""
+    """Whether the user has replaced a function or method of this package by one of his own in this process."""
     for name, module in list(sys.modules.items()):
         for x in list(vars(module).values()) if name.startswith("biped_adrc.") else ():
             own = isinstance(x, type) and x.__module__ == name
             for member in vars(x).values() if own else (x,):
+                # the globals of a function are those of the module in which it was written
                 home = member.__globals__ if type(member) is types.FunctionType else vars(module)
                 if home is not vars(module) and is_users(home.get("__file__") or ""):
                     return True
@@ -106,6 +111,8 @@ def _replaced() -> bool:
 
 
 def is_library(module: types.ModuleType) -> bool:
-    """Whether a module is neither the user's nor of this package, which may be installed among libraries."""
+    """Whether a module is Python's or an installed library's: neither the user's nor of this package, whose own
+    folder may be among the libraries.
+    """
     file = getattr(module, "__file__", None)
     return file is None or (file.startswith(LIBRARIES) and not file.startswith(PACKAGE))

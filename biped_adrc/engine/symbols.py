@@ -37,7 +37,7 @@ _Number = Union["Scalar", float]
 
 
 def expression(x: _Number) -> ca.SX | float:
-    """The CasADi expression behind a Scalar, or the number itself as a float. Raises NotCompiled for others."""
+    """The CasADi expression of a Scalar; a number itself, as a float. Raises NotCompiled for all else."""
     if isinstance(x, Scalar):
         return x.e
     try:
@@ -47,7 +47,7 @@ def expression(x: _Number) -> ca.SX | float:
 
 
 def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, _Number], Scalar]:
-    """A method of `Scalar` for CasADi's operation `code`; reflected: operands exchanged, as for 2.0 * x.
+    """A method of `Scalar` for CasADi's operation `code`; reflected: with operands exchanged, as for 2.0 * x.
 
     Beside an array it returns NotImplemented, and NumPy then applies the operator entry by entry. CasADi's own
     operators take eight times as long, as they look for other types first.
@@ -106,6 +106,7 @@ class Scalar:
     __mul__, __rmul__ = _binary(ca.OP_MUL), _binary(ca.OP_MUL, reflected=True)
     __truediv__, __rtruediv__ = _binary(ca.OP_DIV), _binary(ca.OP_DIV, reflected=True)
     __lt__, __le__ = _binary(ca.OP_LT), _binary(ca.OP_LE)
+    # CasADi has no operation >: a > b is b < a
     __gt__, __ge__ = _binary(ca.OP_LT, reflected=True), _binary(ca.OP_LE, reflected=True)
 
 
@@ -116,7 +117,9 @@ setattr(Scalar, "__ne__", _binary(ca.OP_NE))  # noqa: B010
 
 
 def _compare(name: str) -> Callable[..., Any]:
-    """NumPy's comparison of that name with Scalars as result, where NumPy would make an array of bool."""
+    """NumPy's comparison `name` as a method whose result is an array of Scalars; NumPy's own result is one of
+    bool.
+    """
     compare = getattr(np, name)
     return lambda self, other: compare(self, other, dtype=object)
 
@@ -132,14 +135,14 @@ class _Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     __hash__ = None
 
     def __array_wrap__(self, array: Array, *_: object) -> Any:
-        """The result of an operation: an array of symbols, or the symbol itself where it is one, as NumPy
-        does.
-        """
+        """The result of an operation of NumPy: a `_Symbols`, or the symbol itself for an array without axes."""
         return array.item() if array.ndim == 0 else array.view(_Symbols)
 
 
 def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of scalars for arrays and scalars alike, entry by entry, with object arrays as result."""
+    """A function of scalars made into one of arrays and scalars, which acts entry by entry as NumPy's do; its
+    result is an object array, or one entry where all arguments are scalars.
+    """
     vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
     return lambda *arguments: vectorised(*arguments)
 
@@ -152,32 +155,33 @@ TWINS = {
     "sign": "sign",
 }
 """Functions of one number that can be traced: NumPy's names and CasADi's."""
-for _name, _theirs in TWINS.items():  # which NumPy asks each entry of an object array for
+# np.sin of an object array calls the method `sin` of each entry
+for _name, _theirs in TWINS.items():
     setattr(Scalar, _name, function_of(_theirs))
 
 
 def minimum(a: _Number, b: _Number) -> Scalar:
-    """The smaller of two numbers."""
+    """The smaller of two numbers; in machine code NaN where one of them is."""
     return Scalar(ca.SX.binary(ca.OP_FMIN, expression(a), expression(b)))
 
 
 def maximum(a: _Number, b: _Number) -> Scalar:
-    """The larger of two numbers."""
+    """The larger of two numbers; in machine code NaN where one of them is."""
     return Scalar(ca.SX.binary(ca.OP_FMAX, expression(a), expression(b)))
 
 
 def where(condition: _Number, a: _Number, b: _Number) -> Scalar:
-    """a where the condition is not 0, else b; both are evaluated."""
+    """a where the condition is not 0, else b; at run time both are computed."""
     return Scalar(ca.if_else(expression(condition), expression(a), expression(b)))
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:
-    """X (n, c) or (n,) with A X = B for a symmetric positive definite A (n, n), by A = L d L'
-    without pivots.
+    """X (n, c) or (n,) with A X = B, B of the shape of X, for a symmetric positive definite A (n, n), by
+    A = L d L' without pivoting: L lower triangular with ones on its diagonal, d diagonal.
 
-    Written out entry by entry, since the expression has to be straight-line code. `what` names the
-    matrix in the version for numbers, `linear.solve_positive`; here a pivot of zero gives NaN or
-    infinity at run time.
+    Written out entry by entry, since the expression has to be straight-line code. The argument `what` is not
+    used: in the version for numbers, `linear.solve_positive`, it names the matrix in an error. Here a zero in d
+    gives NaN or infinity at run time.
     """
     n = len(A)
     columns: Any = B.reshape(n, -1).astype(object)
@@ -204,17 +208,16 @@ class SymbolicSolver:
     """`linear.solve` on symbols: elimination with the largest pivot of each column.
 
     Which row has the largest pivot is not known while tracing, so rows are exchanged by choices in
-    the expression. All pivots are kept: an exact zero among them at run time means a singular
-    matrix, which the kernels report as SINGULAR.
+    the expression. The absolute values of all pivots are kept in `pivots`: an exact zero among them at run
+    time means a singular matrix, which the kernels report as SINGULAR.
     """
 
     def __init__(self) -> None:
         self.pivots: list[Scalar] = []
 
     def __call__(self, A: Array, B: Array, what: str = "") -> Array:
-        """X (n, c) or (n,) with A X = B, for A (n, n) and B (n, c) or (n,).
-
-        Entries below the diagonal become plain zeros, so no code is written for them.
+        """X (n, c) or (n,) with A X = B, for A (n, n) and B of the shape of X; `what`, for errors on numbers,
+        is not used.
         """
         n = len(A)
         if n == 0:
@@ -238,7 +241,9 @@ class SymbolicSolver:
 
     @property
     def least(self) -> Scalar:
-        """The smallest |pivot| of all solutions so far, infinite without one; generated functions return it."""
+        """The smallest |pivot| of all systems solved so far, infinite without one; 0 means a singular matrix.
+        Generated functions return it.
+        """
         return functools.reduce(minimum, self.pivots, Scalar(ca.SX(math.inf)))
 
 
@@ -247,11 +252,12 @@ wheres: Callable[..., Any] = elementwise(where)
 
 
 class Hidden:
-    """A stand-in for an object that has no symbols: a robot, complex or random numbers. Raises NotCompiled
-    when used.
+    """A stand-in for an object that has no symbols: a robot, complex or random numbers. A law that uses it in
+    any way raises NotCompiled; one that only holds it is compiled.
     """
 
     def __init__(self, what: str):
+        """what: its name in the text of the error."""
         self._what = what
 
     def __getattr__(self, name: str) -> Any:
@@ -263,10 +269,11 @@ class Hidden:
 
 
 class Vector:
-    """A flat vector of symbols (size,), taken from the front, one array after the other.
+    """A flat vector of symbols (size,); `take` hands them out from the front, one array after the other.
 
-    name: for CasADi's messages. `floats` lists the numbers of parameters in the same order, so a
-    generated function and its caller agree on the layout without writing it down.
+    name: for CasADi's messages. symbol: CasADi's column (size, 1). `leaves.floats` lists the numbers of
+    parameters in the same order, so a generated function and its caller agree on the layout without writing it
+    down.
     """
 
     def __init__(self, name: str, size: int):
@@ -284,7 +291,10 @@ class Vector:
         return frozen(out)
 
     def like(self, tree: T) -> T:
-        """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
+        """The same tree of parts, tuples and arrays with the next symbols in place of its floats.
+
+        Whole numbers, and objects that are hidden from machine code (HIDDEN), stay as they are.
+        """
         result: Any = tree
         if isinstance(tree, LISTS):
             result = rebuilt(tree, [self.like(x) for x in tree])
@@ -298,8 +308,9 @@ class Vector:
 
 
 def symbols_of(example: T) -> tuple[ca.SX, T]:
-    """Symbols for the floats of a tree: as CasADi's column K, one longer so that it is never empty, and in
-    their places in the tree.
+    """Symbols for the floats of a tree: CasADi's column K of them, and the tree with them in place of floats.
+
+    K has one unused symbol at its end, so that it is never empty.
     """
     K = Vector("K", 1 + len(floats(example)))
     return K.symbol, K.like(example)

@@ -1,8 +1,9 @@
 """Sample instants and impacts in Python, of a walker that otherwise moves in machine code.
 
-The march calls them by address, as it calls the compiled ones. Where nothing but the torque is held (no
-sensors, motors, delay or detector of touchdowns), what a controller gets is one call of machine code too: the
-measurement's terms, and the controller's reference there, which is returned when the controller asks for it.
+The march, the compiled loop over time, calls them by address, as it calls compiled functions f(K, inp, out).
+Where nothing but the torque is held between sample instants (no sensors, motors, delay or detector of
+touchdowns), one call of machine code computes what a controller gets at a sample instant: the nominal model's
+terms, and the point of the controller's reference there, which the reference then returns when it is called.
 """
 
 from __future__ import annotations
@@ -36,28 +37,31 @@ BLOCK, TERMS = 256, len(Reduction._fields)
 
 @lru_cache(maxsize=64)
 def _numbers_at(address: int, size: int) -> Array:
-    """The numbers (size,) at an address, as a view."""
+    """The numbers (size,) in memory at an address, as a view; remembered, since a run has few addresses."""
     return np.ctypeslib.as_array((ctypes.c_double * size).from_address(address))
 
 
 class PythonTicks:
-    """`tick` and `impact` as `kernels.record.Run` describes them, computed by a walker's own methods, without
-    q''.
+    """The functions `tick` and `impact` of a compiled run (`kernels.record.Run`), computed by a walker's own
+    methods.
 
-    An exception of a method is kept as `error` and the result is NaN, by which the march ends as NOT_FINITE.
+    `tick` writes no q'' behind its result. An exception of a method is kept as `error` and the result is NaN,
+    by which the march ends as NOT_FINITE; the caller of the march then raises or reports `error`.
     """
 
     def __init__(
         self, compiled: CompiledWalker, walker: Walker, references: Sequence[CompiledReference]
     ):
-        """compiled: the plan of the run, into which the two addresses are written. walker: the one whose
-        methods are called; `references` are its compiled references.
+        """compiled: into its plan the addresses of the two functions are written. walker: its methods are
+        called; references: those of its controller that are in machine code, which `run.compiled_plant` gives.
         """
         self.walker, self.nx = walker, compiled.program.nx
         self.error: BaseException | None = None
         tail = compiled.program.layout.parts[State._fields.index("tail")]
         ideal = walker.sensors is None and walker.motors is None and tail.size == walker.plant.p
+        # only the first reference is known beforehand; any other is computed when it is called
         tick = self._measured(compiled.program, references[:1]) if ideal else self._tick
+        # kept here, since ctypes frees a function that Python no longer names
         self.functions = [FUNCTION(partial(self._called, f)) for f in (tick, self._impact)]
         for name, function in zip(("tick", "impact"), self.functions, strict=True):
             compiled.plan[name] = ctypes.cast(function, ctypes.c_void_p).value or 0
@@ -85,8 +89,8 @@ class PythonTicks:
             sys.unraisablehook = before if main else sys.unraisablehook
 
     def _called(self, method: Callable[[int, Array], None], K: int, inp: int, out: int) -> None:
-        """Write what a method gives for the numbers at `inp`, and 1 for the least pivot, to `out`; NaN where it
-        raises.
+        """Write what a method computes from the numbers at the address `inp` to the address `out`, and behind
+        it 1 for the least pivot, which means "not singular"; all NaN where it raises. K is not used.
         """
         result = _numbers_at(out, self.nx + 1)
         try:
@@ -96,20 +100,27 @@ class PythonTicks:
             self.error, result[:] = error, math.nan
 
     def _tick(self, inp: int, result: Array) -> None:
-        """Write x after the sample instant, from (t, step, t_start, x) at the address `inp`."""
+        """Write x (nx,) after the sample instant to `result`, from (t, step, t_start, x) at the address
+        `inp`."""
         t, step, start, *x = _numbers_at(inp, 3 + self.nx).tolist()
         result[:-1] = self.walker.tick(t, np.array(x), Mode(int(step), start))
 
     def _impact(self, inp: int, result: Array) -> None:
-        """Write x+ after the impact, from (t, step, x) at `inp`; step is that of the new single support."""
+        """Write x+ (nx,) after the impact to `result`, from (t, step, x) at the address `inp`; step is that of
+        the single support that begins.
+        """
+        # `impact` takes the mode that ends; it does not read when that began
         t, step, *x = _numbers_at(inp, 2 + self.nx).tolist()
         result[:-1] = self.walker.impact(t, np.array(x), Mode(int(step) - 1))[0]
 
     def _measured(
         self, program: Program, references: Sequence[CompiledReference]
     ) -> Callable[[int, Array], None]:
-        """Make the function that replaces `_tick` for a walker that holds the torque alone: machine code
-        computes the controller's inputs, with the point of `references`, of which there is at most one.
+        """Make the function that replaces `_tick` for a walker that holds the torque alone between sample
+        instants.
+
+        Machine code computes the controller's inputs: the nominal model's terms, and the point of the only
+        reference in `references`, which may also be empty.
         """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         s_layout = walker.layout_of(np.zeros(nx)).parts[State._fields.index("s")]
@@ -132,6 +143,7 @@ class PythonTicks:
             for r in references:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
             m = semantics.measurement(walker, t, q, v, mode, body, terms)
+            # as `semantics.tick` without sensors, motors and delay: the last p numbers of x are the torque
             s, u = semantics.command(walker, frozen(s_layout.tree(x[2 * n : end].copy())), m)
             result[: 2 * n], result[end:nx] = x[: 2 * n], u
             result[2 * n : end] = flatten(walker.calls.predict(s, m, u))
@@ -140,10 +152,10 @@ class PythonTicks:
 
 
 def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ...]]]:
-    """Yield memory for the inputs of each sample instant: its address, and read-only arrays of these shapes
-    there.
+    """Yield memory for what machine code computes at each sample instant: an address, and read-only arrays of
+    these shapes that begin there, one after the other.
 
-    No memory is given out twice, since a controller may keep its inputs.
+    No memory is given out twice, since a controller may keep its inputs. Blocks of rows are allocated at once.
     """
     while True:
         block = np.zeros((BLOCK, sum(map(math.prod, shapes))))

@@ -1,9 +1,10 @@
 """Copies of laws that run on symbols in place of numbers, which is how the compiler gets their expressions.
 
-A law is written for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the
-copies the names of NumPy's, math's and `linear`'s functions lead to twins that take symbols. Of a controller or
-another part (a dataclass of `core.part`) it makes a twin, whose methods are such copies. `apply` calls a
-copy and says in which function an error arose. The symbols themselves are in `engine.symbols`.
+A law is a method of a controller, reference, disturbance or other part (a dataclass of `core.part`), written
+for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the copies the names
+of NumPy's, math's and `linear`'s functions lead to twins, functions that do the same on symbols. The twin of a
+class is a subclass whose methods are such copies; the twin of a part is an object of that subclass. `apply`
+calls a copy and says in which function an error arose. A symbol is a `Scalar` of `engine.symbols`.
 """
 
 from __future__ import annotations
@@ -47,18 +48,21 @@ from biped_adrc.engine.symbols import (
 
 
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
-    """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
+    """A function like np.zeros (value 0) or np.ones (value 1) that makes an object array, which a law may fill
+    with symbols; an array with dtype=int stays one of whole numbers.
+    """
+    # to NumPy `Float` is a class without a dtype of its own, so the array has dtype object
     return lambda shape, dtype=Float, **_: np.full(shape, value, dtype=dtype)
 
 
 ENGINE = "biped_adrc.engine"
-"""Its own functions and classes work on symbols as they are."""
+"""Package whose functions and classes are not copied: they work on symbols as they are."""
 NO_METHODS = (ENGINE, "biped_adrc.core.checks", "biped_adrc.core.shown")
-"""Modules of classes that have no methods to be copied."""
+"""Modules whose classes are not copied, since no law calls their methods on symbols."""
 OF_NUMBERS = (np, np.linalg, math)
-"""Libraries some of whose functions are replaced."""
+"""Libraries of which the tracer replaces some functions; all other functions of libraries stay."""
 COPIED = "__on_symbols__"
-"""Name of the tracer among the globals of its copies."""
+"""Name under which the globals of a copy hold its tracer, by which a copy is recognised."""
 
 
 class _OfFloat(type):
@@ -68,8 +72,8 @@ class _OfFloat(type):
 
 
 class Float(metaclass=_OfFloat):
-    """A stand-in for `float` in copies: Float(x) leaves a symbol as it is, and an array with this dtype holds
-    symbols.
+    """A stand-in for `float` in copies: Float(x) leaves a number or symbol x as it is and reads a text such as
+    "inf"; an array with this dtype can hold symbols.
     """
 
     def __new__(cls, x: Any = 0.0) -> Any:
@@ -87,11 +91,13 @@ class Unchangeable(list[Any]):
 
 
 BUILTINS: Mapping[str, Any] = {"float": Float, "abs": np.abs, "min": minimum, "max": maximum}
-"""What functions find under these names in place of Python's: no float(), and no choice by a number."""
+"""Stand-ins for functions of Python, by name: their own would turn a symbol into a float or compare symbols."""
 
 
 class Tracer:
-    """Copies of functions for symbols, with one solver for all, so that `solver.least` covers them all."""
+    """Makes copies of functions that run on symbols. All copies solve linear equations by one `solver`, so that
+    `solver.least` is the smallest |pivot| of all of them.
+    """
 
     def __init__(self) -> None:
         """Make the table of replacements for functions of NumPy, math and `linear`."""
@@ -113,6 +119,7 @@ class Tracer:
             "float64": Float,
             "random": random,
         }
+        # math says asin where NumPy says arcsin
         scalars |= {name.replace("arc", "a"): function for name, function in scalars.items()}
         pairs = [
             *((getattr(np, name), twin) for name, twin in numpy.items()),
@@ -120,25 +127,28 @@ class Tracer:
             (np.linalg.solve, self.solver),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
+            # symbols have no values that could be checked, so checks return what they get
             (checks.returned, lambda found, *_, **__: found),
             (checks.point_returned, lambda found, *_: found),
             (checks.check_part, lambda *_: None),
             (np.random.default_rng, random),
             (stdlib_random, random),
         ]
-        # by identity, since a law may have imported np.sin under any name; `old` is kept so that its id stays
-        # taken
+        # by identity, since a law may have imported np.sin under any name; `old` is kept so that no other
+        # object can get its id
         self._substitutes = {id(old): (old, new) for old, new in pairs}
+        # by the function and the class that they were made from
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
     def __call__(self, f: Any) -> Any:
-        """Copy a function, and every function that it reaches, for symbols.
+        """Copy a function f, and every function that it names, for symbols.
 
-        Builtins, functions of the engine and those that a copy defines inside itself are returned unchanged.
-        A copy shares the code object and has its own globals and closure, in which names are replaced; in a
-        method that says `super()`, `__class__` is the twin. Copies are remembered before their names are
-        replaced, so functions that call each other end.
+        What is no function of Python, functions of the engine, and those that a copy defines inside itself
+        (their globals are the copy's) are returned unchanged. A copy shares the code object of f and has its
+        own globals and closure, in which names are replaced; the hidden `__class__` of a method that says
+        `super()` is there the twin of the class. A copy is remembered before its names are replaced, so that
+        copying ends where functions call each other.
         """
         if not isinstance(f, types.FunctionType) or str(f.__module__).startswith(ENGINE):
             return f
@@ -153,7 +163,8 @@ class Tracer:
                 f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = f.__kwdefaults__
-            # a `try` may swallow the NotCompiled of a branch on a symbol, and its other way would be compiled
+            # a `try` of the user's may swallow the NotCompiled of a branch on a symbol, and what its `except`
+            # does would be compiled
             if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
@@ -166,9 +177,11 @@ class Tracer:
         return self._copies[f]
 
     def on_symbols(self, value: Any) -> Any:
-        """The twin of what a function names or takes: a module, a function, a part, or a tuple of such.
+        """The form for symbols of a value that a function names or takes as an argument.
 
-        A part has methods for symbols, as have the parts in it; its content stays as it is.
+        A function gives its twin or copy, a class or part its twin, with the parts inside it; a module one
+        whose functions are copies. Tuples, lists and dictionaries are searched, and cannot be changed then, nor
+        can arrays. A robot or a random generator gives a `Hidden`. Numbers, symbols and all else stay.
         """
         if id(value) in self._substitutes:
             return self._substitutes[id(value)][1]
@@ -185,6 +198,7 @@ class Tracer:
             return self.twin(value)
         if isinstance(value, types.ModuleType) and (value in OF_NUMBERS or not is_library(value)):
             return _Named(self, value)
+        # what is left is a part, or a function or other value, which __call__ copies or returns as it is
         if not (isinstance(value, Part) or is_part(value)) or type(value).__module__.startswith(
             ENGINE
         ):
@@ -199,8 +213,11 @@ class Tracer:
         return with_content(value, fields, self.twin(type(value)))
 
     def twin(self, cls: type) -> type:
-        """A subclass of cls whose methods run on symbols, `super()` and properties included."""
-        home = sys.modules.get(cls.__module__)  # "abc" also for what type(name, bases, {}) makes
+        """A subclass of cls whose methods run on symbols, `super()` and properties included; classes of Python
+        itself and of NO_METHODS are returned as they are.
+        """
+        # a class that a user makes by type(name, bases, {}) may have the module "abc", but is not found there
+        home = sys.modules.get(cls.__module__)
         known = cls.__module__ in ("builtins", "abc", "typing") and hasattr(home, cls.__name__)
         if known or cls.__module__.startswith(NO_METHODS):
             return cls
@@ -211,6 +228,7 @@ class Tracer:
             bases = (twin for twin in twins if twin not in cls.__bases__)
             subclass = types.new_class(cls.__name__, (*bases, cls))
             subclass.__module__, subclass.__qualname__ = cls.__module__, cls.__qualname__
+            # noted before its methods are copied, since these may name the class
             self._twins[cls] = self._twins[subclass] = subclass
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
@@ -219,9 +237,12 @@ class Tracer:
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:
-        """The form for symbols of one member of a class: a method, a property, or another value as it is."""
+        """The form for symbols of one member of a class: a method or property; any other value as it is.
+
+        A cached property is computed anew on symbols, except a `derived` one, whose value is content of a part.
+        """
         if isinstance(value, types.FunctionType):
-            return self(inspect.unwrap(value))
+            return self(inspect.unwrap(value))  # without decorators such as `once`
         if isinstance(value, property):
             return property(self._member(value.fget))
         if isinstance(value, functools.cached_property) and not isinstance(value, derived):
@@ -232,7 +253,7 @@ class Tracer:
 
 
 class _Named:
-    """A module of numbers, of the user's or of this package: what a function names in it is for symbols."""
+    """A stand-in for a module (NumPy, math, the user's, this package's) whose members are those for symbols."""
 
     def __init__(self, trace: Tracer, module: types.ModuleType):
         self._trace, self._module = trace, module
@@ -242,7 +263,7 @@ class _Named:
 
 
 def apply(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
-    """The result of a function or method on symbols, at these arguments.
+    """The result of f, copied by `trace`, at these arguments: numbers, symbols and parts of them.
 
     Raises Located that names the last function of the user's or this package's in which the error
     arose, since the error itself comes from inside NumPy or CasADi.
@@ -252,13 +273,14 @@ def apply(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
 
 
 def catches(code: types.CodeType) -> bool:
-    """Whether a piece of code has a `try`: on symbols other exceptions arise than on numbers."""
+    """Whether a piece of code has a `try`, and not only `with`."""
+    # Python compiles both into PUSH_EXC_INFO, and each `with` into a WITH_EXCEPT_START besides
     names = [x.opname for x in dis.get_instructions(code)]
     return names.count("PUSH_EXC_INFO") > names.count("WITH_EXCEPT_START")
 
 
 def _refused(code: types.CodeType) -> Any:
-    """A stand-in for a method that catches exceptions, which raises when it is called."""
+    """A stand-in for a function with this code, which has a `try`: a call of it raises Located."""
     name, file = code.co_qualname.replace(".<locals>", ""), Path(code.co_filename).name
 
     def refuse(*_: object, **__: object) -> Any:

@@ -1,1 +1,4 @@
-"""Optional parts on top of the toolkit; nothing below imports them, and none imports another one."""
+"""Optional parts on top of the toolkit: export to C, learning, MuJoCo, logs of robots, pages of the browser.
+
+The toolkit imports none of them, and none imports another one.
+"""

@@ -4,10 +4,12 @@
     u acts from t_k + delay on                          delay = (j + f) T, 0 <= f < 1
     tau u_m' = u - u_m                                  torque of the motor
 
-Torques that do not act yet are stored: j of them in a queue, and one more until t_k + f T where f > 0. At
-impact all of them are relabelled with the joints. Where the clock restarts at the impact, a tick comes early,
-and is treated as a full period: the rate limit allows a change of rate T, the queue moves up by one, and a
-torque that still waits for a fraction of a period is replaced.
+T is the sampling period, t_k = k T the tick (sample instant), u_k the torque that the controller sends there.
+
+Torques that do not act yet are stored: j of them in a queue, and one more until t_k + f T where f > 0. At an
+impact the legs exchange their roles, and so do the entries of all these torques (relabelling). Where the clock
+restarts at the impact, a tick comes early, and is treated as a full period: the rate limit allows a change of
+rate T, the queue moves up by one, and a torque that still waits for a fraction of a period is replaced.
 
 The delay is the clock's, `SampledTime(period, delay)`; rate limit and lag are `Motors`. A saturation,
 `Walker.torque_limit`, comes before all of this. An observer's input is the torque after the rate limit, and
@@ -31,27 +33,29 @@ from biped_adrc.core.types import Array, Indices, relabelled
 class Line(NamedTuple):
     """The torques on their way to the motors at one instant, each (p,) or (.., p) [N m].
 
-    None where the walker has no such part.
+    p motors; leading axes are instants. A field is None where the walker has no such part.
     """
 
     queue: Array
     """Torques that wait for whole periods (j, p), the oldest first."""
     u_m: Array | None
-    """Torque of the motors; None without lag."""
+    """Torque that lagging motors produce now; None without lag."""
     waiting: Array | None
-    """Torque that acts from t_k + f T on."""
+    """Torque that replaces u at t_k + f T; None where the delay is a whole number of periods."""
     u: Array
-    """Torque commanded to the motors now."""
+    """Torque that is commanded to the motors now, after the delay."""
 
     @property
     def sent(self) -> Array:
-        """The torque sent last: the end of the queue, else the one that waits, else the one that acts."""
+        """The torque that the controller sent at its last tick: the end of the queue, without a queue the
+        waiting one, without either u.
+        """
         if self.queue.shape[-2] > 0:
             return self.queue[..., -1, :]
         return self.u if self.waiting is None else self.waiting
 
     def relabelled(self, swap: Indices) -> Line:
-        """The torques after an impact; swap (p,): the relabelling of the joints."""
+        """The torques after an impact; swap (p,): motor i gets entry swap[i] of (torque, -torque)."""
         each: Any = (x if x is None else relabelled(x, swap) for x in self)
         return Line(*each)
 
@@ -70,8 +74,8 @@ class TorqueLine:
     def limit(self, line: Line, u: Array) -> Array:
         """Bound u (p,) [N m] so that it differs by at most `change` from the torque sent one tick before.
 
-        That torque is the last one of the queue. Without a queue it is the command to the motors now, as a
-        torque that waited for a fraction of a period has begun to act by the next tick.
+        line: the torques just before this tick. The torque sent one tick before is the last one of the queue.
+        Without a queue it is line.u: if it waited for a fraction of a period, it has replaced u meanwhile.
         """
         if self.change is None:
             return u
@@ -79,19 +83,25 @@ class TorqueLine:
         return np.minimum(np.maximum(u, last - self.change), last + self.change)
 
     def send(self, line: Line, u: Array) -> Line:
-        """The line after a tick that sends u (p,) [N m]: u joins the end of the queue,
-        and its first torque acts.
+        """The line after a tick that sends u (p,) [N m]: u joins the end of the queue, and the first torque
+        leaves it; without a queue that is u itself.
+
+        The torque that leaves acts at once, or waits for the fraction of the delay while the old one acts on.
         """
         queue, next_one = line.queue, u
         if len(queue) > 0:
             next_one = queue[0]
             queue = np.concatenate((queue[1:], u[np.newaxis]))
-        if line.waiting is not None:  # it replaces u later in the period, by `semantics.release`
+        # `closed_loop.semantics.release` puts the waiting torque in place of u at t_k + f T
+        if line.waiting is not None:
             return Line(queue, line.u_m, next_one, line.u)
         return Line(queue, line.u_m, None, next_one)
 
     def mean_command(self, line: Line) -> Array:
-        """Mean (p,) [N m] of the torque commanded to the motors from this tick until the next."""
+        """Mean (p,) [N m] of the command to the motors from this tick to the next; line: as `send` returns it.
+
+        line.u acts for the fraction f of the period, line.waiting for the rest. The lag does not enter.
+        """
         if line.waiting is not None:
             return self.fraction * line.u + (1.0 - self.fraction) * line.waiting
         return line.u
@@ -115,9 +125,9 @@ class Motors(Checked, Shown):
     lag: NonNegativeFloat = 0.0
 
     def sampled(self, p: int, delay: float, period: float) -> tuple[TorqueLine, Line]:
-        """The p motors for ticks every `period` T [s], and their line with all torques zero.
+        """The p motors for ticks every `period` T [s], and their `Line` at the start of a run: torques of zero.
 
-        delay [s]: (j + f) T, from a tick until its torque acts.
+        delay [s]: (j + f) T, from a tick until its torque acts. None marks what these motors do not have.
         """
         (j, fraction), none = whole_and_part(delay, period), np.zeros(p)
         change = None if self.rate_limit is None else self.rate_limit * period
@@ -131,7 +141,10 @@ IDEAL = Motors()
 
 
 def whole_and_part(delay: float, period: float) -> tuple[int, float]:
-    """Split a delay [s] = (j + f) period [s] into j and f; f = 0 where it is whole up to round-off."""
+    """Split a delay [s] = (j + f) period [s] into whole periods j and the fraction f, 0 <= f < 1.
+
+    f is exactly 0 where the delay is a whole number of periods up to round-off (`WHOLE`, in periods).
+    """
     periods = delay / period
     j = math.floor(periods + WHOLE)
     f = periods - j

@@ -2,10 +2,11 @@
 
     x = (q, q', s, tail),   tail = (own, belief, sensors, line)
 
-own are the numbers of a plant that integrates itself, belief the single support that the controller assumes,
-sensors the state w of the sensors, and line the torques on their way to the motors (`hardware.motors`). A part
-is empty, or None, where the walker has none. Between ticks `line` changes alone: the torque of lagging motors,
-and the torque that is asked for, u, where a delay ends within the period.
+s is the controller's state. own are the numbers of a plant that integrates itself, as an engine with contact
+does, belief the single support that the controller assumes, sensors the state w of the sensors, and line the
+torques on their way to the motors (`hardware.motors`). A part is empty, or None, where the walker has none. A
+tick is a sample instant. Between ticks nothing but `line` changes: the torque of lagging motors, and the
+commanded torque u, where a delay ends within the period.
 
 `HeldParts` initialises the tail; `closed_loop.semantics` moves it at a tick and an impact, where the controller
 acts.
@@ -47,40 +48,41 @@ class HeldParts(NamedTuple):
     touchdown: Touchdown | None
     """The detector; None where the controller knows touchdowns at once."""
     known: bool
-    """Whether the controller knows the delay."""
+    """Whether the controller knows the delay: its observer then gets the torque that acts, not the one sent."""
     own: int
-    """How many numbers a plant that integrates itself keeps for its own use."""
+    """How many numbers a plant that integrates itself keeps for its own use; 0 for others."""
     line: Layout
-    """Layout of the torques on their way."""
+    """Layout of a `Line`: which place of a flat vector belongs to which torque."""
 
     def sense(self, w: Any, q: Array, v: Array) -> Any:
-        """State w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        """State w of the sensors after a tick at true q (n,) [rad], v (n,) [rad/s]; None without sensors."""
         return w if self.sensors is None else self.sensors.sense(w, q, v)
 
     def reading(self, w: Any, q: Array, v: Array) -> tuple[Array, Array]:
-        """q (n,) [rad] and v (n,) [rad/s] as measured by sensors in the state w."""
+        """q (n,) [rad], v (n,) [rad/s] as sensors in the state w measure them; q, v without sensors."""
         return (q, v) if self.sensors is None else self.sensors.reading(w, q, v)
 
     def start(self, q: Array, v: Array, step: float, start: float) -> Tail:
-        """The tail at the start of a run in q (n,), v (n,): no torque, and a first measurement.
+        """The tail at the start of a run in q (n,) [rad], v (n,) [rad/s]: all torques 0, sensors at (q, v).
 
-        step, start [s]: number and start of the single support, which the controller knows at first.
+        step: number of the first single support, start [s]: time at which it began; a controller that detects
+        touchdowns itself believes in these at first. `own` is 0 here: the plant fills it in.
         """
         w = None if self.sensors is None else _tried(self.sensors, q, v)
         belief, touchdown = None, self.touchdown
         if touchdown is not None:
             d = returned_tree(touchdown.start(), None, touchdown, "start")
-            belief = Belief(0.0, float(step), float(start), d)
+            belief = Belief(0.0, float(step), float(start), d)  # 0: its names of the legs are right
         return Tail(np.zeros(self.own), belief, w, self.line.tree(np.zeros(self.line.size)))
 
 
 def motor_torque(line: Line) -> Array:
-    """Torque on the joints now (p,) [N m]: the state of lagging motors, else the command."""
+    """Torque on the joints now (p,) [N m]: u_m of motors with a lag, else the command u."""
     return line.u if line.u_m is None else line.u_m
 
 
 def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
-    """Start a user's sensors and call each of their methods once; returns their state w at the start.
+    """Start sensors, and call each method of theirs once as a test; returns their state w at the start.
 
     Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
     shapes than those of q and v.

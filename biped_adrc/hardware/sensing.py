@@ -2,7 +2,10 @@
 
     w <- sense(w, q, v)                   at a tick at (q, v)
     w <- impact(w, q, v, v_model)         after an impact to (q, v)
-    (q^, v^) = reading(w, q, v)           (q, v) as the sensors before it read them
+    (q^, v^) = reading(w, q, v)           from (q, v) as the sensors before it read them
+
+q are the n coordinates, first the angles of the p joints with motors, last the pitch, and v = q'. A tick is a
+sample instant.
 
 `a + b` puts b behind a: both sense the true (q, v), and b changes the readings of a.
 
@@ -29,27 +32,30 @@ class Sensor(Checked):
         return ()
 
     def sense(self, w: Any, q: Array, v: Array) -> Any:
-        """State w after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        """State w after a tick at the true q (n,) [rad], v (n,) [rad/s]."""
         return w
 
     def impact(self, w: Any, q: Array, v: Array, v_model: Array) -> Any:
-        """State w after an impact that led to q (n,) [rad], v (n,) [rad/s].
+        """State w after an impact that led to q (n,) [rad], v (n,) [rad/s], legs relabelled.
 
-        v_model (n,) [rad/s]: the last measured rates mapped by the nominal model's impact.
+        v_model (n,) [rad/s]: the last measured rates, mapped by the nominal model's impact, for sensors that
+        take differences of angles. A controller that detects touchdowns itself calls this after the impact, so
+        its measured rates are only relabelled.
         """
         return w
 
     def reading(self, w: Any, q: Array, v: Array) -> tuple[Array, Array]:
-        """q^ (n,) [rad] and v^ (n,) [rad/s], from w and from q, v (n,) as read by the sensors before it.
+        """q^ (n,) [rad] and v^ (n,) [rad/s] for the controller, from w and from q, v (n,) as the sensors before
+        it read them; the first sensor gets the true q, v.
 
-        Raises InputError where no class writes it.
+        This base raises InputError: a subclass writes the method, or `sampled` returns a sensor that has it.
         """
         raise InputError(
             f"{type(self).__name__} has no reading(w, q, v); write it, or take sampled(n, p, period)"
         )
 
     def sampled(self, n: int, p: int, period: float) -> Sensor:
-        """The sensor for n coordinates, p of them joints, and ticks every `period` [s]."""
+        """The sensor that a walk runs: for n coordinates, p of them with motors, ticks every `period` [s]."""
         return self
 
     @property
@@ -58,23 +64,22 @@ class Sensor(Checked):
         return False
 
     def smooth(self) -> Sensor:
-        """The same sensor without counts and noise, for a linear loop."""
+        """The same sensor without rounding to counts and without noise, so that the loop can be linearised."""
         return self
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        """Standard deviations (2 n,) [rad, rad/s] of the errors in (q, q') at every
-        tick, this sensor's included.
+        """Standard deviations (2 n,) [rad, rad/s] of the random errors in (q^, v^) behind this sensor.
 
-        Errors are independent from tick to tick; counts are uniform errors. before (2 n,):
-        those of the sensors before it.
+        before (2 n,): those behind the sensors before it. Errors are independent from tick to tick; rounding to
+        counts is an error with a uniform distribution over one count. p: number of motors.
         """
         return before
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """The part of the sensor that runs on the controller's computer, such as differences
-        and filter; None for nothing.
+        """What of this sensor and those before it runs as software on the controller's computer, such as
+        differences and filter; None for nothing. Controllers that are exported as C code contain it.
 
-        before: the part of the sensors before it. Raises InputError for a sensor that does not define it.
+        before: the same for the sensors before it alone. This base raises InputError: a subclass writes it.
         """
         raise InputError(
             f"sensor {type(self).__name__} does not say what of it runs on the controller's computer; "
@@ -87,13 +92,16 @@ class Sensor(Checked):
 
 
 def _parts(sensor: Sensor) -> tuple[Sensor, ...]:
-    """The sensors of a `Sensing`, or the sensor itself, so that a + b + c is one row of three."""
+    """The sensors of a `Sensing`, or the sensor alone, so that a + b + c is one flat `Sensing` of three."""
     return sensor.parts if isinstance(sensor, Sensing) else (sensor,)
 
 
 @dataclass(frozen=True)
 class Sensing(Sensor):
-    """Several sensors, one behind the other; w is the tuple of their states."""
+    """Several sensors: each changes the readings of those before it; w is the tuple of their states.
+
+    Its methods do what those of `Sensor` say, sensor by sensor.
+    """
 
     parts: tuple[Sensor, ...]
 
@@ -113,6 +121,7 @@ class Sensing(Sensor):
         return q, v
 
     def sampled(self, n: int, p: int, period: float) -> Sensor:
+        """The sensors that a walk runs: for n coordinates, p of them with motors, ticks every `period` [s]."""
         return Sensing(tuple(part.sampled(n, p, period) for part in self.parts))
 
     @property
@@ -120,14 +129,17 @@ class Sensing(Sensor):
         return any(part.noisy for part in self.parts)
 
     def smooth(self) -> Sensor:
+        """The same sensors without rounding and noise, for a linear loop."""
         return Sensing(tuple(part.smooth() for part in self.parts))
 
     def errors(self, n: int, p: int, before: Array) -> Array:
+        """Standard deviations (2 n,) [rad, rad/s] of the errors in (q^, v^) behind the last sensor."""
         for part in self.parts:
             before = part.errors(n, p, before)
         return before
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
+        """What of all the sensors runs on the controller's computer; each adds its part to that before it."""
         for part in self.parts:
             before = part.on_computer(before)
         return before

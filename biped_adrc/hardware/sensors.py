@@ -3,9 +3,10 @@
     y_k = q(t_k) + noise,   q^_k = resolution * round(y_k / resolution)
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
-or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump,
-and a difference across it is no rate: v^ is mapped by the nominal model's impact, (7) of the paper, and the
-first tick after it keeps that value.
+at the tick (sample instant) t_k, with the sampling period T and the time constant tau of a low-pass; or, for
+coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump, and a difference
+across it is no rate: v^ is mapped by the nominal model's impact, (7) of the paper, and the first tick after it
+keeps that value.
 
 The noise is a pure function of its state: MRG32k3a, in doubles that hold whole numbers exactly.
 
@@ -13,8 +14,9 @@ The noise is a pure function of its state: MRG32k3a, in doubles that hold whole 
     y_n = (527612 y_(n-1) - 1370589 y_(n-3)) mod m_2,   m_2 = 2^32 - 22853
     u_n = ((x_n - y_n) mod m_1) / (m_1 + 1), m_1 in place of 0
 
-L'Ecuyer, Operations Research 47(1), 1999. Normal numbers by Box and Muller. The state is handed in and out, so
-that a run is repeated by repeating its seed, and a tick may be repeated.
+L'Ecuyer, Operations Research 47(1), 1999. Normal numbers are made by Box and Muller. The state of the generator
+is r = (x_(n-3), x_(n-2), x_(n-1), y_(n-3), y_(n-2), y_(n-1)). Functions take and return it, so that the same
+seed gives the same run, and an integrator may repeat a tick.
 
 An inertial sensor on the torso measures the unactuated pitch and its rate, with a bias and a drift:
 
@@ -27,7 +29,9 @@ After an impact the rate is read anew, and the angle is that of the last tick: a
 and the pitch does not.
 
 No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
-the whole step in phase, and a drift of the angle does so more and more from step to step.
+the whole walking step in phase, and a drift of the angle does so more and more from step to step.
+
+The methods that have no text of their own here do what `hardware.sensing.Sensor` says.
 """
 
 from __future__ import annotations
@@ -50,7 +54,7 @@ CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < ma
 
 @dataclass(frozen=True)
 class Sensors(Shown, Sensor):
-    """Encoders of the joints and the sensor of the pitch.
+    """Encoders of the joints with motors, and the sensor of the pitch; joints without motors have its values.
 
     counts [1]: of the joints' encoders per revolution, None for exact angles. pitch_resolution [rad]: of the
     unactuated pitch; None: as the joints'. noise [rad], pitch_noise [rad], rate_noise [rad/s]: standard
@@ -81,32 +85,45 @@ class Sensors(Shown, Sensor):
         return self.noise > 0.0 or self.pitch_noise > 0.0 or self.rate_noise > 0.0
 
     def smooth(self) -> Sensors:
+        """These sensors without noise and rounding; differences and their low-pass remain."""
         exact = replace(self, noise=0.0, pitch_noise=0.0, rate_noise=0.0)
         return replace(exact, counts=None, pitch_resolution=None)
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
+        """Differences and their low-pass run on the computer; where rates are measured, nothing runs there."""
         return before if self.velocity == "measured" else self.smooth()
 
     def errors(self, n: int, p: int, before: Array) -> Array:
+        """Standard deviations (2 n,) [rad, rad/s] of angles and rates at one tick.
+
+        A uniform error over one count has the standard deviation count / sqrt(12). A rate from differences has
+        no error of its own, since it follows from the angles. Encoders read the true q, so `before` does not
+        enter; nor does the period, for which `sampled` gets 1 s.
+        """
         k = self.sampled(n, p, 1.0)
         counts = np.where(k.rounds > 0, k.resolution, 0.0)
         rates = np.where(k.differences > 0, 0.0, k.rate_noise)
         return np.concatenate((np.hypot(k.noise, counts / math.sqrt(12.0)), rates))
 
     def sampled(self, n: int, p: int, period: float) -> SampledSensors:
+        """The sensors with one number for each of the n coordinates, for ticks every `period` [s].
+
+        The first p have the encoders of joints; the others, the pitch among them, the values of the pitch.
+        """
         joints = np.arange(n) < p
         step = 0.0 if self.counts is None else 2.0 * math.pi / self.counts
         pitch = step if self.pitch_resolution is None else self.pitch_resolution
         share = 1.0 if self.filter_time == 0.0 else -math.expm1(-period / self.filter_time)
-        gyro = joints if self.velocity == "gyro" else np.full(n, self.velocity == "differences")
+        differs = joints if self.velocity == "gyro" else np.full(n, self.velocity == "differences")
         resolution = np.where(joints, step, pitch)
         return SampledSensors(
+            # 1 in place of 0: `rounded` divides by it everywhere
             np.where(resolution > 0.0, resolution, 1.0),
             np.where(joints, self.noise, self.pitch_noise),
             float(self.rate_noise),
             share,
             float(period),
-            gyro.astype(int),
+            differs.astype(int),
             (resolution > 0.0).astype(int),
             seeded(self.seed) if self.noisy else np.zeros(0),
         )
@@ -122,7 +139,7 @@ class Sensed(NamedTuple):
     fresh: float
     """1 at a start and after an impact, where no difference of angles can be taken yet; else 0."""
     r: Array
-    """State of the random numbers (6,), or (0,)."""
+    """State of the random numbers (6,), or (0,) without noise."""
 
 
 class Pitch(NamedTuple):
@@ -133,9 +150,9 @@ class Pitch(NamedTuple):
     rate: float
     """Measured pitch rate [rad/s]."""
     off: float
-    """Bias with the drift so far [rad]."""
+    """Bias with the drift so far, b + k d T [rad]; the next measurement contains it."""
     r: Array
-    """State of the random numbers (6,), or (0,)."""
+    """State of the random numbers (6,), or (0,) without noise."""
 
 
 @dataclass(frozen=True)
@@ -145,13 +162,13 @@ class SampledSensors(Sensor):
     """
 
     resolution: Array
-    """Resolution of the angles (n,) [rad]."""
+    """Resolution of the angles (n,) [rad]; 1 where `rounds` is 0, without meaning."""
     noise: Array
     """Standard deviation of the angles' noise (n,) [rad]."""
     rate_noise: float
     """Standard deviation of the noise of measured rates [rad/s]."""
     share: float
-    """1 - exp(-T / tau)."""
+    """1 - exp(-T / tau) [1], the part of a new difference in v^; 1 without low-pass."""
     period: float
     """T [s]."""
     differences: Indices
@@ -166,9 +183,11 @@ class SampledSensors(Sensor):
         return len(self.random) > 0
 
     def start(self, q: Array, v: Array) -> Sensed:
+        """State at the start: angles without noise, and the true rates, as no difference exists yet."""
         return Sensed(self.rounded(q), v, 1.0, self.random)
 
     def sense(self, w: Sensed, q: Array, v: Array) -> Sensed:
+        """State after a tick at the true q (n,) [rad], v (n,) [rad/s], by the equations of the module."""
         n = len(q)
         before, rate, fresh, r = w
         y, dy = q, v
@@ -177,11 +196,13 @@ class SampledSensors(Sensor):
             y, dy = q + self.noise * g[:n], v + self.rate_noise * g[n:]
         angle = self.rounded(y)
         difference = rate + self.share * ((angle - before) / self.period - rate)
+        # after an impact the difference would reach across it
         difference = np.where(fresh > 0.5, rate, difference)
         rate = np.where(self.differences > 0, difference, dy)
         return Sensed(angle, rate, 0.0, r)
 
     def impact(self, w: Sensed, q: Array, v: Array, v_model: Array) -> Sensed:
+        """State after an impact to q, v: rates from differences become v_model, others v, all without noise."""
         rate = np.where(self.differences > 0, v_model, v)
         return Sensed(self.rounded(q), rate, 1.0, w.r)
 
@@ -189,7 +210,7 @@ class SampledSensors(Sensor):
         return w.angle, w.rate
 
     def rounded(self, y: Array) -> Array:
-        """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
+        """The angles y (n,) [rad], rounded to the nearest count (n,) [rad]; y itself where angles are exact."""
         return np.where(self.rounds > 0, self.resolution * np.floor(y / self.resolution + 0.5), y)
 
 
@@ -200,18 +221,22 @@ M_1, M_2 = 4294967087.0, 4294944443.0
 def seeded(seed: int) -> Array:
     """State r (6,) of the random numbers from a seed; neighbouring seeds give independent states."""
     words = np.random.SeedSequence(seed).generate_state(6, np.uint32).astype(float)
+    # entries from 1 to m_1 - 1, and to m_2 - 1: the generator never leaves three zeros
     return 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
 
 
 def modulo(a: float, m: float) -> float:
-    """a mod m for whole numbers |a| < 2^53, exact: a quotient that is off by one is corrected afterwards."""
+    """a mod m, from 0 to m - 1, for whole numbers |a| < 2^53 held as floats.
+
+    It is exact: where the rounded quotient a / m is off by one, the two last lines correct the result.
+    """
     b = a - np.floor(a / m) * m
     b = np.where(b < 0.0, b + m, b)
     return np.where(b >= m, b - m, b)
 
 
 def uniforms(r: Array, count: int) -> tuple[Array, Array]:
-    """Draw `count` numbers in (0, 1); returns the next state (6,) and the numbers (count,)."""
+    """Draw `count` uniform numbers in (0, 1) from the state r (6,); returns the next state and the numbers."""
     x0, x1, x2, y0, y1, y2 = r[0], r[1], r[2], r[3], r[4], r[5]
     u = np.zeros(count)
     for i in range(count):
@@ -224,8 +249,8 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:
-    """Draw `count` independent standard normal numbers by Box and Muller; returns the next
-    state (6,) and the numbers.
+    """Draw `count` independent standard normal numbers by Box and Muller from the state r (6,); returns the
+    next state (6,) and the numbers (count,). They come in pairs, so for an odd count the last one is dropped.
     """
     pairs = (count + 1) // 2
     r, u = uniforms(r, 2 * pairs)
@@ -260,11 +285,13 @@ class PitchSensor(Sensor):
         return replace(self, noise=0.0)
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
+        """The differences of the encoders before it, without that of the pitch, whose rate is measured here."""
         if isinstance(before, Sensors) and before.velocity == "differences":
             return replace(before, velocity="gyro")
         return before
 
     def errors(self, n: int, p: int, before: Array) -> Array:
+        """`before` (2 n,) with this sensor's noise for the pitch [rad], 0 for its rate; bias is not random."""
         own = before.copy()
         own[n - 1], own[-1] = self.noise, 0.0
         return own
@@ -283,16 +310,20 @@ class PitchSensor(Sensor):
         return seeded(self.seed) if self.noisy else np.zeros(0)
 
     def start(self, q: Array, v: Array) -> Pitch:
+        """State at the start of a run: pitch q[-1] with the bias, its rate with the drift, no noise."""
         return Pitch(q[-1] + self.bias, v[-1] + self.drift, self.bias, self.random)
 
     def sense(self, w: Pitch, q: Array, v: Array) -> Pitch:
+        """State after a tick: pitch q[-1] with bias, drift so far and noise, its rate with the drift."""
         r, g = normals(w.r, 1) if len(self.random) > 0 else (w.r, np.zeros(1))
         angle = q[-1] + w.off + self.noise * g[0]
         return Pitch(angle, v[-1] + self.drift, w.off + self.turn, r)
 
     def impact(self, w: Pitch, q: Array, v: Array, v_model: Array) -> Pitch:
+        """State after an impact: a gyroscope feels the jump of the rate; the pitch itself does not jump."""
         return w._replace(rate=v[-1] + self.drift)
 
     def reading(self, w: Pitch, q: Array, v: Array) -> tuple[Array, Array]:
+        """q, v (n,) as the encoders before it read them, with the last entries, the pitch, of this sensor."""
         angle, rate = np.array([w.angle]), np.array([w.rate])
         return np.concatenate((q[:-1], angle)), np.concatenate((v[:-1], rate))

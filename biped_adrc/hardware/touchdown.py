@@ -4,24 +4,28 @@
     (d, fires) = notice(d, look)              at a tick, fires 0 or 1
 
 Without such a part a controller, its observer and the labels of its measurement change at the true touchdown.
-With one they change at the tick at which `notice` fires, and the controller's assumption until then, its
-belief, is a part of the walker's state:
+With one they change at the tick (sample instant) at which `notice` fires, and the controller's assumption until
+then, its belief, is a part of the walker's state:
 
     belief = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
 
-A touchdown and a detection each toggle `other`. So a detection before its touchdown is an early one. A
-touchdown that is not detected before the following touchdown leaves the labels right again, and the controller
-counts two walking steps less than there were. Both engines run these methods, which are pure functions;
-randomness is a part of d.
+The labels say which leg is the stance leg: angles, torques and feet are numbered by them. A touchdown changes
+the plant's labels, a detection the controller's; so each toggles `other`, and other = 1 means that they differ.
+So a detection before its touchdown is an early one. A touchdown that is not detected before the following
+touchdown leaves the labels right again, and the controller counts two walking steps less than there were. Both
+engines run these methods, which are pure functions; randomness is a part of d.
 
 `FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
 late, with probability 1 - missed; its state d is a `Due`.
 
-The others use the swing foot: its place by the measured angles, or its force. Both have a gate on the phase,
-that is on how far the swing foot is ahead:
+The others use the swing foot: its place (x, z) from the stance foot by the measured angles, or the vertical
+force F on it. Both have a gate on the phase, that is on how far the swing foot is ahead:
 
     ByKinematics   z + tan(slope) x < height, and lower than at the tick before
     ByForce        free: F < off; then loaded: F > on, until F < off; detected after debounce and delay
+
+A state d consists of floats, 1.0 for yes and 0.0 for no, and `1.0 * (..) * (..)` stands for `and`: the engine
+runs the same lines on symbols, where an `if` cannot be. SAME_INSTANT [s] is the round-off of times.
 """
 
 from __future__ import annotations
@@ -48,9 +52,9 @@ class Belief(NamedTuple):
     other: float
     """1 where its labels differ from the plant's, else 0."""
     step: float
-    """Number of the single support, counted by detections."""
+    """Number of the single support: that of the first one plus the number of detections."""
     start: float
-    """Time of the last detection [s]."""
+    """Time of the last detection [s]; at first the start of the first single support."""
     d: Any
     """State d of the detector."""
 
@@ -67,11 +71,12 @@ class Look(NamedTuple):
     force: float
     """Vertical force of the ground on the controller's swing foot [N]; 0 unless `needs_force`."""
     other: float
-    """1 where the controller's labels differ from the plant's; for deliberate errors."""
+    """1 where the controller's labels differ from the plant's, else 0. No real detector could know it, nor the
+    next two: they serve detectors such as `FaultyTouchdown`, which makes errors on purpose."""
     step: float
-    """Number of the plant's single support; for deliberate errors."""
+    """Number of the plant's single support, from 1."""
     age: float
-    """Time since the last true touchdown [s]; for deliberate errors."""
+    """Time since the last true touchdown [s]."""
 
 
 class Touchdown(Checked, ABC):
@@ -97,12 +102,15 @@ class Touchdown(Checked, ABC):
         return ()
 
     def touchdown(self, d: Any, other: float, t: float) -> Any:
-        """State d after a true touchdown at t [s]; `other` is the value after it."""
+        """State d after a true touchdown at t [s]; other: 1 where labels of controller and plant now differ."""
         return d
 
     @abstractmethod
     def notice(self, d: Any, look: Look) -> tuple[Any, float]:
-        """State d after a tick, and 1 where a touchdown is detected, else 0."""
+        """State d after a tick, and 1 where the detector fires (a touchdown is detected), else 0.
+
+        look: what may be known at this tick.
+        """
 
 
 STEP_AND_TIME = Range(
@@ -119,9 +127,9 @@ class Due(NamedTuple):
     due: float
     """Time from which it is detected [s]."""
     done: float
-    """1 once the false detection has happened, else 0."""
+    """1 once the false detection has happened, and where none is planned; else 0."""
     r: Array
-    """State of the random numbers (6,), or (0,)."""
+    """State of the random numbers (6,), or (0,) where no touchdown is missed at random."""
 
 
 class _Load(NamedTuple):
@@ -132,9 +140,9 @@ class _Load(NamedTuple):
     loaded: float
     """1 while it is loaded after that, else 0."""
     since: float
-    """Time since which it is loaded [s]."""
+    """Time since which it is loaded [s]; the present time while it is not."""
     waits: float
-    """1 while a touchdown waits for the delay, else 0."""
+    """1 while a touchdown waits for the delay to end, else 0."""
     due: float
     """Time from which it is detected [s]."""
 
@@ -148,10 +156,10 @@ class FaultyTouchdown(Shown, Touchdown):
     misses and false detections.
 
     missed [1]: probability that a touchdown is never detected, by `seed`, a whole number from 0. false_at:
-    (step, time [s]) of one detection without a touchdown, at the first tick so long after the step began;
-    shortly before its end it is an early one. A touchdown that leaves the labels right, as after a missed or
-    an early one, is not detected. Raises InputError for a time that is negative and a probability out of
-    range.
+    (number of a single support from 1, time [s] from its start) of one detection without a touchdown, at the
+    first tick from then on; shortly before its end it is an early one. A touchdown that leaves the labels
+    right, as after a missed or an early one, is not detected. Raises InputError for a time that is negative and
+    a probability out of range.
     """
 
     late: NonNegativeFloat = 0.0
@@ -161,20 +169,21 @@ class FaultyTouchdown(Shown, Touchdown):
 
     @derived
     def random(self) -> Array:
-        """State r of the random numbers at the start of a run: (6,), or (0,) where no touchdown is missed."""
+        """State r of the random numbers at the start of a run: (6,), or (0,) where `missed` is 0."""
         return seeded(self.seed) if self.missed > 0.0 else np.zeros(0)
 
     @derived
     def false(self) -> Array:
-        """Step, and time in it [s], of the false detection (2,); step 0 for none."""
+        """Number of the single support, and time in it [s], of the false detection (2,); number 0 for none."""
         return np.array((0, 0.0) if self.false_at is None else self.false_at, dtype=float)
 
     def start(self) -> Due:
+        """State at the start: no touchdown waits; `done` is 1 where no false detection is planned."""
         return Due(0.0, 0.0, float(self.false_at is None), self.random)
 
     def touchdown(self, d: Due, other: float, t: float) -> Due:
-        """State d after a true touchdown: its detection is due `late` [s] later, if the labels
-        differ and it is not missed.
+        """State d after a true touchdown at t [s]: its detection is due `late` [s] later, if the labels
+        differ after it (other = 1) and a random number does not make it a missed one.
         """
         missed, r = 0.0, d.r
         if len(r) > 0:
@@ -184,7 +193,7 @@ class FaultyTouchdown(Shown, Touchdown):
         return Due(waits, t + self.late, d.done, r)
 
     def notice(self, d: Due, look: Look) -> tuple[Due, float]:
-        """Fire when a detection is due and the labels still differ; and once at the false time."""
+        """Fire when a detection is due and the labels still differ; and once, at the time of `false_at`."""
         due = 1.0 * (d.waits * look.other > 0.5) * (look.t >= d.due - SAME_INSTANT)
         at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d.done < 0.5)
         false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
@@ -195,7 +204,7 @@ class FaultyTouchdown(Shown, Touchdown):
 
 @dataclass(frozen=True)
 class Gated(Shown, Touchdown):
-    """Base of the detectors with a gate on the phase: on how far the swing foot is ahead.
+    """Base of the detectors with a gate: they fire only where the swing foot is far enough ahead.
 
     ahead [m]: least distance of the controller's swing foot in front of its stance foot. after [s]: least time
     between two detections. slope [rad]: of the ground as the controller assumes it, positive downhill. Raises
@@ -208,12 +217,12 @@ class Gated(Shown, Touchdown):
 
     @derived
     def tangent(self) -> float:
-        """tan(slope) [1]."""
+        """tan(slope) [1], how much the ground falls per metre forwards."""
         return math.tan(self.slope)
 
     def gate(self, look: Look) -> float:
-        """1 where a touchdown is possible, else 0: the swing foot is ahead by more than `ahead` [m] and the
-        last detection at least `after` [s] ago.
+        """1 where a touchdown is possible, else 0: the swing foot is ahead by more than `ahead` [m], and at
+        least `after` [s] have passed since the last detection.
         """
         ahead = 1.0 * (look.foot[0] > self.ahead)
         return ahead * (look.t_step >= self.after - SAME_INSTANT)
@@ -241,11 +250,14 @@ class ByKinematics(Gated):
     height: FiniteFloat = 0.0
 
     def start(self) -> float:
-        """Height of the foot at the tick before [m]."""
+        """State d at the start: height [m] of the swing foot at the tick before, 0 as it still stands."""
         return 0.0
 
     def notice(self, d: float, look: Look) -> tuple[float, float]:
-        """Fire when the foot is below the height, lower than d [m] at the tick before, and the gate open."""
+        """Fire when the foot is below `height`, on its way down, and the gate is open.
+
+        d and the new state are its height [m] above the assumed slope at the tick before and now.
+        """
         height = look.foot[1] + self.tangent * look.foot[0]
         low = 1.0 * (height < self.height) * (height < d)
         return height, low * self.gate(look)
@@ -283,10 +295,11 @@ class ByForce(Gated):
     needs_force = True
 
     def start(self) -> _Load:
+        """State at the start: the foot was not free yet, so it must lift off before a detection."""
         return _Load(0.0, 0.0, 0.0, 0.0, 0.0)
 
     def notice(self, d: _Load, look: Look) -> tuple[_Load, float]:
-        """Fire when a free foot has been loaded for long enough, after the delay."""
+        """Fire `delay` after a foot that was free has been loaded for `debounce`; then the foot is not free."""
         t = look.t
         free = np.maximum(d.free, 1.0 * (look.force < self.off))
         stays = d.loaded * (look.force >= self.off)

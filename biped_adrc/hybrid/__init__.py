@@ -1,4 +1,3 @@
-"""Hybrid systems: flows, guards, resets and clocks; one-step methods; the loop; trajectories.
-
-Nothing here knows a robot.
+"""Hybrid systems and their simulation: flow between events, event functions, resets, sample instants,
+integration methods, and trajectories as the result. Nothing here depends on a robot.
 """

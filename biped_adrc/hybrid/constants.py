@@ -1,17 +1,22 @@
-"""What the march has in both of its forms: codes of methods and arcs, tolerances, arrays, sample instants."""
+"""Constants of the march (`hybrid.march`), the loop that moves a hybrid system through one arc.
+
+An arc is the flow from one event to the next. The march runs in Python and as machine code; both use these
+codes of methods and of ends of an arc, tolerances, names of work arrays, and formulas of sample instants.
+"""
 
 from __future__ import annotations
 
 import math
 
 RK4, ETD, SOLVER = 0, 1, 2
-"""Kinds of method; the last is one of Python's, such as SciPy's."""
+"""Kinds of integration method; SOLVER is a method in Python, such as SciPy's, which takes its own steps."""
 HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
-"""Matrices of ETD-RK4 for one length of step, of `exponential.matrices`; their number."""
+"""Places of the matrices of ETD-RK4 for one step length, in the order of `exponential.matrices`; MATRICES is
+their number."""
 
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT, RAN_AWAY = 4, 5, 6, 7, 8
-"""Codes: places in `hybrid.status.Status`."""
+"""Codes of how an arc ends: places in `hybrid.status.Status`. Inside the march 0 means that it goes on."""
 STRUCK = 9
 """Code that is no status: an event with a reset ended the arc."""
 
@@ -21,11 +26,12 @@ TOGETHER, CROWD = 1e-6, 10
 """Events of one event function that are closer than this [s] are not told apart, and so many events within that
 time accumulate: both end as EVENT_LIMIT."""
 MOST_STEPS = 10_000_000
-"""Between two breaks; with more of them a method cannot go on (STEP_FAILED)."""
+"""Most integration steps between two breaks, which are sample instants and switching times of inputs; with more
+of them the run ends as STEP_FAILED."""
 LANDING = 1e-9
 """A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
 SAME_STEP = 1e-9
-"""Relative difference [1] below which two steps share their matrices."""
+"""Relative difference [1] below which two step lengths share their matrices."""
 XTOL, XRTOL, ITERATIONS = 1e-15, 9e-16, 10_000
 """Tolerances [s] and [1] of the time of an event, and most iterations of its root finder: an event function
 that touches zero flatly takes more than 100."""
@@ -45,15 +51,16 @@ of sub-steps, and of one that is tried."""
 
 
 def is_tick(t: float, start: float, period: float) -> bool:
-    """Whether t [s], not before `start` [s], is exactly one of start + k period.
+    """Whether t [s], not before `start` [s], is exactly a sample instant (tick) start + k period, period [s].
 
-    Sample instants are always computed by this expression, so equality is exact.
+    k is rounded to the nearest integer. Sample instants are always computed by this expression, so that an
+    exact comparison of floats is right.
     """
     return t == start + math.floor((t - start) / period + 0.5) * period
 
 
 def next_tick(t: float, start: float, period: float) -> float:
-    """The first of the sample instants start + k period, k = 0, 1, .., after t [s]."""
+    """The first of the sample instants start + k period [s], k = 0, 1, .., strictly after t [s]."""
     k = max(0, math.floor((t - start) / period))
     while start + k * period <= t:
         k += 1

@@ -1,8 +1,8 @@
 """ETD-RK4, the exponential Runge-Kutta method, for a flow whose stiff part is linear.
 
-In the coordinates y = (w, E) of `system.Split`, E' = A E + N_E(t, w, E) and w' = N_w(t, w, E). A is integrated
-exactly through the phi-functions; w sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
-(26)-(29)):
+In the coordinates y = (w, E) of `system.Split`, E' = A E + N_E(t, w, E) and w' = N_w(t, w, E). E (k, c) is the
+stiff part, w the rest. A is integrated exactly through the phi-functions; w sees the classical RK4 (Cox,
+Matthews, J. Comput. Phys. 176, 2002, eqs (26)-(29)):
 
     a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
     b = e^(hA/2) E + h/2 phi1(hA/2) N(a)
@@ -12,8 +12,9 @@ exactly through the phi-functions; w sees the classical RK4 (Cox, Matthews, J. C
 
     phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
 
-`hybrid.march` takes the steps. A break or an event rarely falls on a multiple of h, so the matrices are made
-for h and its halvings: by their series for steps so short that |hA| < 1/2, and doubled from there,
+`hybrid.march` takes the steps. A break (sample instant or switching time of an input) or an event rarely falls
+on a multiple of h, so the matrices are made for h and its halvings: by their series for steps so short that
+|hA| < 1/2, and doubled from there,
 
     phi_0(2z) = phi_0^2                    phi_1(2z) = (phi_0 phi_1 + phi_1) / 2
     phi_2(2z) = (phi_0 phi_2 + phi_1 + phi_2) / 4
@@ -46,9 +47,10 @@ fastest pole. One step of RK4 goes the rest of the way to a break or an event, a
 
 
 def matrices(half: Phi, phi: Phi, h: float) -> tuple[Array, ...]:
-    """The matrices (k, k) of a step of length h [s], from the functions of hA / 2 and of hA.
+    """The six matrices (k, k) of a step of length h [s]; half, phi: phi_0 to phi_3 of hA/2 and of hA.
 
-    In the order of `constants`: e^(hA/2), h/2 phi1(hA/2), e^(hA), and weights of N(E), N(a) + N(b), N(c).
+    In the order of `constants`: e^(hA/2) [1], h/2 phi1(hA/2) [s], e^(hA) [1], and the weights [s] of N(E), of
+    N(a) + N(b) and of N(c) in E1.
     """
     p0, p1, p2, p3 = phi
     first, middle = h * (p1 - 3.0 * p2 + 4.0 * p3), h * (2.0 * p2 - 4.0 * p3)
@@ -74,7 +76,7 @@ class Exponential(Checked, OneStepMethod):
 
 
 def no_coordinates() -> InputError:
-    """The error of the method for a system without a split."""
+    """The error that a run by this method raises for a system whose `split` is None."""
     return InputError(
         "the exponential method needs a controller in continuous time whose observer is linear "
         "in its error and measures the true q_b; use RK4 or Adaptive instead"
@@ -87,7 +89,10 @@ def _times(A: Array, B: Array) -> Array:
 
 
 def _series(Z: Array) -> Phi:
-    """phi_0 to phi_3 of a small Z (k, k), each by Horner's rule."""
+    """phi_0 to phi_3 of a matrix Z (k, k) with |Z| < 1/2, each by TERMS terms of its series.
+
+    phi_j(Z) is the sum of Z^i / (i + j)!, evaluated by Horner's rule.
+    """
     one = np.eye(len(Z))
 
     def phi(j: int) -> Array:
@@ -100,7 +105,7 @@ def _series(Z: Array) -> Phi:
 
 
 def _doubled(phi: Phi) -> Phi:
-    """phi_0 to phi_3 of 2z from those of z, each (k, k)."""
+    """phi_0 to phi_3 of 2z from those of z, each (k, k), by the equations of the module."""
     p0, p1, p2, p3 = phi
     return (
         _times(p0, p0),
@@ -111,13 +116,20 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(h: float, A: Array) -> Array:
-    """The `matrices` of steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only."""
+    """The `matrices` of the steps h 2^-level [s], level = 0, 1, .., for A (k, k) [1/s].
+
+    Returns a read-only array (levels, 6, k, k); the number of levels follows from LEVELS and STABLE.
+    """
     return _phi_levels(h, np.asarray(A, dtype=float).tobytes())
 
 
 @lru_cache(maxsize=64)
 def _phi_levels(h: float, data: bytes) -> Array:
-    """Compute `phi_levels` from A as bytes, by which the results can be cached."""
+    """Compute `phi_levels` from A as bytes, by which the results can be cached.
+
+    It goes from the shortest step up, as each level needs the phi-functions of half its step. `short` is the
+    first level with |A| h 2^-level <= 1/2, from which on the series holds; longer steps are doubled.
+    """
     k = math.isqrt(len(data) // 8)
     A = np.frombuffer(data).reshape(k, k)
     fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))

@@ -20,10 +20,11 @@ from biped_adrc.core.errors import NotFiniteError, RanAwayError, SingularError
 from biped_adrc.core.types import Array
 
 Flow = Callable[[float, Array], Array]
-"""f(t, x) -> x'."""
+"""f(t, x) -> x' (nx,), for t [s] and x (nx,)."""
 
 _LOST = (NotFiniteError, RanAwayError, SingularError)
-"""What a flow may raise at a state that means nothing."""
+"""Errors that a flow raises at a state that no motion can have, such as the trial of a step that is too
+long."""
 
 
 class StepFailed(Exception):
@@ -44,14 +45,15 @@ class Step(NamedTuple):
 
 
 class OneStepMethod(ABC):
-    """Base of the methods."""
+    """Base of the integration methods."""
 
     SUCH_AS = "RK4(1e-3)"
+    """Example of a method, for error messages."""
 
     @property
     @abstractmethod
     def label(self) -> str:
-        """The method and its step or tolerance, for records."""
+        """Text with the method and its step or tolerance, which is stored with a run."""
 
 
 @dataclass(frozen=True)
@@ -77,12 +79,15 @@ class Solver(OneStepMethod):
 
     @abstractmethod
     def steps(self, f: Flow, t: float, x: Array, t_end: float) -> Iterator[Step]:
-        """Steps from (t, x), x (nx,), to t_end [s] under x' = f(t, x), which is smooth in between."""
+        """Iterate over integration steps from (t, x), x (nx,), of which the last ends at t_end [s].
+
+        The flow x' = f(t, x) is smooth in between.
+        """
 
 
 CROWDED, CROWDED_STEP = 1000, 1e-6
-"""So many steps in a row of a method with step control may not be shorter on average than this [s]; on a torque
-that chatters they would go on for days."""
+"""CROWDED steps in a row of a method with step control may not be shorter on average than CROWDED_STEP [s]; on
+a torque that chatters such a run would take days."""
 
 
 @dataclass(frozen=True)
@@ -108,15 +113,15 @@ class Adaptive(Checked, Solver):
         return f"Adaptive, rtol = {self.rtol:g}, atol = {self.atol:g}"
 
     def steps(self, f: Flow, t: float, x: Array, t_end: float) -> Iterator[Step]:
-        """Steps from (t, x), x (nx,), to t_end [s].
+        """Iterate over the steps of DOP853 from (t, x), x (nx,), to t_end [s] under x' = f(t, x).
 
-        A flow that raises one of LOST at a trial state, or is not finite there, gives NaN, and the
-        solver rejects the step; the error is raised only where the solver gives up. Raises
-        StepFailed with the solver's message otherwise.
+        Where f raises an error of `_LOST` at a trial state, the solver gets NaN and tries a shorter step. If it
+        gives up, that error is raised, or StepFailed where f raised none. Raises StepFailed also for steps that
+        are too short (CROWDED), and NotFiniteError where f is not finite at (t, x).
         """
         from scipy.integrate import DOP853  # it takes long to load
 
-        last: Exception | None = None  # the error of the last trial
+        last: Exception | None = None  # the first error since f had a value
 
         def tried(t: float, x: Array) -> Array:
             nonlocal last
@@ -129,7 +134,7 @@ class Adaptive(Checked, Solver):
         if not np.all(np.isfinite(f(t, x))):  # SciPy would look for its first step without end
             raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
         solver = DOP853(tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step)
-        mark, count = t, 0
+        mark, count = t, 0  # time of the last check for crowded steps, and number of steps
         while solver.status == "running":
             count += 1
             message = solver.step()

@@ -1,12 +1,24 @@
-"""The march of a hybrid system through time: steps, event functions, the place of an event, breaks.
+"""The march: the integration of a hybrid system over one arc, from an event to the next (`travel`).
+
+It takes integration steps between breaks, which are sample instants and switching times of inputs, and after
+each step looks for an event: an event function (of the guard number `guard`) that falls through zero.
 
 This text runs twice. In Python its operations (`flow`, `watch`, `add`, ..) are those of `hybrid.on_arrays`,
 around any `HybridSystem`. Compiled by numba they are those of `engine.kernels.operations`, around machine
-code. r is the run in memory, the same names in both.
+code; a `unit` then is a function of its own, an `inner` a part of its callers. r is the run in memory, with the
+same names in both. Functions write vectors into arrays of r or the argument `out`:
 
-ETD-RK4 steps in the coordinates y = (w, E) of the module `hybrid.exponential`. A length that is not the step
-h is taken in sub-steps h 2^-level, whose matrices are prepared, and what is left below the last level by one
-classical step, which is stable there.
+    x0, dx0, x1, dx1       state and slope (nx,) at both ends of the step
+    values, after, tried   event functions (guards,): at the start of the step or of the stretch of it that is
+                           searched, at the end of that, and at the time tried last
+    x_e, dx_e, t_event     state and slope (nx,) at the time tried last; time of the event [s]
+
+A code is an int: 0 to go on, STRUCK for an event with a reset, else how the arc ends (`hybrid.constants`). A
+node is an instant (t, x, x') that is stored: each `every`-th step of integration, none for every = 0.
+
+ETD-RK4 steps in the coordinates y = (w, E) of the module `hybrid.exponential`; N = (N_w, N_E) is the remainder.
+A length that is not the step h is taken in sub-steps h 2^-level, whose matrices are prepared, and what is left
+below the last level by one step of RK4 (`classical`), which is stable there.
 
 An event is located on the step itself, taken again with a shorter length, so that x- has the accuracy of the
 method and both engines find the same event.
@@ -37,9 +49,10 @@ weights = inner(relaxation)
 # -- steps -----------------------------------------------------------------------------------------
 @unit
 def lagging(r: Run, t: float, x: Array, h: float, dx: Array) -> None:
-    """Slope dx (nx,) of the first stage of a step of length h [s] with lagging motors (`hybrid.relaxation`).
+    """dx (nx,) = slope at (t, x) for a step of RK4 of length h [s] with lagging motors (`hybrid.relaxation`).
 
-    For dense output the motors' slope is no steeper than a cubic without overshoot may be.
+    It is the flow under P(0) in place of the motors' torques. The slope of the torques themselves serves the
+    cubic of dense output alone and is limited to 3 / h times their distance: a steeper cubic overshoots.
     """
     theta = r.lag_speed * h
     copy(x, r.stage, r.nx)
@@ -50,10 +63,11 @@ def lagging(r: Run, t: float, x: Array, h: float, dx: Array) -> None:
 
 @unit
 def classical(r: Run, t: float, x: Array, dx: Array, h: float, out: Array) -> None:
-    """out (nx,) = one step of RK4 of length h [s] from (t, x) with the slope dx (nx,).
+    """out (nx,) = the state after one step of RK4 of length h [s] from (t, x), where the slope is dx (nx,).
 
-    Only the first r.moving numbers move; the rest is held. The last r.p of it are the torques on the joints,
-    all that a flow reads of it. Torques of lagging motors are exact.
+    Only the first r.moving numbers of x flow; the rest is held. Of the rest the flow reads only the last r.p,
+    the torques on the joints, so each stage has these. With lagging motors (r.lags > 0) dx is computed anew by
+    `lagging`, and their torques are exact.
     """
     m, rest, stage, middle, last, end = r.moving, r.nx - r.moving, r.stage, 0.0, 0.0, 0.0
     if rest > 0:
@@ -82,10 +96,12 @@ def classical(r: Run, t: float, x: Array, dx: Array, h: float, out: Array) -> No
 
 @unit
 def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out: Array) -> None:
-    """out = y after one step of ETD-RK4 from (t, y) with the remainder N; h [s] is the length of that level.
+    """out = y after one step of ETD-RK4 from (t, y), where the remainder is N; level: of the matrices, whose
+    step has the length h = r.h 2^-level [s].
 
-    The equations of `hybrid.exponential`, stages a, and b and c in turn; w takes RK4 with the same stages.
+    The equations of `hybrid.exponential`; w takes RK4 with the same stages.
     """
+    # stage a is in r.y_a; stage b, and then c, in r.y_b
     half, half_phi = matrix(r, level, HALF), matrix(r, level, HALF_PHI)
     middle, a, b, nw = matrix(r, level, MIDDLE), r.y_a, r.y_b, r.n_slow
     matvec(r, half, y, r.e_half)
@@ -112,12 +128,14 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
 
 @unit
 def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None:
-    """Sub-steps from (t, y0) that end before tb [s], and after ta [s] only before the guard's crossing.
+    """Take sub-steps of ETD-RK4 from (t, y0) as near as they come to tb [s], or to the zero of an event
+    function in (ta, tb] [s], without passing it.
 
-    Binary search: a sub-step of each level is taken or left out. One that ends behind the crossing is not taken
-    and becomes the end of the bracket. The state is left in x_b, dx_b (nx,), its time in t_b, the end of the
-    bracket with its event function in t_far, f_far. guard -1: towards tb alone.
+    guard: its number; -1: towards tb alone, with ta = tb. fb: its value at tb. Binary search: a sub-step
+    h 2^-level of each level is taken or left out. One that ends behind the zero is left out, and its end
+    replaces tb. Results: state and slope x_b, dx_b (nx,) at t_b [s]; t_far [s], f_far: tb and fb at the end.
     """
+    # count: length of the sub-steps taken so far, in units of the finest one
     levels, count, now = r.levels, 0, t
     y, N, trial, x = r.y_sub, r.N_sub, r.y_try, r.x_b
     copy(r.y0, y, r.nx)
@@ -146,7 +164,9 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
 # -- events ----------------------------------------------------------------------------------------
 @inner
 def reach(r: Run, t: float, x: Array, dx: Array, s: float) -> None:
-    """x_e and `tried`: state and event functions at s [s], one step from (t, x) with the slope dx (nx,)."""
+    """Set x_e and `tried`: state and event functions at s [s], by one step of RK4 from (t, x), where the slope
+    is dx (nx,), or by a solver's dense output.
+    """
     # numba compiles both branches, so `operations` has a `dense` too, though no compiled run gets there
     if r.kind == SOLVER:
         dense(r, s)
@@ -157,7 +177,7 @@ def reach(r: Run, t: float, x: Array, dx: Array, s: float) -> None:
 
 @unit
 def retake(r: Run, t0: float, s: float) -> None:
-    """x_e and `tried` at s [s] of the step that began at t0 [s]."""
+    """Set x_e and `tried` to state and event functions at s [s], inside the step that began at t0 [s]."""
     if r.kind == ETD:
         halve(r, -1, t0, s, s, 0.0)
         reach(r, r.t_b, r.x_b, r.dx_b, s)
@@ -169,10 +189,11 @@ def retake(r: Run, t0: float, s: float) -> None:
 def brent(
     r: Run, guard: int, base: float, x: Array, dx: Array, ta: float, fa: float, tb: float, fb: float
 ) -> float:
-    """Time [s] of a root by Brent's method, whose iterates are those of `scipy.optimize.brentq`.
+    """Time [s] in [ta, tb] at which the guard's event function is zero, by Brent's method, whose iterates are
+    those of `scipy.optimize.brentq`.
 
-    The guard's event function is fa at ta [s] and fb at tb [s]; states in between are one step from (base, x).
-    Secant or inverse quadratic steps, bisection where those do not shrink the bracket.
+    fa, fb: its values at ta and tb [s], of opposite signs. States in between are one step from (base, x), where
+    the slope is dx (nx,). Secant or inverse quadratic steps, bisection where those do not shrink the bracket.
     """
     # written out, since compiled code cannot call SciPy; with two root finders the engines would find two
     # times of one event, and every number after it would differ
@@ -216,9 +237,10 @@ def brent(
 
 @unit
 def locate(r: Run, guard: int, t0: float, ta: float, tb: float) -> float:
-    """Time [s] of the guard's crossing in (ta, tb] of the step from t0; x_e and `tried` are left there.
+    """Time [s] in (ta, tb] at which the guard's event function crosses zero, in the step from t0 [s].
 
-    For ETD-RK4 sub-steps narrow the bracket first; Brent's method goes on within it with classical steps.
+    It is `values` at ta and `after` at tb. x_e and `tried` are set to the crossing. For ETD-RK4 sub-steps
+    narrow the bracket first; Brent's method goes on within it with steps of RK4.
     """
     fa, fb = r.values[guard], r.after[guard]
     base, x, dx = t0, r.x0, r.dx0
@@ -235,10 +257,11 @@ def locate(r: Run, guard: int, t0: float, ta: float, tb: float) -> float:
 
 @inner
 def crossed(r: Run, t0: float, ta: float, tb: float) -> int:
-    """Code of the earliest event in (ta, tb] [s], 0 for none; its time goes into t_event, its state into x_e.
+    """Code of the earliest event in (ta, tb] [s] of the step from t0 [s], 0 for none; its time goes into
+    t_event, its state into x_e.
 
-    Every event function that falls through zero is located and the earliest that is accepted counts. A state
-    that is not finite at a time that was tried ends the run: nothing is known of the event.
+    Every crossing of zero is located, from `values` at ta to `after` at tb, and the earliest counts whose guard
+    accepts it. A state that is not finite at a time that was tried ends the run: nothing is known of the event.
     """
     first, first_guard, last = math.inf, -1, -1
     for guard in range(r.guards):
@@ -250,7 +273,7 @@ def crossed(r: Run, t0: float, ta: float, tb: float) -> int:
                 first, first_guard = te, guard
     if first_guard < 0:
         return 0
-    if first_guard != last:
+    if first_guard != last:  # x_e belongs to the crossing that was located last
         first = locate(r, first_guard, t0, ta, tb)
     r.t_event = first
     return code_of(r, first_guard)
@@ -258,7 +281,7 @@ def crossed(r: Run, t0: float, ta: float, tb: float) -> int:
 
 @inner
 def pieces(t0: float, t1: float) -> int:
-    """How many stretches no longer than RESOLUTION make a step from t0 to t1 [s]."""
+    """Number of equal stretches, no longer than RESOLUTION but for round-off, of a step from t0 to t1 [s]."""
     return max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
 
 
@@ -273,8 +296,10 @@ def begins_low(r: Run) -> bool:
 
 @inner
 def overdue(r: Run, t0: float) -> int:
-    """Code of an event at t0 [s], the start of an arc, 0 for none: another event function than the one that has
-    fired is at zero or below and falls, since two events fell together or a reset or the start put it there.
+    """Code of an event at t0 [s], the start of an arc, 0 for none.
+
+    It is that of an event function, other than the one that has fired, which is at zero or below there and then
+    falls (`values` at t0, `after` just behind): two events fell together, or a reset or the start put it there.
     """
     copy(r.x0, r.x_e, r.nx)
     watch(r, t0, r.x_e, r.tried)
@@ -289,12 +314,14 @@ def overdue(r: Run, t0: float) -> int:
 
 @unit
 def lift(r: Run, t0: float, s: float) -> int:
-    """Code of an event in [t0, s] [s], the first TOGETHER of an arc; `values` become those at s.
+    """Code of an event in [t0, s] [s], the first TOGETHER of an arc, where an event function w begins at zero
+    or below; 0 for none. `values` become those at s.
 
-    So an event function that begins at zero is above it at s, and watched, however soon it falls again. If it
-    bent down, as s^2 does, w(s) = 4 w(s/2), and a hop shorter than s, more than that, a ball is at rest on its
-    floor: the next events are not told apart (EVENT_LIMIT). One that falls steadily, 2 w(s/2), is let pass
-    where it has just fired, as a time that is over; another one fires at t0 (`overdue`).
+    A w that rises from zero is positive at s, so `event` watches it from there, however soon it falls again. A
+    w below zero at s shows its form by its value half-way. Bent down, as -(t - t0)^2, it is 4 times that, and
+    after a hop shorter than s more: a ball at rest on its floor, whose events follow too closely (EVENT_LIMIT).
+    A steady fall, 2 times that, is no event where w has just fired, as a time that is over; another w fires at
+    t0 (`overdue`).
     """
     retake(r, t0, t0 + 0.5 * (s - t0))
     copy(r.tried, r.after, r.guards)
@@ -313,8 +340,8 @@ def lift(r: Run, t0: float, s: float) -> int:
 def event(r: Run, t0: float, t1: float) -> int:
     """Code of the earliest event in the step from (t0, x0) to (t1, x1), times in [s], 0 for none.
 
-    A long step is looked through stretch by stretch, so the first of two events in it is found, and two
-    crossings within it are. Without an event `values` become those at t1.
+    A step longer than RESOLUTION is searched stretch by stretch, so that the first of two events is found, and
+    an event function that falls through zero and rises again. Without an event `values` become those at t1.
     """
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
@@ -331,7 +358,7 @@ def event(r: Run, t0: float, t1: float) -> int:
         if j < count:
             retake(r, t0, at)
             copy(r.tried, r.after, r.guards)
-        elif count > 1:
+        elif count > 1:  # `after` has been overwritten at the interior points
             watch(r, t1, r.x1, r.after)
         code = crossed(r, t0, before, at)
         copy(r.after, r.values, r.guards)
@@ -343,9 +370,9 @@ def event(r: Run, t0: float, t1: float) -> int:
 
 @inner
 def arm(r: Run) -> None:
-    """`values` of the event functions at the start of an arc.
+    """Set `values` to the event functions at the start of an arc.
 
-    What is left of the one that has just fired is round-off and taken as zero, for `lift`.
+    The one that has just fired differs from zero by round-off alone and is set to zero, as `lift` expects.
     """
     r.t_arc = r.t
     watch(r, r.t, r.x0, r.values)
@@ -363,15 +390,15 @@ def left(t: float) -> float:
 
 @inner
 def keep(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Keep a node at t [s], unless this run keeps none."""
+    """Store a node (t, x, x') at t [s], unless this run stores none; r.look: of compiled runs, else 0."""
     if r.every > 0 or r.look != 0:
         node(r, t, x, dx)
 
 
 @inner
 def nodes(r: Run, t0: float, t1: float) -> None:
-    """Keep the end of a step from t0 to t1 [s]; where every step is kept, points inside a long one too, for
-    which a cubic would be too coarse.
+    """Store the end of a step from t0 to t1 [s] as a node; where every step is stored, points inside a long
+    step too, for which one cubic would be too coarse.
     """
     count = pieces(t0, t1) if r.every == 1 else 1
     for j in range(1, count):
@@ -384,10 +411,10 @@ def nodes(r: Run, t0: float, t1: float) -> None:
 
 @inner
 def begin(r: Run, t: float, h: float) -> None:
-    """Compute what the first step after a break at t [s], h [s] long, needs besides x0: dx0, for ETD-RK4 y0
-    and N0.
+    """Compute what the first step after a break at t [s], of length h [s], needs besides x0: the slope dx0, and
+    for ETD-RK4 y0 and N0.
 
-    After a sample instant the slope is known already (r.sloped). ETD-RK4 needs it for nodes alone.
+    After a sample instant of a compiled run dx0 is known already (r.sloped). ETD-RK4 needs it for nodes alone.
     """
     if r.kind == ETD:
         split(r, r.x0, r.y0)
@@ -401,10 +428,11 @@ def begin(r: Run, t: float, h: float) -> None:
 
 @unit
 def fixed(r: Run, t: float, t1: float, last: int) -> int:
-    """x1 (nx,) and what the next step starts from, at t1 [s], by RK4 or ETD-RK4; a status.
+    """Take a step of RK4 or ETD-RK4 from (t, x0) to (t1, x1), times in [s], and compute what the next step
+    starts from: dx1, for ETD-RK4 N1. Returns a code, 0 for no failure.
 
-    last: 1 for the step before a break, after which slope and remainder would be wasted. A step of ETD-RK4
-    that is not h long is made of sub-steps and one classical step.
+    last: 1 for the step before a break, after which slope and remainder would be wasted, else 0. A step of
+    ETD-RK4 that is not h long is made of sub-steps and one step of RK4.
     """
     x1 = r.x1
     if r.kind == RK4:
@@ -442,11 +470,11 @@ def pass_on(r: Run) -> None:
 
 @inner
 def stop(r: Run, code: int) -> int:
-    """Set x0 (nx,) and t to the event just found, and keep a node with its slope from the left; returns its
-    code.
+    """Set x0 (nx,) and t to the event just found, and store a node with the slope from the left; returns
+    `code`, that of the event.
 
-    Where the state is not finite, x0 and t do not change, and the status says so. An arc of no length has its
-    node already.
+    Where its state x_e is not finite, x0 and t do not change, and another code says so. An arc without duration
+    has its node already.
     """
     te = r.t_event
     if not finite(r.x_e, r.nx):
@@ -463,10 +491,10 @@ def stop(r: Run, code: int) -> int:
 
 @unit
 def through(r: Run, t_next: float) -> int:
-    """March from x0 at t to t_next [s], without a break in between; returns a code, 0 at t_next.
+    """Take the steps from x0 at t to t_next [s], between which there is no break; returns a code, 0 at t_next.
 
     Steps are counted and their length not added up, so round-off does not grow. More than MOST_STEPS steps,
-    or a step of no length, end as STEP_FAILED.
+    or a step without length, end as STEP_FAILED.
     """
     t0 = t = r.t
     skipped, steps, code = 0, 0, 0
@@ -493,7 +521,8 @@ def through(r: Run, t_next: float) -> int:
             skipped = 0
         pass_on(r)
         r.t = t = t1
-        # the next stretch begins with the same, but for a force that jumps
+        # in a compiled run with r.look: the next stretch stores this instant too, so at t_next it is stored
+        # here only where a force from outside may jump (r.pulled)
         if r.look != 0 and (t < t_next or r.pulled != 0):
             node(r, t, r.x0, r.dx0)
     return 0
@@ -501,10 +530,10 @@ def through(r: Run, t_next: float) -> int:
 
 @inner
 def travel(r: Run) -> int:
-    """March from x0 at t to the first event or to t_end; returns a code, COMPLETED at t_end.
+    """Integrate from x0 at t to the first event or to t_end; returns a code, COMPLETED at t_end.
 
-    Each round: the sample instants that are due, then steps to the next break, a sample instant or a switching
-    time of an input. x0 (nx,) and t [s] are left where it ended.
+    Each round: the sample instants that are due now, then steps to the next break. x0 (nx,) and t [s] become
+    those of the end.
     """
     while r.t < r.t_end:
         r.limit = math.inf

@@ -1,7 +1,11 @@
-"""The operations of the march in Python: `hybrid.march` calls them to run any `HybridSystem` on NumPy arrays.
+"""The operations of the march in Python: `hybrid.march`, the integration of one arc from an event to the next,
+calls them to run any `HybridSystem` on NumPy arrays.
 
 `Run` has the state of one arc and the work arrays of the march; the functions below it evaluate the system, add
-vectors, and look for breaks. Methods of the system get copies of arrays, since the march writes into its own.
+vectors, and find breaks, which are sample instants and switching times of inputs. They write their results into
+`out` or another argument. Methods of the system get copies of arrays, since the march writes into its own.
+
+y = (w, E) are the coordinates of the exponential method, N = (N_w, N_E) its remainder (`hybrid.exponential`).
 """
 
 from __future__ import annotations
@@ -28,12 +32,12 @@ _Function = TypeVar("_Function", bound=Callable[..., object])
 
 
 def inner(function: _Function) -> _Function:
-    """The function itself; compiled, it becomes a part of its callers."""
+    """Return the function itself; the compiled engine's decorator of this name inlines it into its callers."""
     return function
 
 
 unit = inner
-"""The function itself; compiled, it becomes a function of its own."""
+"""The same; in the compiled engine a decorator that makes a function of its own."""
 
 # Each function below has a twin of the same name and arguments in `engine.kernels.operations`. Sizes are handed
 # over (`size`, r.nx) although NumPy knows them, because the twin gets pointers, which have no length.
@@ -41,7 +45,7 @@ unit = inner
 
 @dataclass(frozen=True)
 class Calendar:
-    """When something happens beside the events: the clocks and switching times of a system over one arc."""
+    """The times of one arc that are known beforehand: sample instants of clocks, switching times, its end."""
 
     system: HybridSystem
     mode: AnyMode
@@ -54,17 +58,21 @@ class Calendar:
 
     @cached_property
     def clocks(self) -> list[tuple[Clock, float]]:
-        """Every clock, and the time [s] of its first sample instant in this arc."""
+        """Every clock, with the time t0 [s] from which its sample instants t0 + k period are counted."""
         first = {True: self.t_arc, False: self.t_first}
         return [(clock, first[clock.restart] + clock.offset) for clock in self.system.clocks()]
 
     @cached_property
     def edges(self) -> list[float]:
-        """Switching times of the inputs and t_end [s] in order, and infinity."""
+        """Switching times of the inputs and t_end [s] in ascending order, and infinity, so that each time has a
+        next one.
+        """
         return sorted([*self.system.switching_times(self.mode), self.t_end, math.inf])
 
     def due(self, t: float, x: Array) -> Array:
-        """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system."""
+        """x (nx,) after the updates of all clocks with a sample instant exactly at t [s], in the system's
+        order.
+        """
         for clock, start in self.clocks:
             if t >= start and constants.is_tick(t, start, clock.period):
                 x = clock.update(t, x, self.mode)
@@ -80,12 +88,15 @@ class Calendar:
 
 
 class Run:
-    """One arc of a system while the march moves it: time and state now, settings, and work arrays."""
+    """One arc of a system while the march moves it: time and state now, settings, and work arrays.
+
+    The fields have the names of the compiled run (`engine.kernels.record.Run`), where each is explained.
+    """
 
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of constants.X_ROWS and Y_ROWS."""
+            """One of the work arrays (nx,) of constants.X_ROWS and Y_ROWS."""
 
     step: Step
 
@@ -98,9 +109,9 @@ class Run:
         x: Array,
         fired: Event | None,
     ):
-        """From x (nx,) at t [s]; fired: the event that ended the arc before, None at the start.
+        """Prepare the arc from x (nx,) at t [s]; fired: the event that ended the arc before, None at the start.
 
-        Raises InputError for a system without what the method needs.
+        Raises InputError where the method is `Exponential` and the system has no coordinates for it.
         """
         self.calendar, self.method, self.record = calendar, method, record
         self.system, self.mode = calendar.system, calendar.mode
@@ -110,6 +121,8 @@ class Run:
         self.guards, self.before = len(names), np.zeros(len(names))
         self.fired = names.index(fired.guard) if fired and fired.guard in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
+        # look, pulled and sloped stay 0, and all of x flows: the march reads other values in compiled runs
+        # alone
         self.look = self.pulled = 0
         self.nx, self.moving, self.p = len(x), len(x), 0
         self.accepted: dict[int, FoundEvent] = {}
@@ -118,6 +131,7 @@ class Run:
             setattr(self, name, np.zeros(self.nx))
         self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
         self.x0[:] = x
+        # `before`: the event functions just before the last event, zero where the state had another size
         if fired and len(fired.x_minus) == self.nx:
             watch(self, fired.t, fired.x_minus, self.before)
         self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
@@ -145,11 +159,11 @@ class Run:
             setattr(self, name, np.zeros(self.nx))
 
     def parts(self, y: Array) -> tuple[Array, Array]:
-        """w and E (k, c) of y, as copies."""
+        """w (n_slow,) and E (k, c) of y (nx,), as copies."""
         return y[: self.n_slow].copy(), y[self.n_slow :].reshape(self.E_shape).copy()
 
     def block(self, y: Array) -> Array:
-        """E (k, c) of y, which is written through it."""
+        """E (k, c) of y (nx,) as a view: to write into it changes y."""
         return y[self.n_slow :].reshape(self.E_shape)
 
 
@@ -183,17 +197,17 @@ def finite(x: Array, size: int) -> bool:
 
 
 def matrix(r: Run, level: int, which: int) -> Array:
-    """One of the six matrices (k, k) of a level; `which` is HALF, HALF_PHI, ..."""
+    """One of the six matrices (k, k) of `hybrid.exponential.matrices` of step h 2^-level; which: HALF, .."""
     return r.phi[level, which]
 
 
 def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
-    """E of out = M E of y; w of out is left as it is."""
+    """E of out = M (k, k) times E of y; w of out is left as it is."""
     r.block(out)[:] = M @ r.block(y)
 
 
 def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
-    """E of out += factor M N_E."""
+    """Add factor M N_E to E of out; M is (k, k)."""
     r.block(out)[:] += factor * (M @ r.block(N))
 
 
@@ -208,13 +222,13 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
 
 
 def split(r: Run, x: Array, y: Array) -> None:
-    """y = (w, E) of x."""
+    """y (nx,) = (w, E) of the state x (nx,)."""
     w, E = r.form.to(x.copy())
     y[: r.n_slow], r.block(y)[:] = w, E
 
 
 def join(r: Run, y: Array, x: Array) -> None:
-    """x (nx,) of y = (w, E)."""
+    """x (nx,) = the state whose coordinates are y = (w, E)."""
     x[:] = r.form.back(*r.parts(y))
 
 
@@ -225,16 +239,16 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
 
 
 def relax(r: Run, x: Array, weight: float, out: Array) -> None:
-    """Set the numbers that relax in out (nx,) to their limit plus `weight` [1] times their distance from it in
-    x.
+    """Set the entries of out (nx,) that relax (`system.Relaxing`), such as torques of lagging motors, to their
+    final value plus `weight` [1] times their distance from it in x (nx,).
     """
     at, to = r.relaxing.at, r.relaxing.to
     out[at] = x[to] + weight * (x[at] - x[to])
 
 
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """Set the slopes of the numbers that relax to `steep` [1/s] times their distance from their limit in x
-    (nx,).
+    """Set the entries of the slope dx (nx,) that relax (`system.Relaxing`) to `steep` [1/s] times their
+    distance from their final value in x (nx,).
     """
     at, to = r.relaxing.at, r.relaxing.to
     dx[at] = steep * (x[at] - x[to])
@@ -250,32 +264,40 @@ def slow(r: Run, t: float, x: Array) -> bool:
 
 
 def broken(r: Run) -> int:
-    """The status of a run whose state or slope is not finite; the compiled twin finds out which of several."""
+    """The code of an arc whose state or slope is not finite: here always NOT_FINITE, in the compiled twin also
+    SINGULAR or RAN_AWAY.
+    """
     return constants.NOT_FINITE
 
 
 def watch(r: Run, t: float, x: Array, out: Array) -> None:
-    """out (guards,): the event functions at (t, x), t in [s]."""
+    """out (guards,) = the event functions (witnesses of the guards) at (t, x), t in [s]."""
     x = x.copy()
     for i, guard in enumerate(r.event_functions):
         out[i] = guard.witness(t, x)
 
 
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
-    """Whether an event may lie inside a step of integration longer than RESOLUTION: True, so it is always taken
-    again at its interior points.
+    """Whether an event may lie inside a step of integration from t0 to t1 [s] that has `count` > 1 stretches:
+    always True, so the step is taken again at the points between them.
     """
     # the compiled twin may look at a cubic first: it knows that the events of a walker depend on q and t alone
     return True
 
 
 def passed(r: Run, guard: int, fall: float) -> bool:
-    """Whether an event function was below zero before the last event by more than its `fall` in TOGETHER."""
+    """Whether an event function crossed zero well before the last event, so that its event is over.
+
+    Just before that event it was below zero by at least `fall`, by which it falls in the first TOGETHER after.
+    """
     return bool(r.before[guard] + fall <= 0.0)
 
 
 def accepts(r: Run, guard: int, te: float) -> bool:
-    """Whether the crossing at te [s] in x_e is an event, whose outcome is then kept."""
+    """Whether the crossing of zero at te [s] in the state r.x_e is an event; its outcome goes into r.accepted.
+
+    It is none where the guard has no status and its reset returns None.
+    """
     it, x_minus = r.event_functions[guard], r.x_e.copy()
     if it.terminal is not None:
         r.accepted[guard] = FoundEvent(Event(it.name, te, x_minus, None), None, it.terminal)
@@ -288,7 +310,7 @@ def accepts(r: Run, guard: int, te: float) -> bool:
 
 
 def code_of(r: Run, guard: int) -> int:
-    """The code STRUCK of an arc that ends in an event, which is kept as r.event."""
+    """Keep the accepted event of a guard as r.event; returns STRUCK, the code of an arc that ends in one."""
     r.event = r.accepted[guard]
     return constants.STRUCK
 
@@ -305,16 +327,18 @@ def next_break(r: Run) -> float:
 
 
 def node(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Keep (t, x, dx), t in [s]."""
+    """Store the node (t, x, dx), t in [s], in the record of the arc."""
     r.record.add(t, x.copy(), dx.copy())
 
 
 # -- a solver's steps ------------------------------------------------------------------------------
 def solve(r: Run, t_next: float) -> float:
-    """Take the solver's next step towards t_next [s] into x1, dx1 (nx,); returns the time [s] of its end.
+    """Take the solver's next step towards t_next [s]; its end goes into x1, dx1 (nx,), its time [s] is
+    returned.
 
-    A new t_next starts the solver at x0. The flow is asked no later than r.limit, just before the next break.
-    Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
+    A new t_next starts the solver anew at (r.t, x0). The flow is asked no later than r.limit, just before the
+    next break. Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond
+    the bounds.
     """
     if r.t_next != t_next:
         assert isinstance(r.method, Solver)
@@ -332,5 +356,5 @@ def solve(r: Run, t_next: float) -> float:
 
 
 def dense(r: Run, s: float) -> None:
-    """x_e (nx,) at s [s], within the solver's last step."""
+    """x_e (nx,) = the state at s [s], within the solver's last step, by its dense output."""
     r.x_e[:] = r.step.at(s)

@@ -1,8 +1,9 @@
-"""The loop: flow, event, reset, sample, repeat.
+"""The loop over the arcs of a hybrid system: flow with sample instants, event, reset, next arc.
 
-Every arc is one march from the last event to the next (`hybrid.march`), which starts with the clock updates
-that are due. `run_arcs` is shared: the Python engine flies an arc with `flow_arc`, the compiled one with a
-kernel (`engine.run`). Systems that move by themselves give a `Mover` in place of a flow.
+An arc is the flow from one event to the next; to fly an arc is to integrate it. Its discrete state `mode` is
+constant and known to the system alone. `run_arcs` is the loop for both engines: in Python `flow_arc` flies an
+arc, by the march (`hybrid.march`), and in the compiled engine a kernel (`engine.run`). A system that moves by
+itself, such as another simulator, has a function `Mover` in place of a flow.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ Progress = Callable[[float, int], None]
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How long a run goes on and what is kept of it."""
+    """Duration of a run, its other ends, and what is stored of it."""
 
     t_end: float
     """Latest end [s]."""
@@ -50,7 +51,7 @@ class RunOptions:
     max_events: int = 100_000
     """A run with so many events ends as EVENT_LIMIT: events that accumulate (Zeno) would never end."""
     store_every: int = 1
-    """Every so many integration steps one node is kept for dense output; 1 keeps all."""
+    """Every so many integration steps one node (t, x, x') is kept for dense output; 1 keeps all."""
     progress: Progress | None = None
     """Function that is called after every event; None for none."""
 
@@ -67,7 +68,7 @@ class RunOptions:
         check_count(self.store_every, f"store_every is {self.store_every}")
 
     def ended(self, t: float, events: Counter[str]) -> Status | None:
-        """How the run ends after these events, the last of them at t [s]; None where it goes on."""
+        """How the run ends after an event at t [s]; None where it goes on. events: name -> number so far."""
         if self.stop_after is not None and events[self.stop_after[0]] >= self.stop_after[1]:
             return Status.COMPLETED
         if events.total() >= self.max_events:
@@ -76,7 +77,7 @@ class RunOptions:
 
     @property
     def timed_out(self) -> Status:
-        """The status of a run that has come to t_end."""
+        """The status of a run that has come to t_end: TIME_OUT where it waits for events."""
         return Status.COMPLETED if self.stop_after is None else Status.TIME_OUT
 
 
@@ -87,7 +88,7 @@ class FlownArc(NamedTuple):
     status: Status
     """COMPLETED also where the run goes on."""
     detail: str = ""
-    """The error's own text, where one ended it."""
+    """The text of the error that ended the arc; empty without one."""
     outcome: JumpResult = None
     """None where the run ends with this arc."""
 
@@ -95,7 +96,7 @@ class FlownArc(NamedTuple):
 def simulate(
     system: HybridSystem, x0: Array, mode: AnyMode, method: OneStepMethod, **options: Any
 ) -> Trajectory:
-    """Run a hybrid system from (t0, x0, mode).
+    """Run a hybrid system from (t0, x0, mode); returns its arcs with a status.
 
     system: such as a Walker. x0 (nx,): its state at the start, in SI units. mode: its discrete state there, as
     `Mode()`. method: of integration. options: those of `RunOptions`, of which t_end [s] is required. Raises
@@ -132,18 +133,19 @@ def run_arcs(
     label: str,
     options: RunOptions,
 ) -> Trajectory:
-    """A run from x0 (nx,), arc after arc made by fly(t, x, mode, event that ended the arc before).
+    """Run from x0 (nx,) in `mode`, arc after arc, until an end of `options` or a failure.
 
-    label: name of the method, for the settings. Counts events, applies resets and decides when the run
-    is over. Overflow is no warning here: a state that is not finite ends the run as NOT_FINITE and
-    is not kept, whatever flew the arc.
+    fly(t, x, mode, event that ended the arc before) integrates one arc. It also finds (x+, mode+) after its
+    event, from which the next arc starts; events are counted here. label: name of the method, for the
+    trajectory's settings.
     """
     x, t = np.array(x0, dtype=float), options.t0
     options.check(x)
     arcs, events = list[Arc](), Counter[str]()
     event: Event | None = None
     while True:
-        # what overflows ends as the status NOT_FINITE
+        # an overflow gives no warning, since it ends the run as NOT_FINITE; `handing_out` adds class and line
+        # to an exception of the user's code
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             flown = finite_part(fly(t, x, mode, event))
         arcs.append(flown.arc)
@@ -155,6 +157,7 @@ def run_arcs(
         events[event.guard] += 1
         if options.progress is not None:
             options.progress(t, len(arcs))
+        # CROWD events within the time TOGETHER accumulate, as in Zeno's paradox
         crowded = len(arcs) > CROWD and t - arcs[-CROWD].t[-1] < TOGETHER
         ended = Status.EVENT_LIMIT if crowded else options.ended(t, events)
         if ended is not None:
@@ -164,7 +167,9 @@ def run_arcs(
 
 
 def finite_part(flown: FlownArc) -> FlownArc:
-    """The arc up to its last node that is finite, and without an event whose states are not."""
+    """The arc up to the node before the first t, x or x' that is not finite, without its event, and a failure
+    as status; an arc whose numbers are all finite is returned as it is.
+    """
     arc, event = flown.arc, flown.arc.event
     rows, states = (arc.t, arc.x, arc.dx), () if event is None else (event.x_minus, event.x_plus)
     if all(x is None or np.isfinite(x).all() for x in (*rows, *states)):
@@ -190,10 +195,12 @@ FAILURES: Mapping[Status, type[Exception]] = {
 
 
 def status_of(error: BaseException, begun: bool = True) -> tuple[Status, str]:
-    """The status and the sentence with which a run ends when a controller or another part raises `error`.
+    """The status and the text with which a run ends when a controller or another part of the system raises
+    `error`.
 
-    Raises the error again where it did not come from a part, as Ctrl-C, and where the arc has not `begun`: at
-    the first sample instant it is a mistake in the user's class.
+    An error of `FAILURES` has its status there, any other of the user's code RAISED. The error is raised again
+    where it comes from elsewhere, as Ctrl-C, and where the arc has not `begun`: an error at its first sample
+    instant is a mistake in the user's class.
     """
     for status, kind in FAILURES.items():
         if isinstance(error, kind):
@@ -216,10 +223,12 @@ def flow_arc(
     fired: Event | None,
     began: float | None = None,
 ) -> FlownArc:
-    """One arc from (t, x) in Python: to an event, t_end, or an error of `FAILURES`.
+    """Integrate one arc in Python from x (nx,) at t [s], to an event, to t_end, or to an error, which becomes a
+    status.
 
-    fired: the event that ended the arc before. began [s]: time at which the arc began, where (t, x) is in the
-    middle of one; None: it begins at t. An arc that fails before its first node keeps its start.
+    method: None for a system with a `Mover`. fired: the event that ended the arc before, None at the start.
+    began [s]: time at which the arc began, where (t, x) is in the middle of one; None: it begins at t. An arc
+    that fails before its first node has its start as the only node, with the slope zero.
     """
     record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""
@@ -249,7 +258,9 @@ def flow_arc(
 
 
 def _check(code: int, t: float) -> None:
-    """Raise the error of `FAILURES` for a code of the march that ended at t [s]."""
+    """Raise the error for the codes NOT_FINITE and STEP_FAILED of a march that ended at t [s]; for other codes
+    nothing happens.
+    """
     if code == NOT_FINITE:
         raise NotFiniteError(f"the state is not finite after t = {t:.6g} s")
     if code == STEP_FAILED:

@@ -1,7 +1,7 @@
 """How a run ended. Each text says what happened and what to change; the command line prints it as it is.
 
-What happens during a run raises no error: `hybrid.simulator` and the compiled loops return a status, and the
-trajectory up to there is kept.
+A failure during a run raises no error: `hybrid.simulator` and the compiled loops return a status, and the
+trajectory up to the failure is kept.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ class Status(Enum):
         "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
         "or the controller"
     )
-    """A step broke a limit of ground or motors (`analysis.feasibility`)."""
+    """A walking step broke a limit of ground or motors (`analysis.feasibility`), or the stance foot of a plant
+    with soft contact left the ground."""
 
     __repr__ = Enum.__str__  # without its message, in lists and arrays
 

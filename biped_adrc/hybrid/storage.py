@@ -1,10 +1,11 @@
 """Runs on disk: one npz of plain arrays with the settings as JSON inside.
 
-For arc i the npz holds t{i}, x{i}, dx{i}, mode{i}, read{i}_NAME and, at an event, x_minus{i},
-x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times.
+For arc i, the flow between two events, the npz holds its nodes (stored instants) t{i}, x{i}, dx{i}, its
+discrete state mode{i}, further signals read{i}_NAME at the nodes and, at an event, the states before and after
+it, x_minus{i} and x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times.
 
 Nothing is pickled, so reading a file of somebody else's runs no code. Files are written whole or
-not at all. `scenario.stored` adds the walker's record by `beside_it`.
+not at all. `scenario.stored` adds the walker's record as arrays beside the trajectory.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ Stored = NDArray[Any]
 _FORMAT = "biped_adrc run 2"
 """Version of the layout; a file of another one is refused."""
 BESIDE = "beside."
-"""Before the names of arrays that are no part of the trajectory."""
+"""Prefix of the names of arrays that are not part of the trajectory."""
 
 
 def save(
@@ -45,10 +46,11 @@ def save(
     Modes are stored as tuples of numbers.
 
     - trajectory: states (K, nx) and what else its arcs hold, in full precision.
-    - settings: noted beside those of the trajectory.
-    - beside_it: arrays by name that `load_beside` gives back, such as the walker's record.
+    - settings: stored together with those of the trajectory; of two with the same name these count.
+    - beside_it: further arrays by name, such as the walker's record; `load_beside` returns them.
 
-    Raises InputError for a name of another kind or settings that JSON has not, and OutputError.
+    Raises InputError for another suffix than .npz or settings that JSON cannot hold, and OutputError
+    where the file cannot be written.
     """
     path = output_path(path, (".npz",), default=True)
     events = [arc.event for arc in trajectory.arcs]
@@ -57,6 +59,7 @@ def save(
         "status": trajectory.status.name,
         "detail": trajectory.detail,
         "settings": {**trajectory.settings, **(settings or {})},
+        # null for an arc that ended without an event
         "events": [a and {"guard": a.guard, "t": a.t} for a in events],
     }
     try:
@@ -82,14 +85,16 @@ def save(
 
 
 def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
-    """The run in `path` (.npz); `mode` makes a mode from its stored numbers, by default a tuple of them.
+    """Read the run in `path` (.npz).
 
+    mode: function that makes an arc's discrete state from its stored numbers; by default a tuple of them.
     Raises InputError for a file that is missing, damaged or of another format.
     """
     check_part(path, "the file of a run", str, Path)
+    # every exception inside `reading` becomes an InputError that names the file
     with reading("run", path, InputError):
         content = Path(path).read_bytes()
-        if not content.startswith(b"PK"):
+        if not content.startswith(b"PK"):  # a .npz file is a zip archive
             raise InputError("it is no run, expected a .npz file that 'simulate -o' has written")
         with np.load(io.BytesIO(content), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
@@ -97,7 +102,7 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
                 raise InputError(f"it has format '{meta['format']}', expected '{_FORMAT}'")
             arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
             _check(arcs)
-            if not arcs or f"t{len(arcs)}" in data:
+            if not arcs or f"t{len(arcs)}" in data:  # arrays of an arc more than `meta` has
                 raise ValueError(f"there are events of {len(arcs)} arcs")
         settings = dict(meta["settings"])
         if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
@@ -106,7 +111,10 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
 
 
 def load_beside(path: Path | str) -> dict[str, Stored]:
-    """The arrays beside the trajectory, by name, in a file that `load` has read. Raises InputError."""
+    """Read the arrays that `save` stored as `beside_it`, by name; path: a file that `load` can read.
+
+    Raises InputError for a file that cannot be read.
+    """
     with reading("run", path, InputError), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
@@ -115,7 +123,7 @@ def load_beside(path: Path | str) -> dict[str, Stored]:
 def _arc(
     data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
 ) -> Arc:
-    """Arc i of the arrays in a file, with its event as noted in the JSON."""
+    """Arc i of the arrays in a file; event: its event in the JSON, None for none; mode: as in `load`."""
     result = None
     if event is not None:
         plus = data.get(f"x_plus{i}")
@@ -127,12 +135,15 @@ def _arc(
 
 
 def _check(arcs: Sequence[Arc]) -> None:
-    """Raise ValueError for arcs that are none: other shapes, what is no number, times that go back."""
+    """Raise ValueError for arrays that form no arcs: no nodes, shapes that do not fit together, no finite
+    floats, times that go back or do not end at the event.
+    """
     end = -math.inf
     for i, arc in enumerate(arcs):
         t, x, read = arc.t, arc.x, arc.read.values()
         ends = [] if arc.event is None else [arc.event.x_minus, arc.event.x_plus]
         states = [state for state in ends if state is not None]
+        # `or -1`: an arc without nodes fails too
         rows = t.ndim == 1 and x.ndim == 2 and {len(x), *map(len, read)} == {len(t) or -1}
         widths = arc.dx.shape == x.shape and all(state.shape == x.shape[1:] for state in states)
         floats = all(values.dtype.kind == "f" for values in (t, x, arc.dx, *read, *states))

@@ -5,7 +5,9 @@
     x+ = update(t, x-, mode)  at the sample instants t0 + k T of a clock
 
 At equal times the order is reset, sample instant, flow. `mode` is the discrete state: any immutable
-value of the system's own, such as a step counter; the simulator only carries it from arc to arc.
+value of the system's own, such as a step counter; the simulator only carries it from arc to arc. An arc is the
+flow between two events. A break is a sample instant or a time at which an input switches; no integration step
+goes across one.
 
 `hybrid.simulator` runs what is defined here. `closed_loop.system.ClosedLoop` is the base of all
 systems of this package; a user's own hybrid system needs `flow` alone.
@@ -32,7 +34,7 @@ class FoundEvent(NamedTuple):
     """The event that ended an arc."""
 
     event: Event
-    """Guard, time and states."""
+    """Name of the guard, time and states before and after."""
     outcome: JumpResult = None
     """(x+, mode+), None where the run ends here."""
     status: Status = Status.COMPLETED
@@ -40,10 +42,11 @@ class FoundEvent(NamedTuple):
 
 
 Mover = Callable[[float, Array, AnyMode, float, Any], tuple[float, Array, FoundEvent | None]]
-"""move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
+"""move(t, x, mode, until, record) -> (t, x, the event that ended the arc at this t, or None).
 
-Moves a system from t to `until` [s] or to its next event in whatever way it likes. Nodes go into
-`record`, a `trajectory.Recorder`, as they are made, so that they are kept where it raises.
+Moves a system from t to `until` [s], or to its next event if that is earlier, by an integration of its own. It
+adds its nodes (stored instants) one by one to `record`, a `trajectory.Recorder`, so that they are kept if it
+raises an error.
 """
 
 
@@ -55,13 +58,18 @@ class Guard(Shown):
     - reset(t, x): (x+, mode+), or None to let the crossing pass as no event.
     - terminal: with a status, the run ends at the crossing in place of a reset.
 
-    A guard watches from the start of an arc on. Where its witness begins at zero, as after its own reset, it
-    fires after the witness has risen, however shortly. A witness that bends down from zero, a body at rest on
-    what it would bounce off, ends the run as EVENT_LIMIT; one that falls steadily after its own reset is let
-    pass. One that begins at zero or below and falls, at the start, after a jump of the state, or as the second
-    of two events at one instant, fires at once; so a time that is over leaves the guards with its reset's mode,
-    or another event at that very instant fires it again. One that begins below zero and rises fires the next
-    time that it falls through zero.
+    A guard watches from the start of an arc on. A witness that is not positive there has these cases:
+
+    - zero, then rising: the guard fires when it falls through zero again, however soon.
+    - zero, then bending down, as of a body at rest on the floor that it bounces off: the run ends
+      (EVENT_LIMIT).
+    - zero after its own reset, then falling steadily: no event.
+    - zero or below and falling, at the start of the run, after a jump of the state, or as the second of two
+      events at one instant: the guard fires at once.
+    - below zero and rising: the guard fires the next time that the witness falls through zero.
+
+    So a guard whose witness is the time left until an instant must not be among the guards of the mode after
+    its reset: another event at that very instant would fire it again.
     """
 
     name: str
@@ -72,7 +80,7 @@ class Guard(Shown):
 
 @dataclass(frozen=True)
 class Clock(Shown):
-    """Sample instants at t0 + k * period [s], at which `update(t, x, mode)` gives x+.
+    """Sample instants at t0 + k * period [s], k = 0, 1, .., at which `update(t, x, mode)` gives x+.
 
     - restart: whether t0 is counted from the start of each arc, or once from the start of the run.
     - offset [s]: of t0 from that start.
@@ -87,11 +95,11 @@ class Clock(Shown):
 
 @dataclass(frozen=True)
 class Split(Shown):
-    """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
+    """Coordinates x -> (w, E) in which the stiff part E is linear: E' = A E + N_E, w' = N_w.
 
-    - to(x) -> p, E and back(p, E) -> x are linear and inverse to each other; E has shape (k, c).
+    - to(x) -> w, E and back(w, E) -> x are linear and inverse to each other; E has shape (k, c), w is a vector.
     - A (k, k) [1/s]: the linear part, constant over an arc.
-    - remainder(t, p, E) -> N_p, N_E.
+    - remainder(t, w, E) -> N_w, N_E, of the shapes of w and E.
     """
 
     to: Callable[[Array], tuple[Array, Array]]
@@ -101,39 +109,41 @@ class Split(Shown):
 
 
 class Relaxing(NamedTuple):
-    """Numbers of x that go to others, which are constant between breaks: x_at' = speed (x_to - x_at).
+    """Entries of x that relax to other entries of x, such as the torques of lagging motors to their commands.
 
-    RK4 steps over them exactly (`hybrid.relaxation`), so that a fast one needs no shorter step.
+    x_at' = speed (x_to - x_at), and x_to is constant between two breaks. RK4 integrates them exactly
+    (`hybrid.relaxation`), so that a short time constant needs no shorter step.
     """
 
     at: slice
     """Places in x of the numbers that move."""
     to: slice
-    """Places in x of their limits, as many."""
+    """Places in x of the entries to which they relax, as many."""
     speed: float
     """Inverse of their time constant [1/s]."""
 
 
 class HybridSystem(Shown):
-    """A hybrid system; see the module for the equations. Override what the system has."""
+    """A hybrid system; see the module for the equations. A subclass overrides the methods of what it has."""
 
     def flow(self, t: float, x: Array, mode: AnyMode) -> Array:
         """x' at (t, x) in `mode`, of the shape of x (nx,), t in [s]."""
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
 
     def check_state(self, t: float, x: Array) -> None:
-        """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; none by default."""
+        """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; here never."""
 
     def mover(self, fired: str | None) -> Mover | None:
-        """The object that moves the system over one arc where it has no flow and no guards; None where it has
-        them.
+        """The function that moves a system without flow and guards, such as another simulator, over one arc.
 
-        fired: name of the event that ended the arc before, None at the start.
+        None for a system that has them. fired: name of the event that ended the arc before, None at the start.
         """
         return None
 
     def record(self, every: int) -> Recorder:
-        """Room for the nodes of one arc, of which each `every`-th is kept."""
+        """An empty recorder for the nodes (stored instants) of one arc; it keeps each `every`-th integration
+        step.
+        """
         return Recorder(every)
 
     def guards(self, mode: AnyMode) -> tuple[Guard, ...]:
@@ -145,13 +155,13 @@ class HybridSystem(Shown):
         return ()
 
     def switching_times(self, mode: AnyMode) -> tuple[float, ...]:
-        """Times [s] in `mode` at which the flow is not smooth; no step goes across one of them."""
+        """Times [s] of the run at which the flow in `mode` is not smooth; no step goes across one of them."""
         return ()
 
     def split(self, mode: AnyMode) -> Split | None:
-        """Coordinates for the exponential method; None when the system has none."""
+        """Coordinates for the exponential method in `mode`; None where the system has none."""
         return None
 
     def relaxing(self) -> Relaxing | None:
-        """The numbers of x that RK4 has to step over exactly; None for none."""
+        """The entries of x that RK4 has to integrate exactly; None for none."""
         return None

@@ -1,8 +1,8 @@
-"""What a run leaves: arcs of dense output joined by events, and a status.
+"""The result of a run: arcs of dense output joined by events, and a status.
 
-An arc is one flow between events, stored as nodes (t, x, x') and read between them by the cubic
-Hermite polynomial. `hybrid.simulator` makes trajectories, and so do the compiled loops of `engine`;
-`hybrid.storage` writes them to disk, `analysis.signals` reads signals off them.
+An arc is the flow between two events. It is stored as nodes, which are instants (t, x, x'), and evaluated
+between them by the cubic Hermite polynomial. `hybrid.simulator` makes trajectories, and so do the compiled
+loops of `engine`; `hybrid.storage` writes them to disk, `analysis.signals` reads signals off them.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Arc(Shown):
     event: Event | None = None
     """The event that ended the arc; None at the end of a run without one."""
     read: dict[str, Array] = field(default_factory=dict)
-    """What was recorded at the nodes because it cannot be computed again from the states, K rows of each."""
+    """Name -> signal at the nodes (K, ..) that cannot be computed again from the states and so was recorded."""
 
     def __post_init__(self) -> None:
         freeze(self, "t", "x", "dx")
@@ -60,28 +60,30 @@ class Arc(Shown):
 
     @property
     def seen(self) -> Array:
-        """Node times (K,) [s] for left limits: the first of the two equal times of a jump, and the end of the
-        arc, move back by one unit in the last place.
+        """Node times (K,) [s] at which a signal has its left limit where it jumps.
 
-        A signal evaluated there is what acted until the jump, such as the torque before a sample
-        instant.
+        The first of the two equal times of a jump, and the end of the arc, are the next smaller float: a signal
+        evaluated there is what acted until the jump, such as the torque before a sample instant.
         """
         later = np.append(self.t[1:], self.t[-1])
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
     def thinned(self, apart: float) -> Arc:
-        """A copy of the arc with nodes at least `apart` [s] apart; ends and both sides of jumps stay."""
+        """A copy of the arc with fewer nodes, at least `apart` [s] apart; ends and both sides of jumps stay."""
         same = np.diff(self.t) == 0.0
         keep = np.append(same, True) | np.concatenate(([True], same))
         last = self.t[0]
         for k in np.flatnonzero(~keep):
-            if self.t[k] - last >= apart * (1.0 - 1e-9):
+            if self.t[k] - last >= apart * (1.0 - 1e-9):  # round-off of the times does not decide
                 keep[k], last = True, self.t[k]
         read = {name: rows[keep] for name, rows in self.read.items()}
         return replace(self, t=self.t[keep], x=self.x[keep], dx=self.dx[keep], read=read)
 
     def __call__(self, t: float, side: str = "right") -> Array:
-        """x(t) (nx,) by cubic Hermite interpolation, t in [s]; the limit from `side` where x or x' jumps."""
+        """x(t) (nx,) by cubic Hermite interpolation, t in [s]; the limit from `side` where x or x' jumps.
+
+        side: "right" or "left". A t outside of the arc continues its first or last cubic.
+        """
         if len(self.t) == 1:
             return self.x[0].copy()
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
@@ -92,25 +94,26 @@ class Arc(Shown):
 
 @dataclass
 class Recorder:
-    """Nodes of the arc being built: one by one, or many in rows.
+    """The nodes of an arc while it is integrated.
 
-    The lists t [s], x (nx,) or (K, nx), and dx likewise grow with every call.
+    The lists t, x and dx grow by one entry with every call of `add`: t [s], x (nx,), dx (nx,) of one node, or
+    (K,), (K, nx), (K, nx) of K nodes.
     """
 
     every: int
-    """Each `every`-th integration step is kept."""
+    """Each `every`-th integration step is to be added; whoever adds nodes counts."""
     t: list[float | Array] = field(default_factory=list)
     x: list[Array] = field(default_factory=list)
     dx: list[Array] = field(default_factory=list)
 
     def add(self, t: float | Array, x: Array, dx: Array) -> None:
-        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each."""
+        """Add one node t [s], x (nx,), dx (nx,), or K nodes as K rows of each."""
         self.t.append(t)
         self.x.append(x)
         self.dx.append(dx)
 
     def arc(self, mode: Any, event: Event | None) -> Arc:
-        """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`."""
+        """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`, None for none."""
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event)
 
 
@@ -141,7 +144,7 @@ class Trajectory(Shown):
     detail: str = ""
     """What is known beyond the status, such as the time and the error's own text."""
     settings: dict[str, Any] = field(default_factory=dict)
-    """Method, engine and whatever else a caller notes; written to disk with the run, so plain values."""
+    """Method, engine and whatever else a caller adds: plain values, which are written to disk with the run."""
 
     def __repr__(self) -> str:
         first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
@@ -179,12 +182,12 @@ class Trajectory(Shown):
         return self.arcs[i](t, side)
 
     def events(self, guard: str | None = None) -> tuple[Event, ...]:
-        """All events in order, or those of one guard."""
+        """All events in order of time, or those of the event function named `guard`."""
         result = (arc.event for arc in self.arcs if arc.event is not None)
         return tuple(e for e in result if guard is None or e.guard == guard)
 
     def before(self, guard: str) -> Array:
-        """x- (events, nx) at every event of `guard`: the points on the section of a return map."""
+        """States x- (events, nx) just before every event of `guard`: points on the section of a return map."""
         return np.array([event.x_minus for event in self.events(guard)])
 
     @property

@@ -20,12 +20,16 @@ from biped_adrc.core.errors import InputError
 
 
 def _check_pinocchio() -> None:
-    """Raise InputError where another `pinocchio` lies in front of Pinocchio, or it does not load."""
+    """Raise InputError where `import pinocchio` fails or finds another package than Pinocchio 4, the library.
+
+    Another package of this name, a plugin of the test runner nose, exists.
+    """
     spec = find_spec("pinocchio")
     try:
         import pinocchio
 
         version = getattr(pinocchio, "__version__", "unknown")
+        # found: what is wrong, empty for nothing
         found = "" if version.split(".")[0] == "4" else f"version {version}"
     except ImportError as error:
         found = str(error)

@@ -4,12 +4,19 @@
 
 q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N is the
 absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z up; a link of
-absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error.
+absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error,
+both (n,) [N m].
 
 `Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made from
 that tree: `pinned` at the stance foot for single support, `floating` for the impact. All rooms above take
 their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are two
-objects when the model is wrong.
+objects when the model is wrong. Pinocchio counts the angles of the pinned tree from the ground, so the methods
+below pass T q, with the constant matrix T (n, n) of `pinned`, and map forces back by its transpose (k.T.T). A
+prime is a time derivative.
+
+At an impact the legs exchange their roles. The coordinates are named by role, so both q and v are relabelled:
+the coordinate of the stance hip gets the angle of the former swing hip, and so on. Two joints that change over
+are twins. A body of the record, such as "thigh", is a link or both links that are twins.
 """
 
 from __future__ import annotations
@@ -58,7 +65,7 @@ class Biped(Shown):
     ((5, 5), 32.0)
     """
 
-    SUCH_AS = "Biped.load('rabbit')"
+    SUCH_AS = "Biped.load('rabbit')"  # the example in messages that expect a Biped
 
     description: RobotDescription
     """The record robot.toml: names of joints and feet, limits, phase, presets."""
@@ -71,7 +78,8 @@ class Biped(Shown):
     friction: bool = False
     """Whether `acceleration` includes the joint friction of the record."""
 
-    _constant = True  # for `core.once`: it is read from files once
+    # says to `core.once` that nothing in a Biped changes, so results of it may be kept
+    _constant = True
 
     def __repr__(self) -> str:
         name, parts = self.description.name, f"n = {self.n}, p = {self.p}, {self.mass:.4g} kg"
@@ -96,16 +104,19 @@ class Biped(Shown):
     def check(self) -> None:
         """Build both models; raise ModelError for wrong numbers, unequal legs or motors without a twin.
 
-        Relabelling at impact is right only for equal legs. Tested at one state: when the legs exchange their
-        roles, neither the kinetic energy about the COM may change, nor the COM's height above a foot.
+        Relabelling at impact is right only for equal legs. Tested at one state, with numbers of no meaning:
+        when the legs exchange their roles, neither the kinetic energy about the COM may change, nor the COM's
+        height above one and the same foot.
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
         q, v = 0.3 * np.arange(1.0, self.n + 1.0), np.cos(np.arange(float(self.n)))
         x, w = self.relabel(q), self.R @ v
         total = [self.kinetic_energy(a, b) for a, b in ((q, v), (x, w))]
+        # p^2 / (2 m) is the energy of the COM's own motion; it differs, as another foot is at rest
         moved = [0.5 * np.sum(self.momentum(a, b) ** 2) / self.mass for a, b in ((q, v), (x, w))]
         about, round_off = np.subtract(total, moved), 1e-13 * max(total)
+        # heights [m] of the COM above the stance foot, which after the exchange is the former swing foot
         before, after = (self.potential_energy(y) / self.weight for y in (q, x))
         same = math.isclose(before - self.swing_foot(q)[1], after, rel_tol=1e-9, abs_tol=1e-9)
         if not (math.isclose(*about, rel_tol=1e-9, abs_tol=round_off) and same):
@@ -115,12 +126,12 @@ class Biped(Shown):
                 "(largest relative difference), or in a link fixed to one leg; they change over at impact, so "
                 "make them equal"
             )
-        _ = self.swap
+        _ = self.swap  # raises for motors that have no twin
 
     # -- sizes and names -----------------------------------------------------------------------
     @cached_property
     def n(self) -> int:
-        """Number of coordinates N: actuated joints, passive joints and the pitch."""
+        """Number of coordinates N: joints with a motor, joints without one, and the pitch, in this order."""
         return len(self.description.joints)
 
     @cached_property
@@ -130,10 +141,10 @@ class Biped(Shown):
 
     @cached_property
     def motor_joints(self) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
-        """The joints of the URDF whose angles are q_1, ..., q_p; [k % 2] are those in single support number k.
+        """The joints of the URDF with the angles q_1, ..., q_p: [1] in odd single supports, [0] in even ones.
 
-        In single supports with even numbers the legs have changed over, and q_i is the angle of the twin in the
-        other leg, with the sign of `swap`.
+        In even ones the legs have changed over, and q_i is the angle of the twin in the other leg; where
+        `swap` changes the sign, the joint is mirrored: its axis and its range are those of the negative angle.
         """
         joints = {joint.name: joint for joint in self.tree.joints}
         own = [joints[name] for name in self.description.actuated]
@@ -147,29 +158,35 @@ class Biped(Shown):
 
     @cached_property
     def phase(self) -> Array:
-        """Row c (n,) of the phase variable Theta = c q, dimensionless."""
+        """Row c (n,) of the phase variable Theta = c q [rad], by which a gait is timed; c is dimensionless."""
         return read_only(self.description.phase)
 
     @cached_property
     def R(self) -> Array:
-        """Matrix (n, n) of q+ = R q- + r, which exchanges the legs at impact; `relabel` applies it.
+        """Matrix R (n, n), dimensionless, of q+ = R q- + r and v+ = R v-, which exchanges the legs at impact;
+        for r see `relabel`.
 
         Raises ModelError where no linear map exchanges the legs.
         """
         return read_only(relabelling(self.tree, self.description.joints, self.description.feet))
 
     def relabel(self, q: Array) -> Array:
-        """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad]."""
+        """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad].
+
+        r is `description.offset`, 0 but for robots with spokes, such as a rimless wheel.
+        """
         return self.R @ q + self.description.offset
 
     @cached_property
     def swap(self) -> Indices:
         """Relabelling of the motors at an impact (p,), ints: new joint i is entry swap[i] of (q_b, -q_b).
 
-        Controllers, observers and torques on their way are relabelled by it (`types.relabelled`). A motor
-        between the legs changes its sign. Raises ModelError for motors that are combined, or have an offset.
+        States of controllers and observers, and torques, are relabelled by it (`types.relabelled`). A motor
+        between the legs changes its sign. Raises ModelError where a row of R for a motor is no single 1 or -1
+        among the motors, or has an offset.
         """
         p, moved, offset = self.p, self.R[: self.p], np.array(self.description.offset)
+        # a 1 in column j of (R, -R) says that the new angle is +q_j, or -q_(j - p) for j >= p
         ones = np.concatenate((moved[:, :p], -moved[:, :p]), axis=1) == 1.0
         fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (offset[:p] == 0.0)
         if not fits.all():
@@ -190,13 +207,18 @@ class Biped(Shown):
 
     @cached_property
     def pinned(self) -> PinnedDynamics:
-        """Dynamics (1), from the model pinned at the stance foot. Raises ModelError for a wrong base."""
+        """Dynamics (1), from the model pinned at the stance foot.
+
+        Raises ModelError unless the trunk, the link that the floating base carries, hangs on the joint of the
+        record's pitch.
+        """
         d, pitch = self.description, self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != d.unactuated:
             raise ModelError(
                 f"'{self.tree.source}': link '{d.trunk}' hangs on "
                 f"'{pitch.name if pitch else 'nothing'}', expected '{d.unactuated}'"
             )
+        # row (n,): the absolute angle of the stance foot's link is its product with q
         chain = absolute_angles(self.tree, d.joints, [d.stance_foot])[0]
         return PinnedDynamics(self.pinned_tree, d, chain, self.armature)
 
@@ -207,7 +229,7 @@ class Biped(Shown):
 
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
-        """Inertia matrix D_s(q) (n, n) [kg m^2], rotors included."""
+        """Inertia matrix D_s(q) (n, n) [kg m^2], with the rotors' inertia."""
         k = self.pinned
         return k.T.T @ pin.crba(k.model, k.data, k.T @ self._angles(q)) @ k.T
 
@@ -222,18 +244,21 @@ class Biped(Shown):
         return k.T.T @ pin.computeGeneralizedGravity(k.model, k.data, k.T @ self._angles(q))
 
     def coriolis(self, q: Array, v: Array) -> Array:
-        """Coriolis matrix C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
+        """Coriolis matrix C(q, q') (n, n) [N m s], that one for which dD_s/dt - 2 C is skew-symmetric."""
         k, x, w = self.pinned, self._angles(q), self._angles(v)
         return k.T.T @ pin.computeCoriolisMatrix(k.model, k.data, k.T @ x, k.T @ w) @ k.T
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
+        """The model of the joints q_b, q_b'' = kappa u + xi, at (q, q') (n,) [rad, rad/s], by (11)-(15): q_N''
+        is eliminated. `Reduction` has its terms.
+        """
         return reduce(self.inertia(q), self.bias(q, v), self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """Gravity G, C' q' (n,) [N m], the ground's force as F_a q'' + F_0 (2,) [N], J_2 (2, n) [m], mass [kg].
+        """Terms at (q, q') for controllers that shape the momentum D_s q' or bound the force of the ground.
 
-        For controllers that shape the momentum or bound the contact force; see `BodyTerms`.
+        Gravity G and C' q' (n,) [N m], that force as F_a q'' + F_0 (2,) [N], the Jacobian J_2 (2, n) [m] of the
+        swing foot, the mass [kg]: see `BodyTerms`.
         """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
@@ -269,8 +294,8 @@ class Biped(Shown):
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m].
 
-        By the articulated body algorithm; joint friction is added where `friction` is set. T is square with
-        determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
+        It is computed by the articulated body algorithm; joint friction is added where `friction` is set. With
+        T q the coordinates of the pinned tree, the tree's torques are T^-T force, and q'' = T^-1 a_tree.
         """
         if self.friction:
             force = force + self.friction_torque(v)
@@ -278,7 +303,7 @@ class Biped(Shown):
         return k.inverse @ pin.aba(k.model, k.data, k.T @ x, k.T @ w, k.inverse.T @ force)
 
     def kinetic_energy(self, q: Array, v: Array) -> float:
-        """Kinetic energy q'^T D_s q' / 2 [J], rotors included."""
+        """Kinetic energy q'^T D_s q' / 2 [J] with the stance foot at rest, with the rotors' inertia."""
         return 0.5 * float(v @ self.inertia(q) @ v)
 
     def potential_energy(self, q: Array) -> float:
@@ -287,9 +312,9 @@ class Biped(Shown):
         return float(pin.computePotentialEnergy(k.model, k.data, k.T @ self._angles(q)))
 
     def angular_momentum(self, q: Array, v: Array) -> float:
-        """Angular momentum sigma [kg m^2/s] about the stance foot, the last row of D_s q'.
+        """Angular momentum sigma [kg m^2/s] about the stance foot, counter-clockwise: the last row of D_s q'.
 
-        sigma' = -dV/dq_N holds while no force or torque acts on q_N, since no motor acts there.
+        sigma' = -dV/dq_N (potential energy V) while zeta has no component at q_N, since no motor acts there.
         """
         return float(self.inertia(q)[-1] @ v)
 
@@ -299,11 +324,11 @@ class Biped(Shown):
         return self.pinned.position(self._angles(q), self.pinned.swing)
 
     def swing_foot_jacobian(self, q: Array) -> Array:
-        """Jacobian dp_2/dq_s (2, n) [m] of the swing foot."""
+        """Jacobian dp_2/dq_s (2, n) [m] of the swing foot's position p_2."""
         return self.pinned.jacobian(self._angles(q), self.pinned.swing)
 
     def swing_foot_velocity(self, q: Array, v: Array) -> Array:
-        """Velocity (x, z) of the swing foot (2,) [m/s]."""
+        """Velocity (x, z) of the swing foot (2,) [m/s], the stance foot at rest."""
         return self.swing_foot_jacobian(q) @ self._angles(v)
 
     def hip(self, q: Array) -> Array:
@@ -311,7 +336,7 @@ class Biped(Shown):
         return self.pinned.position(self._angles(q), self.pinned.hip)
 
     def hip_velocity(self, q: Array, v: Array) -> Array:
-        """Velocity (x, z) of the hip (2,) [m/s]."""
+        """Velocity (x, z) of the hip (2,) [m/s], the stance foot at rest."""
         return self.pinned.jacobian(self._angles(q), self.pinned.hip) @ self._angles(v)
 
     @cached_property
@@ -321,15 +346,16 @@ class Biped(Shown):
 
     @property
     def weight(self) -> float:
-        """Mass times gravity [N]."""
+        """Weight of the robot [N], its mass times gravity."""
         return self.mass * self.description.gravity
 
     # -- contact (2)-(9) -------------------------------------------------------------------------
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q', q'').
+        """Force of the ground on the stance foot (F_T, F_N) (2,) [N], along x and z, in single support.
 
-        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link do not
-        enter. External forces on links would; subtract their resultant (as `analysis.signals` does).
+        Newton's law for the COM with q'' = a (n,): F = m (p_com'' - g), g = (0, -gravity). Torques in joints
+        and pure moments on a link do not enter. External forces on links do: subtract their resultant from F,
+        as `analysis.signals` does.
         """
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
@@ -339,15 +365,18 @@ class Biped(Shown):
         return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v), 0.0 * v)[1]
 
     def extended_inertia(self, q: Array) -> Array:
-        """Inertia matrix D_e(q) (n + 2, n + 2) of the unpinned model (2) in q_e = (q_s, p_e)."""
+        """Inertia matrix D_e(q) (n + 2, n + 2) [kg m^2, kg m, kg] of the unpinned model (2), in the coordinates
+        q_e = (q_s, p_e) with the stance foot at p_e (2,) [m].
+        """
         return self.floating.extended(self._angles(q))[0]
 
     def E_2(self, q: Array) -> Array:
-        """Jacobian dp_2/dq_e (2, n + 2) of the swing foot, (4)."""
+        """Jacobian E_2 = dp_2/dq_e (2, n + 2) [m, 1] of the swing foot p_2, (4); q_e = (q_s, p_e)."""
         return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the relabelled state.
+        """The plastic impact of the swing foot at (q-, q'-) (n,) [rad, rad/s], by (7): the velocities just
+        after it (8), the impulse of the ground (9), and the relabelled state.
 
         Raises SingularError where (7) is singular.
         """
@@ -356,7 +385,7 @@ class Biped(Shown):
 
     # -- variations ------------------------------------------------------------------------------
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
-        """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link name.
+        """The tree with some "mass", "com" or "inertia" multiplied by factors[one of these][body or link] [1].
 
         Raises ModelError for an unknown body, or one without mass.
         """
@@ -375,14 +404,14 @@ class Biped(Shown):
 
     @property
     def with_errors(self) -> NoReturn:
-        """Gone: AttributeError says what takes its place."""
+        """A method of earlier versions; reading it raises AttributeError, which says what takes its place."""
         raise AttributeError(
             "'Biped' has no attribute 'with_errors'; ba.ModelErrors(mass={'torso': 0.2}).apply(biped) is a "
             "torso of 20 % more"
         )
 
     def _angles(self, q: Array) -> Array:
-        """q (n,) after a check of its shape and that it is finite."""
+        """q (n,) itself [rad] or [rad/s], after a check of its shape and that it is finite."""
         return finite_angles(q, (self.n,))
 
 
@@ -390,7 +419,8 @@ def check_numbers(biped: Biped) -> None:
     """Check at random states that D_s is positive definite and well conditioned, Omega and the impact finite.
 
     Masses and lengths are checked one by one where a file is read; this finds those that do not fit together,
-    such as a mass beside another that is 1e20 times as large. Raises ModelError with what to look for in the
+    such as a mass beside another that is 1e20 times as large. Well conditioned: the largest eigenvalue times
+    the machine epsilon is at most ACCURACY times the least. Raises ModelError with what to look for in the
     URDF.
     """
     random, n = np.random.default_rng(5), biped.n
@@ -399,6 +429,7 @@ def check_numbers(biped: Biped) -> None:
         q, v = random.uniform(-np.pi, np.pi, n), random.normal(0.0, 3.0, n)
         with np.errstate(all="ignore"):
             D, Omega = biped.inertia(q), biped.bias(q, v)
+            # (-1, 0) fails the test below
             least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (-1.0, 0.0)
             fits = most * np.finfo(float).eps <= ACCURACY * least
             try:

@@ -1,16 +1,17 @@
 """Double support: the unpinned model (2) and the plastic impact (3)-(9) of the paper.
 
 q_e = (q_s, p_e) with p_e (2,) [m] the end of the support leg. The floating URDF is rooted at the
-torso, so its own velocity v_float differs from q_e'; the Jacobian of the stance foot gives `v_float
-= J_e(q) q_e'`, hence
+torso, whose two slides (the base) replace p_e, so its own velocity v_float (n + 2,) differs from q_e'; the
+Jacobian of the stance foot gives `v_float = J_e(q) q_e'`, hence
 
     D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
     D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
 
-M is the inertia matrix of the floating model, J_2 the Jacobian of the swing foot in its velocities. F_2 = (F_T,
-F_N) is the impulse of the ground on the swing foot [N s]. The second line says that only this impulse acts, and
-that the new stance foot neither slips nor rebounds. (5) in the paper has the sign of E_2' F_2 against (3), (4)
-and (7); (7) is right.
+A prime is a transpose on a matrix, a time derivative on a vector. M is the inertia matrix of the floating
+model, J_2 the Jacobian of the swing foot in its velocities. F_2 = (F_T, F_N) is the impulse of the ground on
+the swing foot [N s]. The second line says that only this impulse acts, and that the new stance foot neither
+slips nor rebounds. - and + stand for just before and just after the impact. (5) in the paper has the sign of
+E_2' F_2 against (3), (4) and (7); (7) is right.
 
 `LinkMotion` computes the angular momentum of single links from their own velocities, to test laws
 that these matrices must obey:
@@ -38,7 +39,9 @@ from biped_adrc.model.robots.urdf import Tree
 
 
 class Impact(NamedTuple):
-    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the relabelled state after it."""
+    """Result of the plastic impact of a state (q-, v-): the state (q, v) after it with the legs relabelled, the
+    impulse (9), and the velocities (8) before relabelling.
+    """
 
     q: Array
     """q_s after relabelling (n,) [rad]."""
@@ -47,7 +50,8 @@ class Impact(NamedTuple):
     impulse: Array
     """Impulse F_2 (2,) = (tangential, normal) of the ground on the new stance foot [N s]."""
     v_e: Array
-    """q_e+' before relabelling (n + 2,) [rad/s, m/s]: Delta of (8) times q'-."""
+    """q_e+' of (8) (n + 2,) [rad/s, m/s] just after impact, in the coordinates from before the relabelling; the
+    last two are the velocity of the old support foot."""
 
     @property
     def old_foot_velocity(self) -> Array:
@@ -66,12 +70,16 @@ class Impact(NamedTuple):
 class FloatingDynamics:
     """The floating model in q_e = (q_s, p_e), evaluated with p_e at the origin.
 
-    Nothing depends on where the foot is, so the results hold for any p_e. q (n,) [rad] and v (n,)
-    [rad/s] are the paper's coordinates; m = n + 2 is the number of Pinocchio's velocities.
+    Nothing depends on where the foot is, so the results hold for any p_e. q (n,) [rad] and v (n,) [rad/s] are
+    the paper's coordinates q_s, q_s'; m = n + 2 is the number of Pinocchio's velocities. `model` and `data` are
+    Pinocchio's, `angles` (n,) the places of q_s and `base` (2,) those of the slides along x, z in its vectors,
+    `stance` and `swing` the frame indices of the feet.
     """
 
     def __init__(self, tree: Tree, d: RobotDescription, armature: Rotors):
-        """Build the model of a tree with the armature [kg m^2] at every motor of the record `d`."""
+        """Build the model of the tree on its planar base, with the rotor inertia `armature` [kg m^2] at every
+        motor of the record `d`, or one number for each.
+        """
         self.model = pinned_model(tree, d, armature)
         self.data = self.model.createData()
         self.n = len(d.joints)
@@ -80,7 +88,7 @@ class FloatingDynamics:
         self.stance, self.swing = (frame_index(self.model, foot) for foot in d.feet)
 
     def configuration(self, q: Array) -> Array:
-        """Pinocchio's configuration (m,) at q_s (n,) [rad] with the stance foot at the origin."""
+        """Pinocchio's configuration (m,) [rad, m] at q_s (n,) [rad] with the stance foot at the origin."""
         x = np.zeros(self.model.nq)
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
@@ -89,8 +97,10 @@ class FloatingDynamics:
         return x
 
     def velocity_map(self, q: Array) -> Array:
-        """Jacobian J_e(q) (n + 2, n + 2) from q_e' = (q_s', p_e') to the velocity of the floating
-        model, whose base moves such that the stance foot moves with p_e'; entries [1] and [m].
+        """Matrix J_e(q) (m, m) of v_float = J_e q_e', with entries [1] and [m].
+
+        The slides of the base move with p_e' - J q_s', J (2, n) the Jacobian of the foot for a base at rest, so
+        that the stance foot moves with p_e'.
         """
         J = self._foot_jacobian(self.configuration(q), self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
@@ -100,12 +110,12 @@ class FloatingDynamics:
         return J_e
 
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
-        """Jacobian d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
+        """Jacobian (2, m) [m, 1] of the position (x, z) of a frame by Pinocchio's configuration x (m,)."""
         J: Array = pin.computeFrameJacobian(self.model, self.data, x, frame, WORLD_AXES)
         return J[XZ]
 
     def extended(self, q: Array) -> tuple[Array, Array]:
-        """D_e (n + 2, n + 2) [kg m^2, kg] of (2) and E_2 = dp_2/dq_e (2, n + 2) [m] of (4)."""
+        """D_e (n + 2, n + 2) [kg m^2, kg m, kg] of (2) and E_2 = dp_2/dq_e (2, n + 2) [m, 1] of (4)."""
         x, J_e = self.configuration(q), self.velocity_map(q)
         D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
         return D_e, self._foot_jacobian(x, self.swing) @ J_e
@@ -113,9 +123,10 @@ class FloatingDynamics:
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
-        Independent of the pinned model's terms, for a check of these. With Z = J_e[:, :n] the null space of
-        the contact Jacobian, D_s = Z^T M Z and Omega = Z^T (nle + M dZ/dt v), where dZ/dt v is minus the drift
-        acceleration of the stance foot in the rows of the base.
+        It does not use the pinned model, so it checks that one. With Z = J_e[:, :n] a basis of the null space
+        of the contact Jacobian, D_s = Z^T M Z and Omega = Z^T (nle + M dZ/dt v); nle are Pinocchio's Coriolis
+        and gravity terms. dZ/dt v is zero but in the rows of the base: there it is minus the acceleration that
+        the stance foot has at the velocities Z v with all accelerations zero.
         """
         x = self.configuration(q)
         Z = self.velocity_map(q)[:, : self.n]
@@ -132,10 +143,11 @@ class FloatingDynamics:
     def impact(self, q: Array, v: Array, R: Array, offset: Array) -> Impact:
         """Solve (7) at (q-, v-) (n,) [rad, rad/s] and relabel: q+ = R q- + offset, v+ = R v.
 
-        R (n, n) and offset (n,) [rad] are those of `Biped`. Raises SingularError.
+        R (n, n) and offset (n,) [rad] are those of `Biped`. Raises SingularError where (7) is singular.
         """
         n, (D_e, E_2) = self.n, self.extended(q)
         K = np.block([[D_e, -E_2.T], [E_2, np.zeros((2, 2))]])
+        # q_e'- = (v-, 0): the stance foot is at rest before the impact
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         try:
             solution = np.asarray(np.linalg.solve(K, rhs), dtype=np.float64)
@@ -152,17 +164,19 @@ class LinkMotion:
     """
 
     def __init__(self, floating: FloatingDynamics, q: Array, v_e: Array):
-        """q (n,) [rad]: configuration. v_e (n + 2,): rates (q_s', p_e') [rad/s, m/s]."""
+        """Compute them from the configuration q (n,) [rad] and the rates v_e = (q_s', p_e') (n + 2,) [rad/s,
+        m/s].
+        """
         self.floating, self.data = floating, floating.model.createData()
         rates, x = floating.velocity_map(q) @ v_e, floating.configuration(q)
         pin.forwardKinematics(floating.model, self.data, x, rates)
         pin.updateFramePlacements(floating.model, self.data)
 
     def momentum(self, joints: Iterable[int] | None = None) -> pin.Force:
-        """Spatial momentum [N s], [N m s] of the links that move with `joints`, in the axes of
-        the world about its origin.
+        """Linear [N s] and angular [N m s] momentum, about the world's origin and in its axes, of some links:
+        each joint of `joints` contributes the body that hangs directly on it.
 
-        joints: Pinocchio's indices of joints; None for all.
+        joints: Pinocchio's indices of joints; None for all. Index 0 is the world, which does not move.
         """
         model, data, total = self.floating.model, self.data, pin.Force.Zero()
         for j in range(1, model.njoints) if joints is None else joints:
@@ -170,15 +184,19 @@ class LinkMotion:
         return total
 
     def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
-        """Angular momentum [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`.
+        """Angular momentum [kg m^2/s], counter-clockwise, about a point (x, z) [m] of the bodies that hang
+        directly on `joints`.
 
         joints: Pinocchio's indices of joints; None for all.
         """
         h = self.momentum(joints)
+        # minus: with x to the right and z up, the axis y points into the plane
         return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])
 
     def old_leg(self) -> list[int]:
-        """Pinocchio's indices of the joints of the previous stance leg, from its knee up to its hip."""
+        """Pinocchio's indices of the joints of the leg that stood before the impact, from its knee up to its
+        hip: those above its foot that do not carry the swing foot as well.
+        """
         model, result = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)
@@ -189,9 +207,11 @@ class LinkMotion:
         return result
 
     def outboard(self, joint: int) -> float:
-        """Angular momentum [kg m^2/s] about a joint of all links that it carries, with that of its rotor.
+        """Angular momentum [kg m^2/s], counter-clockwise, about a joint of all links that it carries, with that
+        of its rotor: armature times the rate of the joint.
 
-        An ideal joint transmits no impulse of torque, so an impact elsewhere leaves this number unchanged.
+        joint: Pinocchio's index. An ideal joint transmits no impulse of torque, so an impact elsewhere leaves
+        this number unchanged.
         """
         model, data = self.floating.model, self.data
         below = data.oMi[joint].rotation @ data.v[joint].angular

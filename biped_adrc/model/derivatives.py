@@ -8,8 +8,12 @@ constant T (Carpentier, Mansard, RSS 2018). With tau(q, v, a) = D_s a + Omega at
 
     dq''/dq = -D_s^-1 dtau/dq,   dq''/dv = D_s^-1 (dfriction/dv - dtau/dv),   dq''/dforce = D_s^-1
 
-Impact: (7) is r(q, v-, z) = 0 with z = (q_e+', F_2). CasADi differentiates r, written with the
-formulas of `planar_robot`, and the implicit function theorem gives
+The transpose of T maps the derivatives back to q_s. force (n,) [N m] is B_s u + delta + zeta, and friction the
+joint friction.
+
+Impact: (7) is r(q, v-, z) = 0 with z = (q_e+', F_2) (n + 4,), where q_e = (q_s, p_e) contains the position p_e
+(2,) of the stance foot, F_2 (2,) is the impulse on the swing foot, and - and + stand for before and after.
+CasADi differentiates r, written with the formulas of `planar_robot`, and the implicit function theorem gives
 
     dz = -(dr/dz)^-1 (dr/dq dq + dr/dv- dv-)
 """
@@ -50,7 +54,7 @@ def acceleration_derivatives(
     """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the
     generalised force (n,) [N m].
 
-    The force is B_s u + delta + zeta; friction is included where the biped has it.
+    The force is B_s u + delta + zeta, a constant here; friction is included where the biped has it.
     """
     pinned, T, a = biped.pinned, biped.pinned.T, biped.acceleration(q, v, force)
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
@@ -63,7 +67,8 @@ def acceleration_derivatives(
 
 
 def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
-    """D Delta (2 n, 2 n) = d(q+, v+) / d(q-, v-) of `Biped.impact` at (q-, q'-) (n,) [rad, rad/s].
+    """Derivative (2 n, 2 n) d(q+, v+) / d(q-, v-) of `Biped.impact`, relabelling included, at q = q-, v = q'-
+    (n,) [rad, rad/s].
 
     Raises SingularError where the matrix of (7) is singular.
     """
@@ -74,6 +79,7 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
     rows = ca.Function("impact", [x, before, z], [ca.jacobian(r, y) for y in (x, before, z)])
     by_q, by_v, by_z = map(np.array, rows(q, v, np.concatenate((impact.v_e, impact.impulse))))
     dz = solve(by_z, -np.hstack((by_q, by_v)), "the matrix of the impact (7)")
+    # q+ = R q- + r and v+ = R (q_s+'), whose derivatives are the first n rows of dz
     return np.vstack((np.hstack((biped.R, np.zeros((n, n)))), biped.R @ dz[:n]))
 
 
@@ -95,18 +101,17 @@ def together(values: _Symbols) -> ca.SX:
 
 
 def pose_function(robot: PlanarRobot) -> ca.Function:
-    """Make a CasADi function of q (n,) for the impact equations (7): q -> D_s, J_m, J_2,
-    position of the swing foot.
+    """Make the CasADi function q (n,) [rad] -> (D_s, J_m, J_2, p_2) for the impact equations (7).
 
-    D_s (n, n) [kg m^2] is the inertia matrix, J_m = d(m p_com)/dq (2, n) [kg m], J_2 (2, n) [m] the Jacobian
-    of the swing foot, its position (2,) [m].
+    D_s (n, n) [kg m^2] is the inertia matrix, J_m = d(m p_com)/dq (2, n) [kg m], p_2 (2,) [m] the position of
+    the swing foot from the stance foot, J_2 = dp_2/dq (2, n) [m].
     """
     n, K = robot.n, robot.K
     q = ca.SX.sym("q", n)
     x = entries(q)
     rest: _Symbols = np.zeros(n, dtype=object)
     t, A = turned(robot.A, x), robot.A
-    D, _ = robot.inertia_and_bias(x, rest)
+    D, _ = robot.inertia_and_bias(x, rest)  # D_s does not depend on the rates
     J_m, J_2 = jacobian(A, t, K.w_re, K.w_im), jacobian(A, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
@@ -119,9 +124,11 @@ def impact_rows(
     [m/s]; zero at the solution.
 
     D_e (q_e'+ - q_e'-) = E_2' F balances the momenta, E_2 q_e'+ = 0 lets the swing foot neither slip nor
-    rebound. D, J_m, J_2: of `pose_function`. before: q' (n,), after: q_e'+ (n + 2,), impulse: F (2,) [N s].
+    rebound. D, J_m, J_2: of `pose_function`. mass [kg]: of the robot. before: q'- (n,) [rad/s], with the stance
+    foot at rest; after: q_e'+ = (q'+, p_e'+) (n + 2,) [rad/s, m/s]; impulse: F (2,) [N s] on the swing foot.
     """
     n = before.numel()
+    # jumps of the joint rates and of the old stance foot's velocity; D_e = (D, J_m'; J_m, mass), E_2 = (J_2, 1)
     turn, move = after[:n] - before, after[n:]
     return (
         D @ turn + J_m.T @ move - J_2.T @ impulse,

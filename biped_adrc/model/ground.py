@@ -5,6 +5,8 @@ of the ground, down or up, is placed by the number of a single support, from 1: 
 mm the ground on which the third single support ends, and all that comes after it. `Walker` holds the slope and
 the tuple of steps; an impact is where the height of the swing foot over that ground comes down to zero.
 
+A drop [m] is how much lower the ground lies where a single support ends than at its stance foot; < 0 for up.
+
 All this ground is rigid. `SoftGround` is that of a plant with contact, in MuJoCo.
 """
 
@@ -24,7 +26,8 @@ from biped_adrc.core.types import Array
 def ground_axes(slope: float) -> tuple[Array, Array]:
     """Unit vectors (x, z), each (2,), along the ground and out of it, for a slope [rad], positive downhill.
 
-    A ground force F (2,) in the world has tangential part F @ along and normal part F @ out [N].
+    A force F (2,) [N] in the axes (x, z) of the world has the tangential part F @ along and the normal part F @
+    out, with along the first and out the second result.
     """
     along = np.array([math.cos(slope), -math.sin(slope)])
     return along, np.array([math.sin(slope), math.cos(slope)])
@@ -40,10 +43,10 @@ class SoftGround(Checked, Shown):
 
         a_ref = -b r' - k r,   b = 2 / (d T),   k = d(r) / (d^2 T^2 zeta^2)
 
-    is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
-    (solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
-    Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot
-    and cannot be prescribed. A foot that rests at depth r under the force F has
+    is the acceleration that the solver drives a foot at depth r [m] to: T is `time_constant`, zeta
+    `damping_ratio` (solref), d(r) the impedance, which rises from the first value of `impedance` to the second
+    one, d (solimp). Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m
+    follows from the robot and cannot be prescribed. A foot that rests at depth r under the force F has
 
         F / r = m (d(r) / d)^2 / ((1 - d(r)) T^2 zeta^2)
 
@@ -67,9 +70,9 @@ class SoftGround(Checked, Shown):
     """Radius of the feet [m]; a foot rolls on by the radius times the angle that its leg turns."""
 
     def stiffness(self, mass: float) -> tuple[float, float]:
-        """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.
+        """Stiffness F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.
 
-        mass [kg]: its effective mass m, as `MuJoCoPlant.foot_mass`.
+        mass [kg]: the foot's effective mass m, as `MuJoCoPlant.foot_mass`. The formula is that of the class.
         """
         d = self.impedance[1]
         full = mass / (self.time_constant * self.damping_ratio) ** 2
@@ -79,7 +82,7 @@ class SoftGround(Checked, Shown):
 
 @dataclass(frozen=True)
 class GroundStep(Checked):
-    """Base of a step down and a step up: the single support that ends on it, and its height [m] > 0."""
+    """Base of a step down and a step up of the ground: the single support that ends on it, and its height."""
 
     step: PositiveInt
     """Number of the single support, from 1, that ends on the changed ground."""
@@ -88,9 +91,7 @@ class GroundStep(Checked):
 
     @property
     def drop(self) -> float:
-        """Depth of the ground below the stance foot where this single support ends
-        [m]; negative for a step up.
-        """
+        """Depth [m] of the ground below the stance foot where single support `step` ends; negative for up."""
         return self.height if isinstance(self, StepDown) else -self.height
 
 
@@ -121,9 +122,9 @@ class StepUp(GroundStep):
 class Stones(Checked):
     """Stones on which the feet have to land: single support k, from 1, is to be `lengths[k - 1]` [m] long.
 
-    A foot that lands further than `tolerance` [m] from its stone makes the step infeasible. Behind the last
-    stone the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length that
-    is not positive.
+    A foot that lands further than `tolerance` [m] from its stone makes the walking step infeasible. Behind the
+    last stone the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length
+    that is not positive.
 
     >>> Stones((0.3, 0.5)).missed(2, 0.54).__round__(3)
     0.015
@@ -133,16 +134,20 @@ class Stones(Checked):
     tolerance: PositiveFloat = 0.025
 
     def missed(self, step: int, length: float) -> float:
-        """Distance [m] by which single support `step` of this length [m] misses its stone, 0 on the stone."""
+        """Distance [m] beyond the tolerance by which single support `step` of this length [m] misses its stone.
+
+        0 on the stone, and behind the last one. step: its number, from 1.
+        """
         if step > len(self.lengths):
             return 0.0
         return max(abs(length - self.lengths[step - 1]) - self.tolerance, 0.0)
 
 
 def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
-    """The length [m] of single support number `step` to its stone; `usual` [m] behind the last stone.
+    """The length [m] that brings single support `step` to its stone; `usual` [m] behind the last stone.
 
-    stones: lengths [m], the first one first. It also runs on symbols, so there is no indexing by `step`.
+    stones: lengths [m] of single supports 1, 2, ... step: a number, or a symbol of the code generator, which
+    cannot be an index.
     """
     L: Any = usual
     for k, stone in enumerate(stones, 1):
@@ -151,6 +156,7 @@ def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
 
 
 def _are_steps(steps: object) -> bool:
+    """Whether this is a tuple of steps up and down."""
     return isinstance(steps, tuple) and all(isinstance(x, StepDown | StepUp) for x in steps)
 
 
@@ -163,7 +169,10 @@ Steps = tuple[StepDown | StepUp, ...]
 
 
 def drop_of(steps: Steps, number: int) -> float:
-    """Depth by which these steps lower the ground on which single support `number` ends [m]."""
+    """Depth [m] by which these steps lower the ground on which single support `number` ends; negative for up.
+
+    Several steps of one single support add up.
+    """
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
@@ -184,8 +193,8 @@ def uneven_ground(seed: int, rms: float, steps: int) -> Steps:
 
 
 def stepped(drops: Array, first: int = 1) -> Steps:
-    """Steps of the ground, down by `drops` [m] (up if negative), one for each single support from `first` on;
-    none for a drop of 0.
+    """Steps of the ground by their drops [m], up where negative: drops[i] is that of single support first + i;
+    a drop of 0 makes no step.
     """
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)

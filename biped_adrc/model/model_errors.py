@@ -5,8 +5,8 @@
 m is the mass, d the distance of the COM from the origin of the link's frame, J the inertia about the COM, b and
 F_c the viscous and the static friction. The errors e are relative, chosen by hand or drawn from +-width,
 uniform, with a seed, for studies of robustness. Both legs of a biped get the same errors, because relabelling
-at impact needs equal legs; so errors go by body ("thigh") rather than by link. `ModelErrors.apply` makes the
-plant; the controller keeps the robot it was made with as nominal model.
+at impact needs equal legs; so errors go by body rather than by link: the body "thigh" is the links of both
+thighs. `ModelErrors.apply` makes the plant; the controller keeps the robot without errors as nominal model.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class ModelErrors(Checked, Shown):
     mass: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
     """Errors of the mass [1], by body or link; the inertia about the COM is not scaled with it."""
     com: Annotated[Mapping[str, float], FINITE] = field(default_factory=dict)
-    """Errors of the distance [1] of the COM from the link's origin, by body or link."""
+    """Errors of the distance of the COM from the link's origin [1], by body or link."""
     inertia: Annotated[Mapping[str, float], ABOVE] = field(default_factory=dict)
     """Errors of the inertia about the COM [1], by body or link."""
     friction: Annotated[Mapping[str, float], NOT_BELOW] = field(default_factory=dict)
@@ -63,11 +63,12 @@ class ModelErrors(Checked, Shown):
         inertia: float = 0.1,
         friction: float = 0.3,
     ) -> ModelErrors:
-        """Draw errors of every body from +-width, uniform, by a seed.
+        """Draw errors of every body, each uniform from -width to width, by a seed.
 
-        mass, com, inertia, friction: the widths, dimensionless. Errors of friction are drawn if the robot was
-        loaded with friction, for the joints that have some. The errors depend on the seed and on the bodies, in
-        their order. Raises InputError for widths with which a mass or an inertia may vanish.
+        mass, com, inertia, friction: the widths, dimensionless. Twin joints of both legs get one error. Errors
+        of friction are drawn if the robot was loaded with friction, for the joints that have some. The errors
+        depend on the seed and on the bodies, in their order. Raises InputError for widths with which a mass or
+        an inertia may vanish.
         """
         random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)
@@ -75,21 +76,22 @@ class ModelErrors(Checked, Shown):
             dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
             for width in (mass, com, inertia)
         )
-        pairs = list(_rubbing(biped))
+        pairs = list(_rubbing(biped))  # joints with friction; twins together
         drawn = random.uniform(-friction, friction, len(pairs)).tolist()
         by_pair = zip(pairs, drawn, strict=True)
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
     @classmethod
     def of_friction(cls, biped: Biped, error: float) -> ModelErrors:
-        """The same relative error of friction in all joints with friction. `apply` raises
-        ModelError where there is none.
+        """The same relative error [1] of friction in all joints with friction. Where there is none, `apply` of
+        the result raises ModelError.
         """
         joints = [joint for pair in _rubbing(biped) for joint in pair]
+        # no joint has the name "its joints": `apply` refuses it, in a sentence that contains it
         return cls(friction=dict.fromkeys(joints or ["its joints"], error))
 
     def apply(self, biped: Biped) -> Biped:
-        """`biped` with these errors. Raises ModelError for an unknown body or joint, or
+        """A copy of `biped` with these errors, the plant. Raises ModelError for an unknown body or joint, or
         legs that become unequal.
         """
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in FACTORS}
@@ -100,7 +102,10 @@ class ModelErrors(Checked, Shown):
         return wrong
 
     def _rubbed(self, biped: Biped) -> Biped:
-        """The biped with its viscous and static friction multiplied; twin joints must have the same error."""
+        """A copy of the biped with its viscous and static friction multiplied by 1 + e.
+
+        Raises ModelError for a joint without friction, and for twin joints that have not the same error.
+        """
         d, pairs = biped.description, list(_rubbing(biped))
         unlike = [pair for pair in pairs if len({self.friction.get(name) for name in pair}) > 1]
         if unlike or set(self.friction) - {name for pair in pairs for name in pair}:
@@ -117,20 +122,21 @@ class ModelErrors(Checked, Shown):
 
 
 def impact_error(seed: int, spread: float, n: int) -> Array:
-    """Relative errors e (n,) of the velocities after impact, drawn evenly from +-spread by a seed.
+    """Relative errors e (n,) [1] of the rates after impact, each uniform from -spread to spread, by a seed.
 
-    The impact then leaves (1 + e) q'+ in place of q'+ of (7).
+    The impact then leaves (1 + e) q'+ in place of q'+ of (7), entry by entry.
     """
     return np.random.default_rng(seed).uniform(-spread, spread, n)
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
-    """Iterate over the joints with friction, each with its twin of the other leg; none where friction
-    is off.
+    """Iterate over the joints with friction: (joint, its twin in the other leg), or (joint,) where the twin is
+    the joint itself or has no friction; nothing where the robot was loaded without friction.
     """
     joints, d = biped.description.joints, biped.description
     rubs = [biped.friction and bool(d.viscous.get(x) or d.static.get(x)) for x in joints]
     for i, joint in enumerate(joints):
         twin = int(np.argmax(np.abs(biped.R[i])))  # of a knee the other knee, of a spine itself
+        # the first of two twins yields the pair, the second nothing
         if rubs[i] and (twin >= i or not rubs[twin]):
             yield (joint, joints[twin]) if twin > i and rubs[twin] else (joint,)

@@ -14,7 +14,7 @@ laws hold for every planar biped, so they need no reference values. They are che
     q_e           (q, p_e), with the stance foot p_e (2,) [m]
     E_2           (2, n + 2), Jacobian of the swing foot p_2 by q_e
     H             angular momentum about p_2 [kg m^2/s], from masses, COM velocities and spins of the bodies
-                  (`contact.LinkMotion`)
+                  (`contact.LinkMotion`), counter-clockwise with x to the right and z up
     T             kinetic energy [J]
     Theta         phase of the gait [rad], c q with the row c of `Biped.phase`
 
@@ -42,18 +42,23 @@ LIMIT = 1e-9
 
 
 def physical_checks(biped: Biped) -> tuple[Check, ...]:
-    """Check the laws at 20 random states, one `Check` per law. A NaN counts as violated."""
+    """Check the laws at 20 random states: one `Check` per law, which holds if its relative gap is at most LIMIT
+    everywhere. A NaN counts as violated.
+    """
     laws = largest_gaps(biped, 20, 0)
     return tuple(at_most(law, "law", gap, LIMIT) for law, gap in laws.items())
 
 
 def largest_gaps(biped: Biped, states: int, seed: int) -> dict[str, float]:
-    """Largest relative gap of each law over `states` random states: angles in +-pi, rates of 3 rad/s."""
+    """Largest relative gap [1] of each law, by its sentence, over `states` random states.
+
+    Angles are uniform in +-pi, rates normal with standard deviation 3 rad/s.
+    """
     random, laws = np.random.default_rng(seed), dict[str, float]()
     for _ in range(states):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
         for law, gap in (*_single_support(biped, q, v), *_impact(biped, q, v)):
-            # np.maximum keeps a nan
+            # np.maximum keeps a NaN, max() might lose it
             laws[law] = float(np.maximum(laws.get(law, 0.0), gap))
     return laws
 
@@ -64,8 +69,7 @@ def _gap(found: Array, expected: Array) -> float:
 
 
 def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Check the laws of single support at q, v (n,) [rad, rad/s]; yields the sentence of
-    each and its relative gap.
+    """Yield the sentence of each law of single support, and its relative gap [1] at q, v (n,) [rad, rad/s].
 
     They are D_s and Omega, the places of hip and foot, and the direction of the phase.
     """
@@ -79,17 +83,19 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
     gap = _gap(np.array((b.hip(q), b.swing_foot(q))), places)
     yield "hip and swing foot are where the floating model has them", gap
     topple = np.zeros(b.n)
-    topple[-1] = 1.0
+    topple[-1] = 1.0  # the whole robot turns about the stance foot, by +1 rad/s of its pitch
     x, z = b.hip(q)
+    # (z, -x) is the direction of the hip in a clockwise turn, forwards; -1: a positive pitch rate is backwards
     forwards = np.sign(b.hip_velocity(q, topple) @ np.array([z, -x]))
     yield "Theta falls as the robot topples forwards", abs(float(forwards * b.phase[-1]) + 1.0)
 
 
 def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Check the laws of the plastic impact at q, v (n,) [rad, rad/s]; yields the sentence of
-    each and its relative gap.
+    """Yield the sentence of each law of the plastic impact, and its relative gap [1] at q, v (n,) [rad, rad/s]
+    just before it.
 
-    Changes of momenta are divided by the momentum of the whole robot at the same kinetic energy.
+    Changes of momenta are divided by sqrt(2 m T-) [N s], the momentum of the mass m with the energy T- in
+    translation; changes of angular momenta also by a length of the robot, `reach` [m].
     """
     hit, reach = b.impact(q, v), max(np.linalg.norm(b.swing_foot(q)), np.linalg.norm(b.hip(q)))
     before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)
@@ -104,13 +110,12 @@ def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
 
 
 def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
-    """Changes of conserved quantities in an impact (3,), in [kg m^2/s, kg m^2/s, kg
-    m/s]; zero up to round-off.
+    """Absolute changes of conserved quantities (3,) [kg m^2/s, kg m^2/s, kg m/s]; zero up to round-off.
 
-    q, v: (n,) before the impact [rad, rad/s]; hit: its result. The angular momentum of all links about the new
-    foot, since the only impulse acts there; that of the old leg about its hip and its knee, since ideal joints
-    transmit no impulsive torque; and the linear momentum, computed once before the relabelling and once pinned
-    at the new foot after it.
+    q, v: (n,) before the impact [rad, rad/s]; hit: its result. The first is the angular momentum of all links
+    about the new foot, since the only impulse acts there; the second that of the old leg about its hip and its
+    knee, the larger change, since ideal joints transmit no impulsive torque. The third compares the linear
+    momentum after the impact in two ways: floating before the relabelling, and pinned at the new foot after it.
     """
     before = LinkMotion(b.floating, q, np.append(v, [0.0, 0.0]))
     after, foot = LinkMotion(b.floating, q, hit.v_e), b.swing_foot(q)

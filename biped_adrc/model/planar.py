@@ -1,13 +1,15 @@
 """Points of a planar robot in closed form, and forces that act there.
 
-a = A q (n,) are the absolute angles of the links, counter-clockwise with x to the right and z up, zero for a
-link that points up. The place x + i z of every point fixed to the robot, as a complex number [m] from the
-stance foot, is a sum of turned vectors with constant complex numbers d (n,) [m], one number per link:
+a = A q (n,) are the absolute angles of the n links, counter-clockwise with x to the right and z up, zero for a
+link that points up; q (n,) are the coordinates q_s of `Biped`. The place x + i z of every point fixed to the
+robot, as a complex number [m] from the stance foot, is a sum of turned vectors with constant complex numbers d
+(n,) [m], one number per link:
 
     x + i z = sum_i d_i exp(i a_i)
 
-The vectors d are fitted to Pinocchio's own positions, where the fit is exact. The functions take numbers and
-object arrays of symbols alike: NumPy asks each symbol for its `cos` and `sin`. `planar_robot` has the dynamics.
+The vectors d are fitted to Pinocchio's own positions; the fit is exact but for round-off. Re d and Im d are
+passed as two arrays, re and im. The functions take numbers and object arrays of symbols alike: NumPy asks each
+symbol for its `cos` and `sin`. `planar_robot` has the dynamics.
 
 `wrench_torque` is the generalised force of a force and a moment at a point fixed to a link, for
 disturbances: with J(q) (2, n) the Jacobian of the point, and b (n,) that of the link's own absolute angle,
@@ -34,16 +36,18 @@ Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
 
 
 def per_link(z: ComplexArray) -> tuple[Array, Array]:
-    """Real and imaginary part of z, contiguous as compiled code expects them."""
+    """Real and imaginary part of z, the vectors d of a point with one number per link; contiguous copies, as
+    compiled code expects them.
+    """
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
 def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexArray:
-    """Fit the vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
+    """Fit the vectors d (points, n) [m] of points fixed to links, by least squares over 3 n + 3 random q.
 
-    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the positions (points, 2) [m].
-    Parts of d below `exact` times the largest distance of a place from the origin, or times 1 m where it is
-    smaller, are round-off and set to 0.
+    A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the positions (points, 2) [m],
+    or (2,) for one point. Parts of d below `exact` times the largest distance of a place from the origin, or
+    times 1 m where it is smaller, are round-off and set to 0.
     """
     n = len(A)
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
@@ -72,7 +76,9 @@ def turned(A: Indices | Array, q: Numbers) -> Turned[Numbers]:
 
 
 def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
-    """Position (x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]."""
+    """Position (x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]: the real
+    and the imaginary part of sum_i d_i exp(i a_i).
+    """
     return re @ t.c - im @ t.s, im @ t.c + re @ t.s
 
 
@@ -82,11 +88,12 @@ def jacobian(A: Indices | Array, t: Turned[Numbers], re: Array, im: Array) -> Nu
 
 
 POINT_EXACT = 1e-10
-"""Parts of a `LinkPoint` below this, relative to its largest distance from the stance foot, are round-off."""
+"""Parts of the vectors d of a `LinkPoint` below this [1], relative to the point's largest distance from the
+stance foot, are round-off."""
 
 
 class LinkPoint(NamedTuple):
-    """A point fixed to a link, in closed form for n coordinates; all arrays float64, for compiled code."""
+    """Constants of the closed form, in q (n,), of a point fixed to a link; all float64, for compiled code."""
 
     A: Array
     """Matrix of the absolute angles a = A q (n, n)."""
@@ -99,15 +106,16 @@ class LinkPoint(NamedTuple):
 
 
 def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
-    """Generalised force zeta (n,) [N m] of f = (F_x, F_z, M) (3,) [N, N, N m] at the point, at q (n,) [rad].
+    """Generalised force zeta (n,) [N m] of the force and moment f = (F_x, F_z, M) (3,) [N, N, N m] that act at
+    the point k, at q (n,) [rad].
 
-    M is counter-clockwise with x to the right and z up.
+    F is in the axes of the world. M is counter-clockwise with x to the right and z up.
     """
     return f[:2] @ jacobian(k.A, turned(k.A, q), k.re, k.im) + k.turn * f[2]
 
 
 def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -> LinkPoint:
-    """The point `at` (x, z) [m] in the frame of `link`, in closed form; its origin if None.
+    """The point at = (x, z) [m] in the frame of `link`, in closed form; None is the link's origin.
 
     Raises ModelError for a link that the robot does not have, or that does not move with its coordinates.
     """
@@ -121,16 +129,18 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
     frame = frame_index(f.model, link)
 
     def place(q: Array) -> Array:
+        """Position (x, z) (2,) [m] of the point from the stance foot."""
         pin.framesForwardKinematics(f.model, f.data, f.configuration(q))
         return np.asarray(f.data.oMf[frame].act(np.array([x_z[0], 0.0, x_z[1]])))[[0, 2]]
 
+    # row 4 is the turn about y, which points into the plane: minus makes it counter-clockwise
     zero = f.configuration(np.zeros(biped.n))
     J = pin.computeFrameJacobian(f.model, f.data, zero, frame, pin.LOCAL_WORLD_ALIGNED)
     return _fitted(biped, place, np.ascontiguousarray(-J[4, f.angles]))
 
 
 def hip_point(biped: Biped) -> LinkPoint:
-    """The hip as a point in closed form, without rotation: forces act there, moments do not."""
+    """The hip as a point in closed form, of no link: `turn` is 0, so `wrench_torque` ignores a moment there."""
     return _fitted(biped, biped.hip, np.zeros(biped.n))
 
 

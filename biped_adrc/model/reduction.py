@@ -10,6 +10,9 @@ The unactuated rows of (11) are solved for q_N'' and inserted into the actuated 
 actuated joint is a double integrator with an input gain kappa and a total disturbance xi. Controllers
 and observers work on (13) alone.
 
+q_b (p,) are the joints with motors, q_N the other coordinates, usually the pitch alone; D11 (p, p), D12, D21,
+D22 are the blocks of D_s for them, and index 1 stands for the rows of q_b, 2 for those of q_N.
+
 xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper prints one letter
 for both. Here B1 is the identity: the motors act on the joints q_b.
 """
@@ -32,7 +35,7 @@ class Reduction(NamedTuple):
     D: Array
     """Inertia matrix D_s (n, n) [kg m^2]."""
     Omega: Array
-    """C q' + G (n,) [N m]."""
+    """Coriolis and gravity terms C q' + G (n,) [N m]."""
     kappa: Array
     """Input gain (15), (p, p) [1/(kg m^2)]."""
     xi: Array
@@ -40,7 +43,7 @@ class Reduction(NamedTuple):
     kappa_inverse: Array
     """B1^-1 [D11 - D12 D22^-1 D21] (p, p) [kg m^2]."""
     A_N: Array
-    """-D22^-1 D21 (n - p, p): the unactuated rows are q_N'' = A_N q_b'' + a_N."""
+    """-D22^-1 D21 (n - p, p): without xi~ the unactuated rows are q_N'' = A_N q_b'' + a_N."""
     a_N: Array
     """-D22^-1 Omega2 (n - p,) [rad/s^2]."""
 
@@ -58,13 +61,13 @@ class BodyTerms(NamedTuple):
     G: Array
     """Gravity's part of Omega (n,) [N m]."""
     turning: Array
-    """C' q' = dT/dq (n,) [N m]: the rate of the momentum pi that the motion itself makes."""
+    """C' q' = dT/dq (n,) [N m], C' the transpose, T the kinetic energy: what the motion itself adds to pi'."""
     F_a: Array
     """m dp_com/dq (2, n) [kg m], the part of (F_T, F_N) that is proportional to q''."""
     F_0: Array
-    """(F_T, F_N) (2,) [N] at q'' = 0."""
+    """(F_T, F_N) (2,) [N] of the ground on the stance foot at q'' = 0, along x and z."""
     J_2: Array
-    """dp_2/dq (2, n) [m] of the swing foot."""
+    """dp_2/dq (2, n) [m] of the position (x, z) of the swing foot."""
     mass: float
     """Mass of the whole robot [kg]."""
 
@@ -81,10 +84,12 @@ def identity(p: int) -> Array:
 
 
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
-    """Compute kappa (15) and xi (14) with xi~ = 0, from D (n, n) [kg m^2] and Omega (n,) [N m].
+    """Compute kappa (15), xi (14) with xi~ = 0, and the other terms of a `Reduction`, from D_s = D (n, n) [kg
+    m^2] and Omega (n,) [N m].
 
     The first p coordinates are actuated; p = 0 is a passive robot with empty kappa and xi. With one unactuated
-    coordinate D22 is a number, and no system is solved for it. Raises SingularError.
+    coordinate D22 is a number, and no system is solved for it. Raises SingularError for a singular D22, or a
+    singular D11 - D12 D22^-1 D21.
     """
     if p == 0:
         a_N = -solve_positive(D, Omega, "D_s")
@@ -104,12 +109,13 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
 
 
 def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
-    """The generalised force xi~ = D_s a + Omega - B_s u (n,) [N m] of (11), which the
-    nominal model does not explain.
+    """The generalised force xi~ = D_s a + Omega - B_s u (n,) [N m] of (11), which the nominal model, with its
+    D_s and Omega in `terms`, does not explain.
 
-    With a = q'' (n,) [rad/s^2] of the plant and u (p,) [N m] it is zeta plus the model
-    error, friction included.
+    With a = q'' (n,) [rad/s^2] of the plant and its torque u (p,) [N m] it is the disturbance zeta plus the
+    model error delta, friction included.
     """
+    # B_s u has u in its first p rows, and 0 below
     force = terms.D @ a + terms.Omega
     force[: len(u)] = force[: len(u)] - u
     return force
@@ -118,8 +124,8 @@ def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
 def disturbance_parts(terms: Reduction, force: Array) -> tuple[Array, Array]:
     """Matched part (from xi~1) and unmatched part (from xi~2) of (14), each (p,) [rad/s^2].
 
-    A motor could cancel the matched part at once; the unmatched one enters through -D12 D22^-1 xi~2. force is
-    xi~ = delta + zeta (n,) [N m], on all coordinates.
+    A motor could cancel the matched part at once; the unmatched one enters through -D12 D22^-1 xi~2, where
+    -D12 D22^-1 = A_N^T. force is xi~ = delta + zeta (n,) [N m], on all coordinates.
     """
     p = terms.kappa.shape[0]
     return terms.kappa @ force[:p], terms.kappa @ (terms.A_N.T @ force[p:])

@@ -5,9 +5,11 @@
 
     input = kappa u (p,) [rad/s^2],  y = q_b (p,) [rad]
 
-for the observers under ADRC; those under DOB use the momentum and the known force of all n coordinates. States
-are passed in and handed back; an observer holds only numbers. So one observer object may serve
-many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
+for the observers under ADRC: q_b are the angles of the p joints with motors, kappa u is the acceleration that
+the torques u give them by the nominal model, xi = q_b'' - kappa u is the total disturbance, and ^ marks an
+estimate. The observer under DOB (`momentum`) has the momentum of all n coordinates as y and the known force on
+them as input. States are passed in and handed back; an observer holds only numbers. So one observer object may
+serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
 code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and judges
 it alone.
 
@@ -15,11 +17,11 @@ All observers of the package share a chain of integrators per coordinate in scal
 
     x_k = z_k scale^(k-1), k = 1..m+2,
 
-with x1 position, x2 velocity, x3 disturbance and its derivatives. In x itself the observer matrix of Table I
-has condition number 3e29; scaled it has 5e6. `lead` integrators lie between disturbance and measurement: two
-from an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and
-reset, which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and `momentum` add their
-flow.
+with x1 position, x2 velocity, x3 disturbance and its derivatives, m extended states in all from x3 on. In x
+itself the observer matrix with the poles of Table I has condition number 3e29; scaled it has 5e6. `lead`
+integrators lie between disturbance and measurement: two from an acceleration to an angle, one from a force to a
+momentum. `ChainObserver` has start, estimates and reset, which do not depend on how the gains were chosen;
+`gpi`, `high_gain`, `kalman` and `momentum` add their flow.
 """
 
 from __future__ import annotations
@@ -83,7 +85,7 @@ class ErrorSystem(NamedTuple):
     A: Array
     """Matrix (k, k) [1/s]."""
     velocity_scale: float
-    """Scale of the velocity in row 1 [s]."""
+    """Factor by which row 1 has the velocity multiplied [s]."""
 
 
 class Observer(Part):
@@ -103,7 +105,7 @@ class Observer(Part):
 
     @abstractmethod
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Any:
-        """State z whose estimates are position y, velocity dy and disturbance xi, each (p,)."""
+        """State z whose estimates are y [rad], dy [rad/s] and the disturbance xi [rad/s^2], each (p,)."""
 
     @abstractmethod
     def estimate(self, z: Any) -> Estimate:
@@ -115,7 +117,8 @@ class Observer(Part):
     ) -> Any:
         """State z after impact, from z before it.
 
-        `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are measured after it.
+        swap (p,): the relabelling; joint i after impact takes entry swap[i] of (x, -x), x (p,) before it. y,
+        dy, each (p,): measured position and velocity after it; xi (p,): the nominal model's disturbance there.
         """
 
     def flow(self, z: Any, y: Array, input: Array) -> Any:
@@ -144,7 +147,7 @@ class Observer(Part):
 
     @once
     def at_ticks(self, period: float) -> Observer:
-        """Call `sampled`, and check its result. Raises InputError for one without `correct` and `predict`."""
+        """The result of `sampled`, checked. Raises InputError for one without `correct` and `predict`."""
         found = self.sampled(period)
         check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
         for name in ("correct", "predict"):
@@ -155,11 +158,11 @@ class Observer(Part):
         return found
 
     def error_system(self) -> ErrorSystem | None:
-        """Linear error dynamics, for the exponential method; None where there are none."""
+        """Linear error dynamics, which the exponential integration method solves exactly; None without any."""
         return None
 
     def _only(self, sentence: str) -> NoReturn:
-        """Raise the InputError of a method that this observer has not."""
+        """Raise InputError, the name of the class and then `sentence`, for a method that it does not have."""
         raise InputError(f"{type(self).__name__} {sentence}")
 
 
@@ -197,7 +200,7 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
 
 
 def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
-    """`number` poles at -bandwidth [rad/s]. Raises InputError unless both are positive, and not too many."""
+    """`number` poles at -bandwidth [rad/s]. Raises InputError for values not positive or too large."""
     check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
     check_count(number, f"an observer has {number!r} poles")
     check_chain(number, bandwidth, "an observer")
@@ -205,7 +208,7 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
 
 
 def mean_bandwidth(poles: Sequence[complex]) -> float:
-    """Geometric mean of the poles [rad/s]."""
+    """Geometric mean of the magnitudes of the poles [rad/s]."""
     return float(np.exp(np.mean(np.log(np.abs(poles)))))
 
 
@@ -215,8 +218,10 @@ def _show(pole: complex) -> str:
 
 
 def check_chain(order: int, scale: float, what: str) -> None:
-    """Raise InputError for more than MOST_POLES states per joint, or a bandwidth [rad/s]
-    beyond SLOWEST to FASTEST.
+    """Raise InputError for an `order`, states per joint, above MOST_POLES, or a `scale` [rad/s] outside of
+    SLOWEST to FASTEST.
+
+    scale: bandwidth, or magnitude of one pole. what: the observer, for the message.
     """
     if order > MOST_POLES or not SLOWEST <= scale <= FASTEST:
         raise InputError(
@@ -229,8 +234,8 @@ def check_chain(order: int, scale: float, what: str) -> None:
 class ChainObserver(Observer):
     """Base of observers with m extended states; z is (lead + m, p). Subclasses add the dynamics.
 
-    m: number of the extended states. scale [rad/s]: near the bandwidth, so that the scaled states have numbers
-    of one size.
+    m: number of the extended states, the disturbance and its first m - 1 derivatives. scale [rad/s]: near the
+    bandwidth, so that the scaled states of the module have numbers of one size; 1/T in sampled time.
 
     >>> observer = ba.GPIObserver.from_bandwidth(300.0, m=2)
     >>> isinstance(observer, ba.ChainObserver), observer.order
@@ -251,7 +256,10 @@ class ChainObserver(Observer):
         return self.lead + self.m
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """State z whose estimates are y, dy and xi, each (p,); higher derivatives are zero."""
+        """State z whose estimates are y, dy and xi, each (p,) in physical units; derivatives of xi are zero.
+
+        With one integrator y is a momentum and dy is not used.
+        """
         z = np.zeros((self.order, len(y)))
         z[0] = y
         if self.lead > 1:
@@ -261,7 +269,10 @@ class ChainObserver(Observer):
         return z
 
     def estimate(self, z: Array) -> Estimate:
-        """Estimates x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
+        """Estimates x1^, x2^ and xi^ in z, each (p,), in physical units.
+
+        xi^ = 0 for m = 0. With one integrator x1^ is a momentum, xi^ a force, and x2^ = 0.
+        """
         none = np.zeros(z.shape[1])
         velocity = z[1] * self.scale if self.lead > 1 else none
         return Estimate(
@@ -271,10 +282,11 @@ class ChainObserver(Observer):
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """State z after impact; MEASURED keeps xi^ and its derivatives, relabelled.
+        """State z after impact, by a policy; MEASURED keeps xi^ and its derivatives, with the legs swapped.
 
         With one integrator xi^ is a force, which the impact does not end, so MODEL keeps it too, and only its
-        derivatives become zero. Coordinates behind the p joints keep their place.
+        derivatives become zero. Columns of z behind the first p = len(swap), of unactuated coordinates, keep
+        their place.
         """
         if policy is ResetPolicy.NONE:
             return z

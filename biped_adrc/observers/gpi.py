@@ -63,27 +63,34 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """Base of the observers (17), whatever their gains; a subclass defines the `poles`."""
+    """Base of the observers (17), whatever their gains; a subclass defines the `poles`.
+
+    k = lead + m is the number of states: m + 2 for the GPI observer, m + 1 for the momentum observer, which has
+    one integrator between input and measurement (lead = 1). w is `scale`.
+    """
 
     @property
     @abstractmethod
     def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (m + 2,) [rad/s]."""
+        """Poles of the error dynamics (k,) [rad/s]."""
 
     @derived
     def scaled_gains(self) -> Array:
-        """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: coefficients of the polynomial
-        of the poles divided by w.
+        """l_(m+1)/w, l_m/w^2, ... (k,), dimensionless: coefficients of the polynomial of the poles divided by
+        w, without its leading 1.
         """
         return np.ascontiguousarray(np.real(np.poly(np.array(self.poles) / self.scale))[1:])
 
     @property
     def gains(self) -> Array:
-        """l_(m+1), l_m, ..., l_0 of (17) in physical units (m + 2,): [1/s], [1/s^2], ..., [1/s^(m+2)]."""
+        """l_(m+1), l_m, ..., l_0 of (17) in physical units (k,): [1/s], [1/s^2], ..., [1/s^k]."""
         return self.scaled_gains * self.scale ** np.arange(1, self.order + 1)
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' of the scaled states, for the measurement y (p,) [rad] and the input kappa u (p,) [rad/s^2]."""
+        """z' of the scaled states z (k, p), for the measurement y (p,) [rad] and input kappa u (p,) [rad/s^2].
+
+        With one integrator y is a momentum and the input a force, each (n,).
+        """
         w = self.scale
         dz = w * np.outer(self.scaled_gains, y - z[0])
         dz[:-1] += w * z[1:]
@@ -96,8 +103,10 @@ class InjectedChain(ChainObserver):
         return SampledChain(self.m, 1.0 / period, self, period, lead=self.lead)
 
     def sampled_gains(self, Phi: Array, period: float) -> Array:
-        """L (k,), dimensionless, by Ackermann's formula: eigenvalues at exp(s T). Phi (k,
-        k): the transition matrix.
+        """L (k,), dimensionless, which places the eigenvalues of (I - L C) Phi at exp(s T), s the `poles`.
+
+        Ackermann's formula: L = p(Phi) O^-1 (0, .., 0, 1), where p is the polynomial of these eigenvalues and
+        the rows of O are C Phi, C Phi^2, .. Phi (k, k): transition matrix over the period T [s].
         """
         k = self.order
         N = Phi - np.eye(k)
@@ -140,7 +149,8 @@ class GPIObserver(InjectedChain):
     def from_poles(cls, poles: Sequence[complex] = TABLE_I, m: int | None = None) -> GPIObserver:
         """The observer with m + 2 stable poles [rad/s]; complex ones in conjugate pairs.
 
-        m, when given, is checked against their number. Raises InputError.
+        m: follows from their number; an m other than None is compared with it. Raises InputError where they
+        differ, and as `stable_poles`.
         """
         poles = stable_poles(poles, "a GPI observer")
         if m is not None and len(poles) != m + 2:
@@ -164,8 +174,10 @@ class GPIObserver(InjectedChain):
 class SampledChain(ChainObserver):
     """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T.
 
-    The input is held between ticks. Where it changes within a period, as beta of the momentum observer, this
-    looks like a part of the disturbance: the estimate has an error of about (T / 2) dbeta/dt.
+    continuous: the observer in continuous time, which computes L. period: T. k = lead + m is the number of
+    states. The input is held between ticks. Where it changes within a period, as the known force beta of the
+    momentum observer, this looks like a part of the disturbance: the estimate has an error of about (T / 2)
+    dbeta/dt.
     """
 
     continuous: InjectedChain = field(metadata=SETUP)
@@ -173,13 +185,13 @@ class SampledChain(ChainObserver):
 
     @derived
     def Phi(self) -> Array:
-        """Transition matrix (k, k) over one period, dimensionless."""
+        """Transition matrix (k, k) of the scaled states over one period, dimensionless."""
         k = range(self.order)
         return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
 
     @derived
     def Gamma(self) -> Array:
-        """Input vector (k,) [s^2], or [s] for one integrator."""
+        """Input vector (k,) [s^2]: T^2 (1/2, 1, 0, ..); for one integrator T (1, 0, ..) [s]."""
         Gamma, lead = np.zeros(self.order), self.lead
         Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
         return Gamma
@@ -194,5 +206,5 @@ class SampledChain(ChainObserver):
         return z + np.outer(self.L, y - z[0])
 
     def predict(self, z: Array, input: Array) -> Array:
-        """State z one period later under a constant input (p,)."""
+        """State z one period later under a constant input (p,) [rad/s^2], a force [N m] for one integrator."""
         return self.Phi @ z + np.outer(self.Gamma, input)

@@ -5,11 +5,13 @@
      ...
     x_(m+2)^' =       alpha_(m+2) / eps^(m+2) (y - x1^)
 
-s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is Hurwitz; its roots divided by eps are the poles. As eps falls
-the loop recovers what it does with the state and the disturbance known, and the peaking of the estimates
-after a jump grows as eps^-(k-1): limit the torque, and start again at impact. Freidovich, Khalil, IEEE TAC
-53(10), 2008; Khalil, High-Gain Observers in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17)
-in another parametrisation, with states scaled by 1 / eps.
+x1^, x2^, x3^ estimate a joint's angle, velocity and disturbance, y is the measured angle, and kappa u the
+acceleration that the torques give by the nominal model. s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is
+Hurwitz; its roots divided by eps are the poles. As eps falls, the loop comes to behave as if state and
+disturbance were known, but the peak of x_k^ after a jump grows as eps^-(k-1). So the torque has to be limited,
+and the observer to be reset at impact. Freidovich, Khalil, IEEE TAC 53(10), 2008; Khalil, High-Gain Observers
+in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17) in another parametrisation, with states
+scaled by 1 / eps.
 """
 
 from __future__ import annotations
@@ -32,6 +34,8 @@ from biped_adrc.observers.gpi import InjectedChain
 class HighGainObserver(InjectedChain):
     """The extended high-gain observer, the same for every joint; `scale` is 1 / eps [1/s]. Make it with
     `from_epsilon`.
+
+    alpha (m + 2,): alpha_1 .. alpha_(m+2), dimensionless.
     """
 
     alpha: tuple[float, ...] = ()
@@ -42,8 +46,8 @@ class HighGainObserver(InjectedChain):
     def from_epsilon(
         cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1
     ) -> HighGainObserver:
-        """The observer with epsilon [s] and alpha_1 .. alpha_(m+2), dimensionless; those
-        of (s + 1)^(m+2) if None.
+        """The observer with eps = epsilon [s] and alpha_1 .. alpha_(m+2), dimensionless; if alpha is None, the
+        coefficients of (s + 1)^(m+2): all poles at -1 / eps.
 
         Raises InputError for an epsilon that is not positive, m below 1, and alphas that are not those of a
         stable polynomial of degree m + 2.
@@ -56,12 +60,12 @@ class HighGainObserver(InjectedChain):
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:
-        """Poles of the error dynamics (m + 2,) [rad/s]; round-off scatters m + 2 equal ones."""
+        """Poles of the error dynamics (m + 2,) [rad/s]; round-off scatters equal ones a little."""
         return tuple(complex(root) * self.scale for root in np.roots([1.0, *self.alpha]))
 
     @derived
     def scaled_gains(self) -> Array:
-        """The coefficients alpha (m + 2,)."""
+        """The coefficients alpha (m + 2,): as states are scaled by 1 / eps, they are the scaled gains."""
         return np.array(self.alpha)
 
 

@@ -2,9 +2,11 @@
 
     x_1' = x_2,   x_2' = x_3 + kappa u,   ...,   x_(m+2)' = w,      y = x_1 + r
 
-w and r are white with the intensities W [rad^2/s^(2 m + 3)] and R [rad^2 s]. The estimate of least variance is
-the observer (17) with the gains of the algebraic Riccati equation, which for a chain are known in closed form:
-the poles are those of a Butterworth filter of order m + 2 with the bandwidth
+x_1 is a joint's angle, x_2 its velocity, x_3 its disturbance, kappa u the acceleration that the torques give by
+the nominal model, and y the measured angle. w and r are white with the intensities W [rad^2/s^(2 m + 3)] and R
+[rad^2 s]. The estimate of least variance is the observer (17) with the gains of the algebraic Riccati equation,
+which for a chain are known in closed form: the poles are those of a Butterworth filter of order m + 2 with the
+bandwidth
 
     omega = (W / R)^(1 / (2 (m + 2))).
 
@@ -33,8 +35,8 @@ from biped_adrc.observers.gpi import InjectedChain
 
 @dataclass(frozen=True)
 class KalmanObserver(InjectedChain):
-    """The observer with gains of a steady-state Kalman filter; `scale` is omega [rad/s].
-    Make it with `from_noise`.
+    """The observer with gains of a steady-state Kalman filter; `scale` is omega [rad/s]. Make it with
+    `from_noise`, whose `measurement` is sqrt(R), while the field `measurement` is R.
     """
 
     measurement: float = 0.0
@@ -70,10 +72,11 @@ class KalmanObserver(InjectedChain):
         return tuple(complex(pole) for pole in self.scale * np.exp(1j * angles))
 
     def sampled_gains(self, Phi: Array, period: float) -> Array:
-        """L (m + 2,) of the steady-state filter, dimensionless.
+        """L (m + 2,) of the steady-state filter, dimensionless. Phi (m + 2, m + 2): transition matrix over the
+        period [s].
 
-        The Riccati equation is solved with Q / R in scaled states: in physical ones its numbers cover so many
-        decades that the solver fails.
+        The Riccati equation is solved in states scaled by powers of T, for P, the covariance of the prediction
+        over R / T: in physical states its numbers cover so many decades that the solver fails.
         """
         k, T = self.order, period
         R = self.measurement / T

@@ -39,8 +39,9 @@ from biped_adrc.observers.gpi import InjectedChain
 class MomentumObserver(InjectedChain):
     """The momentum observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
 
-    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m], of all n
-    coordinates, as `control.momentum_dob` has them.
+    One integrator (lead = 1) leads from the force to the momentum, and r and its derivatives are m = k - 1
+    extended states. Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force
+    [N m], of all n coordinates, as `control.momentum_dob` has them.
     """
 
     poles: tuple[complex, ...] = ()
@@ -59,5 +60,5 @@ class MomentumObserver(InjectedChain):
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
-        """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
+        """The observer with `order` poles, at least two, at -bandwidth [rad/s]. Raises InputError for fewer."""
         return cls.from_poles(equal_poles(bandwidth, order))

@@ -34,9 +34,9 @@ from biped_adrc.view.style import render
 def draw_all(
     r: Runs, walks: Mapping[str, Walk], out: Path, workers: int | None = None
 ) -> dict[str, bytes]:
-    """Write every figure to `out` as .png and .svg; returns the SVG by name, for the report.
+    """Write every figure to the folder `out` as .png and .svg; returns the SVG by name, for the report.
 
-    walks: the pushed ones, by controller.
+    walks: the headline runs, under the plan's push, by controller. workers: processes; one per core if None.
     """
     named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
     drawn = run_tasks(list(named.values()), workers, PRELOADED)
@@ -50,11 +50,11 @@ def draw_all(
 
 
 def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
-    """The figures of the paper and beyond, by file name, each as a task that draws it.
+    """The figures of the paper and beyond, by file name, each as a task that returns it as (PNG, SVG).
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
-    does not: the disturbance estimate, the ground's force, energies, multipliers, and the map
-    of pushes.
+    does not: the disturbance estimate, the ground's force, energies, multipliers, and the map of pushes, which
+    only a full plan computes. signals: of the pushed walks, by controller.
     """
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
@@ -68,7 +68,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
         "figure6": (figures.phase_figure, signals),
         "comparison": (figures.comparison_figure, signals, window),
         "disturbance": (figures.disturbance_figure, adrc, pushed, window),
-        "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),
+        "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),  # 0.0: level ground
         "energy": (figures.energy_figure, adrc, pushed, window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
     }
@@ -80,10 +80,11 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     """Draw the map of pushes of one preset: a panel for each controller and torque limit, onset [ms] against
-    joints and amplitude [N m]. rows: cells as `PushCell.row` returns them.
+    joints and amplitude [N m]. rows: pushes as `PushCell.row` returns them.
 
-    A cell is 1 if the walk makes all steps and is feasible, or would be but for the impulses at impact; 0.5 if
-    it makes all steps and is infeasible; 0 if it does not make all steps; empty if it is marginal.
+    The number of a push is 1 if the walk makes all steps and is feasible, or would be but for the impulses at
+    impact; 0.5 if it makes all steps and is infeasible; 0 if it does not make all steps; NaN, an empty cell, if
+    the walk ends in another way at half of the integration step ("marginal").
     """
     ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": math.nan}
     panels: dict[str, list[tuple[float, str, float]]] = {}
@@ -99,7 +100,9 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
 
 
 def _rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
-    """A figure as PNG and as SVG; the layout is computed once, for the PNG, so that both are alike."""
+    """The figure that draw(*arguments) makes, as PNG and as SVG; the layout is computed once, for the PNG, so
+    that both are alike.
+    """
     figure = draw(*arguments)
     png = render(figure, "png")
     figure.set_layout_engine("none")

@@ -1,9 +1,15 @@
 """The scenarios on which claims are tried, from the results of a reproduction, and the metrics of claims.
 
 claims.toml and checks.toml name these functions: one that takes `Runs` returns scenarios by name, the others
-compute a metric of one of them. A metric is `AtTwoSteps`: its value at the integration step used, and at half
-of it. Where NaN may occur NumPy's max and min are used, since Python's ignore NaN, and a limit would then count
-as kept by a number that does not exist.
+compute a metric of one of them; words behind the name of a function in the file are its first arguments. A
+metric is `AtTwoSteps`, its value at the integration step used and at half of it, or a float, which counts as
+the same at both. Where NaN may occur NumPy's max and min are used, since Python's ignore NaN, and a limit would
+then count as kept by a number that does not exist.
+
+Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. An `Outcome` holds the
+numbers of one walk; a walk is asked for a number of impacts, and makes all of them unless it falls or stops.
+A `Certificate` says what a finished walking step has asked of ground and motors (forces, torques, work).
+A member is one combination of the choices that the paper leaves open; its walks have a push on the joints.
 """
 
 from __future__ import annotations
@@ -33,26 +39,28 @@ Pair = tuple[Outcome, Outcome]
 
 
 def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
-    """The number of(*found) of walks or cycles at the integration step used, and of their halves at
-    half of it.
+    """The number `of(*found)`, found: outcomes of walks at the integration step used; and the same number of
+    the outcomes in their fields `half`, which are those at half of the step.
     """
     return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
 def made(o: Outcome) -> AtTwoSteps:
-    """Share of the impacts asked for that are made."""
+    """Share [1] of the impacts asked for that the walk makes."""
     return at_two(lambda x: x.impacts / x.run.run.impacts, o)
 
 
 def distance(o: Outcome) -> float:
-    """max |x- - x*| [rad, rad/s] at the last impact, x* of the paper's section VI; infinite after a fall."""
+    """max |x- - x*| over q [rad] and q' [rad/s] at the last impact, with x* of the paper's section VI; infinite
+    where the walk does not make all impacts. The controller's states behind (q, q') do not count.
+    """
     if not o.walked:
         return math.inf
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
 
 
 def error(pair: Pair) -> AtTwoSteps:
-    """Largest tracking error of ADRC over that of NPD; infinite where not both make all impacts."""
+    """Ratio [1] of the peak error under ADRC to that under NPD; infinite unless both walks make all impacts."""
 
     def ratio(npd: Outcome, adrc: Outcome) -> float:
         return peak_ratio((npd, adrc)) if npd.walked and adrc.walked else math.inf
@@ -61,34 +69,34 @@ def error(pair: Pair) -> AtTwoSteps:
 
 
 def largest(name: str, o: Outcome) -> float:
-    """The largest value of the certificates' field `name` over all walking steps; infinite without a step, so
-    that no limit counts as kept.
+    """The largest value of the field `name` of `Certificate` over all finished walking steps, in its unit;
+    infinite without a step, so that no limit counts as kept.
     """
     return float(np.max([getattr(s, name) for s in o.certificates] or [math.inf]))
 
 
 def least(name: str, o: Outcome) -> float:
-    """The least value of the certificates' field `name` over all walking steps; minus infinity without a step,
-    so that no limit counts as kept.
+    """The least value of the field `name` of `Certificate` over all finished walking steps, in its unit; minus
+    infinity without a step, so that no limit counts as kept.
     """
     return float(np.min([getattr(s, name) for s in o.certificates] or [-math.inf]))
 
 
 def last(name: str, o: Outcome) -> float:
-    """The certificates' field `name` in the last walking step; NaN without a step."""
+    """The field `name` of the `Certificate` of the last finished walking step; NaN without a step."""
     return float(getattr(o.certificates[-1], name)) if o.certificates else math.nan
 
 
 def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
-    """The certificates' field `name` in the last walking step, at the integration step used and at half of
-    it.
+    """The field `name` of the `Certificate` of the last finished walking step, at the integration step used and
+    at half of it.
     """
     return at_two(partial(last, name), o)
 
 
 def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) -> AtTwoSteps:
-    """The number of(orbit) of a walking cycle at both integration steps; NaN for a text, which says why no
-    cycle was found.
+    """The number `of(orbit)` of a walking cycle, its orbit computed at both integration steps; NaN where
+    `found` is a text, which says why no cycle was found.
     """
     if isinstance(found, str):
         return AtTwoSteps(math.nan, math.nan)
@@ -96,17 +104,17 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
-    """The largest |multiplier| [1] of a cycle; NaN for a text, which says why no cycle was found."""
+    """The largest |multiplier| [1] of a cycle, stored first; NaN for a text, the reason why there is none."""
     return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
 
 
 def second_multiplier(found: PoincareResult) -> float:
-    """The second largest |multiplier| of a cycle."""
+    """The second largest |multiplier| [1] of a cycle, under NPD the largest of the tracking error."""
     return float(np.sort(np.abs(found.orbit.multipliers))[-2])
 
 
 def off_delta_squared(found: PoincareResult) -> float:
-    """||largest multiplier| - delta^2| [1], with delta^2 of the zero dynamics."""
+    """||largest multiplier| - delta^2| [1]; delta^2 is its closed form, from the zero dynamics of the gait."""
     return float(abs(abs(found.orbit.multipliers[0]) - found.delta_squared))
 
 
@@ -118,7 +126,7 @@ def multiplier_change(found: PoincareResult | str) -> float:
 
 
 def phase_rate(x_minus: Array) -> float:
-    """Theta' of a state before an impact [rad/s], with Theta = q5 + q1 + q3 / 2."""
+    """Theta' [rad/s] of RABBIT's state (q1..q5, q1'..q5', ...) before an impact: Theta = q5 + q1 + q3 / 2."""
     return float(x_minus[5] + 0.5 * x_minus[7] + x_minus[9])
 
 
@@ -136,31 +144,33 @@ def speed_error(found: PoincareResult | str) -> AtTwoSteps:
 
 
 def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
-    """The field `name` of a `MemberWalk`: a number of a combination of choices under one controller."""
+    """The field `name` of the `MemberWalk` of a member under one controller, in its unit."""
     return getattr(o.walked[controller], name)
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
-    """Ratio [1] of the tracking error that the push adds under ADRC to that which it adds under NPD."""
+    """Ratio [1] of the tracking error that the push adds under ADRC to that which it adds under NPD, each
+    against the same walking step without the push.
+    """
     return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
 
 
 def error_ratio(o: MemberOutcome) -> AtTwoSteps:
-    """Ratio [1] of the peak tracking error under ADRC to that under NPD, of which a part is not due to the
-    push.
+    """Ratio [1] of the peak tracking error in the pushed step under ADRC to that under NPD; the peaks contain
+    the error that is there without a push too.
     """
     return o.walked["ADRC"].peak.over(o.walked["NPD"].peak)
 
 
 def longest(o: MemberOutcome) -> AtTwoSteps:
-    """Duration of the longest walking step [s] under both controllers; infinite if one does not make all
-    steps.
+    """Duration [s] of the longest walking step of both controllers' walks; infinite if one of the walks does
+    not make all steps.
     """
     return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 
 
 def reached(start: Start) -> AtTwoSteps:
-    """Share [1] of the impacts asked for that are made, by the controller that makes more of them."""
+    """Share [1] of the impacts asked for that are made, under the controller that makes more of them."""
     return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
 
 
@@ -173,7 +183,8 @@ def longest_step(multiplier: float) -> float:
 
 def period_gap(pair: Pair) -> float:
     """Largest difference of the durations of walking steps under NPD and ADRC, over the duration of an
-    undisturbed step [1]; infinite if the two make different numbers of steps.
+    undisturbed step [1]; infinite if the two make different numbers of steps. The first two steps are
+    undisturbed: the push on the torso acts in the third one.
     """
     npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
@@ -187,104 +198,114 @@ def peak_ratio(pair: Pair) -> float:
 
 
 def change(i: str, j: str, figures: Sequence[float]) -> float:
-    """|figure i / figure j - 1|, of the numbers of `numerics_laws` in their order, from 0."""
+    """|figures[i] / figures[j] - 1| [1]; figures: the numbers of `physical_laws.numerics_laws` in their order.
+    i and j are indices from 0, as text, since they are words of checks.toml.
+    """
     return abs(figures[int(i)] / figures[int(j)] - 1.0)
 
 
 def figure(i: str, figures: Sequence[float]) -> float:
-    """Absolute value of the i-th, from 0, of the numbers of `numerics_laws`."""
+    """|figures[i]|, of the numbers of `physical_laws.numerics_laws` in their order; i: an index, as text."""
     return abs(figures[int(i)])
 
 
 def adrc_counts(cell: PushCell) -> float:
-    """1 if ADRC makes all steps of this walk and it is feasible, or would be but for the impulses at impact;
-    else 0.
+    """1 if under this push of the map the walk under ADRC makes all steps and is feasible, or would be but for
+    the impulses at impact; else 0.
     """
     return float(cell.adrc.feasibility.outcome in COUNTED)
 
 
 def quotient(pair: tuple[float, float]) -> float:
-    """The first over the second."""
+    """The first over the second, of a pair of gains in the same unit [1]."""
     return pair[0] / pair[1]
 
 
 def periods(found: Mapping[str, float]) -> float:
     """Period of the gait over the time in which a tracking error decays to the least multiplier that the paper
-    prints [1]: above 1 that multiplier is none of the tracking error.
+    prints [1]. Above 1 a tracking error decays in one walking step to less than that multiplier, which then
+    cannot be one of the tracking error. found: what `runs.jumps` returns.
     """
     return found["period"] / longest_step(LEAST_PRINTED)
 
 
 # -- what of a scenario a verdict may depend on ----- ------------------------------------------------
 def theta_of(o: MemberOutcome) -> str:
-    """The choice of Theta'' of a member, in words: verdicts may depend on it, since it causes the error that
-    remains under ADRC without a push.
+    """How Theta'' enters (20) in this member, in words: verdicts may depend on it, since (20) as printed leaves
+    an error under ADRC without any push.
     """
     return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
 
 
 # -- scenarios -------------------------------------------------------------------------------------
 def headline(r: Runs) -> dict[str, Outcome]:
-    """The pushed walks, by controller."""
+    """The headline runs, 25 impacts under the plan's push, by controller."""
     return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
 
 def adrc_push(r: Runs) -> dict[str, Outcome]:
-    """The pushed walk under ADRC."""
+    """The headline run, a walk under the plan's push, under ADRC alone."""
     return {"ADRC": r.pair("push")[1]}
 
 
 def walks(r: Runs) -> dict[str, Outcome]:
-    """Walks under both controllers, one by one."""
-    every = r.pairs("").items()
+    """All walks of `runs.BOTH` under both controllers, by "controller, name of the walk"."""
+    every = r.pairs("").items()  # every name begins with an empty word
     return {f"{c}, {n}": o for n, pair in every for c, o in zip(CONTROLLERS, pair, strict=True)}
 
 
 def all_cycles(r: Runs) -> dict[str, PoincareResult | str]:
-    """Cycles with all multipliers, and those of gait (b)."""
+    """The walking cycles whose multipliers are all computed, of gait (a), and the cycles of gait (b), by name;
+    a text says why there is no cycle.
+    """
     every = {f"multipliers {name}": x for name, x in r.multipliers.items()}
     return every | r.named("cycles", "(b)")
 
 
 def laws_of_walks(r: Runs) -> dict[str, Mapping[str, float]]:
-    """Violations of physical laws in the headline runs, by controller."""
+    """Law -> violation, as `physical_laws.walk_laws` returns it for a headline run, by controller."""
     return {c: x.laws for c, x in r.headline.items()}
 
 
 def laws_of_models(r: Runs) -> dict[str, float]:
-    """Violation of each law by each model."""
+    """Largest relative violation [1] of each law of the model in each preset, by "preset: law"."""
     laws = next(iter(r.model.values()))
     return {f"{preset}: {law}": x[law] for law in laws for preset, x in r.model.items()}
 
 
 def numerics(r: Runs) -> dict[str, Sequence[float]]:
-    """The figures of the numerical methods, all together."""
+    """One scenario with no name: the numbers of `physical_laws.numerics_laws`, all together in their order."""
     return {"": tuple(r.figures.values())}
 
 
 def pushed(kind: str, r: Runs) -> dict[str, MemberOutcome]:
-    """The push on the joints at all declared choices ("members"), or on gait (b) ("pushed_recipe")."""
+    """The walks of all members, by name. kind: the field of `Runs` with them, "members" for all declared
+    choices, or "pushed_recipe" for the push on gait (b).
+    """
     return {o.member.name: o for part in getattr(r, kind).values() for o in part}
 
 
 def heavier(r: Runs) -> dict[str, Pair]:
-    """A plant heavier than the model, in all presets."""
+    """The walks (NPD, ADRC) with a plant heavier than the controller's model, by preset and kind of change."""
     result = {}
     for preset, kind in itertools.product(r.plan.presets, HEAVIER):
+        # the walks in the plan's own preset have its name left out
         name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
         result[f"{preset}, heavier {kind}"] = r.pair(name)
     return result
 
 
 def torso(r: Runs) -> dict[str, Pair]:
-    """Pushes on the torso, in all presets."""
+    """The walks (NPD, ADRC) with a push on the torso, by "torque on the torso, preset"."""
     every = itertools.product(declared()["torso"]["amplitudes"], r.plan.presets)
     names = (f"{torque:g} N m on the torso, {preset}" for torque, preset in every)
     return {name: r.pair(name) for name in names}
 
 
 def lost_by_npd(r: Runs) -> dict[str, PushCell]:
-    """The pushes of the map under which NPD does not make its steps, without those with a marginal outcome."""
+    """The pushes of the map under which NPD does not make all steps, by preset, torque limit and push; without
+    those under which a walk ends in another way at half of the integration step.
+    """
     cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c
@@ -293,25 +314,27 @@ def lost_by_npd(r: Runs) -> dict[str, PushCell]:
 
 
 def undisturbed(gaits: str, r: Runs) -> dict[str, Outcome]:
-    """The undisturbed walks under NPD on these gaits, by "gait (.), preset"."""
+    """The undisturbed walks under NPD, by "gait (a), preset"; gaits: "a", "b", or "ab" for both."""
     every = {name: o for gait in gaits for name, o in r.on_gait(gait).items()}
     return {name.removesuffix(", NPD"): o for name, o in every.items() if name.endswith("NPD")}
 
 
 def both_gaits(r: Runs) -> dict[str, tuple[Outcome, Outcome]]:
-    """The undisturbed walks under NPD on gait (b) and gait (a), by preset."""
+    """The undisturbed walks under NPD on (gait (b), gait (a)), in this order, by preset."""
     b, a = (undisturbed(gait, r).values() for gait in "ba")
     return dict(zip(r.plan.presets, zip(b, a, strict=True), strict=True))
 
 
 def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
-    """Cost of transport of the first walk over that of the second."""
+    """Cost of transport of the first walk over that of the second [1], each in its last walking step."""
     one, other = (last_at_two("cost_of_transport", o) for o in pair)
     return one.over(other)
 
 
 def below_least(r: Runs) -> dict[str, Start]:
-    """Starts below the least speed that reaches the next impact."""
+    """The starts with less than the least speed that reaches the next impact, by preset and by their speed
+    after the impact as a share of the gait's.
+    """
     return {
         f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
         for preset, result in r.starts.items()
@@ -321,7 +344,9 @@ def below_least(r: Runs) -> dict[str, Start]:
 
 
 def gains(r: Runs) -> dict[str, tuple[float, float]]:
-    """Pairs of gains, of Table I (m = 7) and of an observer with one extended state (m = 1)."""
+    """Pairs of the same gain, of the observer of Table I (m = 7) and of one with m = 1 extended state, which
+    has either the same bandwidth or the same delay margin.
+    """
     result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():
         for name in ("equal bandwidth", "equal delay margin"):

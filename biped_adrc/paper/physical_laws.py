@@ -43,15 +43,19 @@ from biped_adrc.scenario.walk import walk_scenario
 
 
 def model_laws(preset: str, samples: int = 200, seed: int = 1) -> dict[str, float]:
-    """The largest violation of each law of the model at `samples` random states, by name."""
+    """The largest relative violation [1] of each law of the model at `samples` random states, by name.
+
+    seed: of the random states.
+    """
     return largest_gaps(Biped.load("rabbit", preset), samples, seed)
 
 
 def walk_laws(full: Walk) -> dict[str, float]:
-    """Laws of a simulated walk: foot on the ground at located impacts [m], and power balance over one step [J].
+    """Violations of two laws in a simulated walk, both 0 but for errors of integration.
 
-    The balance is taken over the pushed step, or the first one: kinetic and potential energy gained against the
-    integral of u' q_b' + zeta' q', the power of motors and of the disturbance.
+    "height" [m]: largest |height of the swing foot| at the impacts that the simulator located. "energy" [J]:
+    kinetic and potential energy gained, less the integral of u' q_b' + zeta' q', the power of motors and of the
+    disturbance; over the first pushed step, or the first step where there is none.
     """
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
@@ -77,8 +81,7 @@ def work_identity(o: Outcome) -> float:
 
 @dataclass(frozen=True)
 class HeldJoint(HybridSystem):
-    """One joint held at zero by ADRC under a sine disturbance: the loop for which (23) of the paper has a
-    closed form.
+    """One joint held at zero by ADRC under a sine disturbance: the linear loop whose error is the paper's (23).
 
     J q'' = u + J xi(t),   xi = sin(w t) [rad/s^2]
     """
@@ -93,6 +96,7 @@ class HeldJoint(HybridSystem):
     def flow(self, t: float, x: Array, mode: AnyMode) -> Array:
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
+        # the measurement in single support 1, with the joint's own J as the model and no bias Omega
         D = np.array([[self.J]])
         m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
         u = self.controller.output(s, m)
@@ -110,8 +114,9 @@ def held_joint(
     """Steady amplitude of the tracking error per unit of disturbance [s^2]: simulated, by (23) of the paper
     corrected, and by (23) as printed.
 
-    frequency [Hz], t_end, h [s]. The observer's poles are those of Table I times `factor`: slow enough for the
-    error to stand clear of round-off. The amplitude is fitted over the last two periods.
+    frequency [Hz]: of the disturbance. t_end, h [s]: duration and integration step. The observer's poles are
+    those of Table I times `factor`: slow enough for the error to stand clear of round-off. The simulated
+    amplitude is that of the sine which fits the last two periods best.
     """
     observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
     zero = np.zeros(1)
@@ -129,25 +134,28 @@ def held_joint(
 
 
 def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4)) -> float:
-    """Order k in the period T with which sampled control approaches continuous control.
+    """Order k [1] in the sampling period T with which sampled control approaches continuous control.
 
-    The differences of (q, q') before the first impact, for these periods [s], are fitted by C T^k; a zero-order
-    hold has k near 1.
+    The differences of (q, q') before the first impact under NPD, for these periods [s], are fitted by C T^k; a
+    zero-order hold has k near 1.
     """
 
     def end(h: float, period: float | None = None) -> Array:
         run = scenario("NPD", preset, hardware={"period": period}, run={"impacts": 1, "h": h})
         return walk_scenario(run).trajectory.before(FOOT_STRIKE)[-1][:10]
 
-    exact = end(2.5e-4)
+    exact = end(2.5e-4)  # no period: continuous control
+    # the integration step is not longer than the period
     gaps = [float(np.linalg.norm(end(min(T, 5e-4), T) - exact)) for T in periods]
     return float(np.polyfit(np.log(periods), np.log(gaps), 1)[0])
 
 
 def exponential_order(preset: str, factor: float) -> tuple[float, float]:
-    """Observed order of ETD-RK4 from steps of 0.25 to 0.125 ms, and its error at 0.5 ms [rad].
+    """Observed order [1] of ETD-RK4 when its integration step is halved from 0.25 to 0.125 ms, and the error of
+    the angles with a step of 0.5 ms [rad].
 
-    Over 0.1 s of walking with the poles of Table I times `factor`. Longer steps do not resolve the fast joints
+    The errors are those of the state after 0.1 s of walking under ADRC, with the poles of Table I times
+    `factor`, against a step of 1/32 ms. For the order, steps longer than 0.25 ms do not resolve the fast joints
     of a robot without rotors.
     """
     poles = {"controller.observer.poles": tuple(factor * pole for pole in TABLE_I)}
@@ -162,12 +170,15 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))
-    at_half = float(np.max(np.abs(end(5e-4) - exact)[:5]))
-    return math.log2(coarse / fine), at_half
+    error = float(np.max(np.abs(end(5e-4) - exact)[:5]))  # of q1 to q5
+    return math.log2(coarse / fine), error
 
 
 def numerics_laws(preset: str) -> dict[str, float]:
-    """Numbers for the accuracy of the methods, by name: the held joint [s^2], orders, and an error [rad]."""
+    """Numbers for the accuracy of the methods, by name: the held joint [s^2], orders [1], and an error [rad].
+
+    checks.toml and `paper.values` take them by their place, so their order counts.
+    """
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
     etd_table, error = exponential_order(preset, 1.0)
     return {

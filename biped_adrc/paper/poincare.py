@@ -41,21 +41,25 @@ class PoincareResult(Shown):
 
     @property
     def gap(self) -> float:
-        """Largest change of a multiplier's magnitude when the step is halved."""
+        """Largest change of a multiplier's magnitude [1] when the integration step is halved; the multipliers
+        are paired in the order of their magnitudes.
+        """
         one, other = (np.sort(np.abs(x.multipliers)) for x in (self.orbit, self.half))
         return float(np.max(np.abs(one - other)))
 
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
-    """Fixed point by Newton's method and multipliers by central differences, without disturbances.
+    """Fixed point of the return map by Newton's method and its multipliers by central differences, without the
+    pushes of the scenario, at two integration steps.
 
-    with_states: whether the controller's states belong to the state of the return map.
+    with_states: whether the controller's states belong to the state of the return map; without them the
+    controller starts anew after each impact.
     """
     scene = RobotAndGait.of(run)
 
     def orbit(h: float) -> PeriodicOrbit:
         cycle = gait_map(run.replace(run={"h": h}), with_states)
-        # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
+        # the guess is the gait's orbit; a map without the controller's states takes (q, q') of it
         return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
@@ -72,11 +76,11 @@ class Regression(NamedTuple):
     magnitudes: Array
     """|eigenvalues| (n,), the largest first."""
     rank: int
-    """Number of directions that the samples span."""
+    """Number of directions that the deviations x- - x* span."""
 
     @property
     def warning(self) -> str:
-        """Why Phi is not to be trusted, in words; empty when the data determine it."""
+        """Why Phi is not to be trusted, in words; empty when the data determine all of it."""
         n = len(self.magnitudes)
         if self.rank >= n:
             return ""
@@ -87,17 +91,19 @@ class Regression(NamedTuple):
 
 
 def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
-    """The regression (27) of the paper, from states before impact (k, n) [rad, rad/s], k >= 3, and the fixed
-    point (n,).
+    """The regression (27) of the paper by least squares, from the states before k impacts x_minus (k, n)
+    [rad, rad/s], k >= 3, and the fixed point x_star (n,).
     """
-    chi = x_minus - x_star
+    chi = x_minus - x_star  # in rows, so that least squares gives the transpose of Phi
     Phi = np.linalg.lstsq(chi[:-1], chi[1:], rcond=None)[0].T
     magnitudes = np.sort(np.abs(np.linalg.eigvals(Phi)))[::-1]
     return Regression(magnitudes, int(np.linalg.matrix_rank(chi[:-1], rtol=RANK)))
 
 
 def regression_of(outcome: Outcome) -> Regression:
-    """The regression (26), (27) over the impacts of a (disturbed) walk, about the fixed point of its gait."""
+    """The regression (26), (27) over the impacts of a walk, also a disturbed one, about the fixed point (q-,
+    q'-) of its gait; the controller's states are left out.
+    """
     gait = RobotAndGait.of(outcome.run).walked
     x_star = np.concatenate((gait.q_minus, gait.v_minus))
     x_minus = outcome.x_minus[:, : len(x_star)]

@@ -1,8 +1,10 @@
 """Pushes on the joints, at the declared choices and over the phase of a step, under both controllers.
 
-What a push does is separated from what the controller does anyway: the error of the pushed step is compared
-with that of the same walking step without a push (`Track.away_from`). The walk starts on the orbit of its gait
-at the pushed step; peaks are taken of an interpolant, since the largest error lies between two stored instants.
+A member is one combination of the choices that the paper leaves open (`scenarios.Member`). What a push does is
+separated from what the controller does anyway: the error of the pushed step is compared with that of the same
+walking step without a push (`Track.away_from`). The walk starts on the orbit of its gait at the pushed step;
+peaks are taken of an interpolant, since the largest error lies between two stored instants ("nodes"). A share
+of 1 or 0.5 says at which of the two integration steps a number is computed.
 
 The map of pushes tries another claim of section VI: in which phase of the step does a push make which
 controller fall? It is over onset, amplitude and joint pattern, with and without a torque limit
@@ -65,13 +67,13 @@ class Track(NamedTuple):
 
     def away_from(self, usual: Track, onset: float) -> float:
         """max |error - error of `usual`| [rad] from the onset [s] on, while both walking steps last; NaN if
-        they have no common time.
+        they have no common time, or the error of `usual` is not finite.
 
         `usual` is the same step without a push. Its error is smooth, so a cubic Hermite interpolant between its
         stored instants gives it at the times of this one.
         """
         counted = (self.t >= onset) & (self.t <= usual.t[-1])
-        t, first = np.unique(usual.t, return_index=True)
+        t, first = np.unique(usual.t, return_index=True)  # the interpolant takes no time twice
         if not np.any(counted) or not np.all(np.isfinite(usual.error)):
             return float("nan")
         there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
@@ -80,7 +82,7 @@ class Track(NamedTuple):
 
 
 def track(walk: Walk) -> Track:
-    """The first single support of a walk."""
+    """The `Track` of the first single support of a walk."""
     arc = walk.trajectory.arcs[0]
     s = walk.signals.of_step(arc.mode.step)
     ended = arc.event is not None and arc.event.guard == FOOT_STRIKE
@@ -90,13 +92,13 @@ def track(walk: Walk) -> Track:
 
 @lru_cache(maxsize=8)
 def scene_in(preset: str | None, gait: str) -> RobotAndGait:
-    """RABBIT in a preset and one of its gaits, read once for many walks."""
+    """RABBIT in a preset and one of its gaits, read once for many walks; "NPD" has no effect on them."""
     return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
 
 
 def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
     """Walk the first single support of a run with the integration step share * run.h, and the others, of which
-    only the ending matters, with share * COARSE; returns the two walks, or one.
+    only the ending matters, with share * COARSE; returns the walk of either part, one if it ends in the first.
 
     zero: whether the observer starts at xi^ = 0 instead of the model's xi.
     """
@@ -117,7 +119,10 @@ def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
 
 @lru_cache(maxsize=64)
 def usual_track(usual: Member, controller: str, share: float) -> Track:
-    """The pushed step of a member without its push, computed once for all pushes on it."""
+    """The `Track` of the pushed step of a member without its push, computed once for all pushes on it.
+
+    share: of the integration step, 1 or 0.5.
+    """
     run = usual.run(controller, pushed=False)
     return track(in_two(run, usual.start == "zero", share)[0])
 
@@ -137,15 +142,17 @@ class MemberWalk(NamedTuple):
     broken: AtTwoSteps
     """Number of limits of ground and motors that the walk breaks, the impulse at impact aside."""
     infeasible: Mapping[str, str]
-    """Sentences on what ground or motors could not have given, by the names in `REASONS`."""
+    """Sentences on what ground or motors could not have given, by the names in `REASONS`, at the integration
+    step used.
+    """
 
 
 @dataclass(frozen=True)
 class MemberOutcome:
-    """A member of the set under both controllers."""
+    """The walks of a member under both controllers."""
 
     member: Member
-    """The choices."""
+    """The combination of choices."""
     walked: dict[str, MemberWalk]
     """By controller."""
 
@@ -158,9 +165,7 @@ def limits_broken(f: Feasibility) -> float:
 
 
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
-    """Walk a member under a controller at both integration steps; values: of the scenario, in place of its
-    own.
-    """
+    """Walk a member under a controller at both integration steps; values: of its scenario, by name."""
     (numbers, why), (at_half, _) = (_at(member, controller, x, values) for x in (1.0, 0.5))
     return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))
 
@@ -168,14 +173,16 @@ def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
 def _at(
     member: Member, controller: str, share: float, values: Mapping[str, Any]
 ) -> tuple[tuple[float, ...], Mapping[str, str]]:
-    """The numbers of a `MemberWalk` in their order, at the share (1 or 0.5) of the integration step, and
-    sentences on what is not feasible.
+    """The numbers of a `MemberWalk` in the order of its fields, at the share (1 or 0.5) of the integration
+    step, and its `infeasible`.
     """
     run = member.run(controller, **values)
+    # without the push its values have no effect: equal ones let `usual_track` compute each such step once
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     walks = in_two(run, member.start == "zero", share)
     one, other = track(walks[0]), usual_track(usual, controller, share)
     complete = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
+    # the sentence of the first walk replaces that of the second
     why = {k: x for walk in reversed(walks) for k, x in walk.feasibility.reasons.items()}
     broken = longest = math.inf
     if complete:
@@ -187,7 +194,7 @@ def _at(
 
 
 def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
-    """Members carried out under both controllers."""
+    """Walk all of these members under both controllers."""
     return [MemberOutcome(m, {c: member_walk(m, c) for c in CONTROLLERS}) for m in chosen]
 
 
@@ -195,28 +202,30 @@ def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
 OUTCOME_WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
 """Outcomes of a walk of the map, as the head of this module says them; the columns of its table."""
 FORCES = ("mean_normal_force", "mean_friction", "impulse_ratio")
-"""Fields of `Feasibility` that the summary has for each walk of the map."""
+"""Fields of `Feasibility` that the summary has for each walk of the map [N, 1, 1]."""
 LOST = ("fell", "ended")
 """Outcomes of a walk that did not make its steps."""
 
 
 def word_of(o: Outcome) -> str:
     """The outcome of a walk of the map, one of `OUTCOME_WORDS`; "marginal" if it ends in another way at half of
-    the integration step.
+    the integration step. An outcome without a `half` cannot be marginal.
     """
     one, half = ((_at_step(x), x.status) for x in (o, o.half or o))
     return one[0] if one == half else "marginal"
 
 
 def _at_step(o: Outcome) -> str:
-    """The outcome of a walk at one integration step; "pulled" where the ground would have had to pull."""
+    """The outcome of a walk at one integration step; "pulled" in place of "infeasible" where the mean force of
+    the ground would have had to pull.
+    """
     f = o.feasibility
     pulls = f.outcome == "infeasible" and -math.inf < f.mean_normal_force <= 0.0
     return "pulled" if pulls else f.outcome
 
 
 class PushCell(NamedTuple):
-    """One push, and the walk of each controller."""
+    """One push of the map, and the walk under it of each controller, with that at half the step in `half`."""
 
     push: MapPush
     npd: Outcome
@@ -224,7 +233,7 @@ class PushCell(NamedTuple):
 
     @property
     def setting(self) -> str:
-        """Preset and torque limit, for a reader."""
+        """Text of preset and torque limit, such as "identified, 150 N m"."""
         limit = self.push.torque_limit
         return f"{self.push.preset}, {'unlimited' if limit is None else f'{limit:g} N m'}"
 
@@ -234,7 +243,11 @@ class PushCell(NamedTuple):
         return "marginal" not in map(word_of, (self.npd, self.adrc))
 
     def row(self) -> dict[str, object]:
-        """The cell as a dictionary of plain values, for the figure and the summary."""
+        """The push and its walks as plain values, for the figure and the summary.
+
+        The fields of the push, and onset_ms; npd and adrc: outcome, status, reasons and `FORCES` of each walk
+        at the integration step used, None for a force that is not finite; npd_word, adrc_word: `word_of`.
+        """
         result = asdict(self.push) | {"onset_ms": 1e3 * self.push.onset}
         for name, o in (("npd", self.npd), ("adrc", self.adrc)):
             f = o.feasibility

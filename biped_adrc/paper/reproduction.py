@@ -6,6 +6,10 @@ Written to the output folder: figures (PNG, SVG), the two headline runs (npz and
 and report.html. Each file is written whole or not at all, so that an interrupted run leaves readable files. The
 command `reproduce` calls this; its exit code says whether all checks hold.
 
+Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. The headline runs are
+walks of 25 impacts on gait (a) under the plan's push. The map of pushes tries many pushes under both
+controllers.
+
 In summary.json: `holds` and `checks` (what is asserted), `tally` and `claims` (what became of the paper's
 claims), `findings` and `tables` (what the report shows), `settings` and `versions`, and the wall time of each
 task.
@@ -52,11 +56,11 @@ def reproduce(
     workers: int | None = None,
     progress: TaskProgress | None = None,
 ) -> dict[str, Any]:
-    """Run the plan and write everything to `out`; returns what summary.json holds.
+    """Run the plan and write everything to the folder `out`; returns what summary.json holds.
 
-    command: as typed, for the report. workers: processes, one per core if None. progress: called after each
-    task. Checks are judged before anything is drawn, and the summary is written last, when all other files are
-    there. Raises OutputError before the first run when `out` cannot be written.
+    command: as the user typed it, for the report. workers: processes, one per core if None. progress: called
+    after each task. Checks are judged before anything is drawn, and the summary is written last, when all other
+    files are there. Raises OutputError before the first run when `out` cannot be written.
     """
     started = time.perf_counter()
     probe(out)
@@ -79,7 +83,10 @@ def reproduce(
 
 
 def judgement(r: Runs) -> dict[str, Any]:
-    """Claims, checks, tables and numbers of a reproduction, in plain values."""
+    """What summary.json holds of the results, in values that JSON has: claims, checks, tables and numbers.
+
+    `holds` is whether all checks hold. Command, times and versions are added by `reproduce`.
+    """
     plan, of_claims = r.plan, rows(r)
     result = checks(r, of_claims)
     parts = {
@@ -107,10 +114,11 @@ def judgement(r: Runs) -> dict[str, Any]:
 
 
 def probe(out: Path) -> None:
-    """Make the folder and try to write in it, since the runs take a minute.
+    """Make the folder and write a file in it, which is deleted again: a folder that cannot be written is found
+    before the runs, which take a minute.
 
-    Raises InputError for what is no folder, and OutputError, also where a file there that may be written over
-    is a link or a device.
+    Raises InputError where `out` is no folder; OutputError where it cannot be written, or has a link or a
+    device with a suffix of the files that a reproduction writes.
     """
     check_folder(out)
     marker = out / ".writable"
@@ -122,7 +130,9 @@ def probe(out: Path) -> None:
 
 
 def headline_animation(walks: dict[str, Walk]) -> str:
-    """The animation of both headline runs as one HTML page, ADRC solid, with the window of the push marked."""
+    """Text of an HTML page with both headline runs animated, ADRC solid and NPD translucent; the word "push" is
+    shown while the push acts.
+    """
     window = push_window(walks["NPD"].signals)
     in_order = {c: walks[c] for c in CONTROLLERS}  # the last is solid
     return animation_html(in_order, marks=[] if window is None else [(*window, "push")])
@@ -132,11 +142,11 @@ PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """Table I as the paper prints it [rad/s]; its "-11.020" and "-19.836" have thousands separators."""
 
 Table = dict[str, Sequence[object]]
-"""`columns`: names; `rows`: one list of as many cells for each row."""
+"""A table of the report: "columns" -> their names, "rows" -> for each row a list of its cells."""
 
 
 def tables(r: Runs) -> dict[str, Table]:
-    """All tables by title."""
+    """All tables of the report, by title."""
     poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
     constants = ("K_p [1/s^2]", 5000, TABLE_II.K_p), ("K_d [1/s]", 50, TABLE_II.K_d)
     return {
@@ -155,15 +165,16 @@ def tables(r: Runs) -> dict[str, Table]:
 
 
 def _table(rows: Iterable[dict[str, object]]) -> Table:
-    """A table of rows that are given by column name, at least one, all with the same columns."""
+    """A table of one or more rows, each column name -> cell, all with the same columns."""
     rows = list(rows)
     return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
 
 
 def _run(name: str, o: Outcome) -> dict[str, object]:
-    """The row of one walk: how it ended, errors, torques, forces.
+    """The row of one walk in the table "Runs": how it ended, errors, torques, forces.
 
-    One that ended early has no peak error or torque in the table: they would be those of a fall.
+    A walk that ended early has no peak error or torque in the table (None): they would be those of a fall. The
+    impulse ratio is the largest of its impacts.
     """
     steps = o.certificates
     return {
@@ -192,8 +203,8 @@ observer can make."""
 
 
 def _multipliers(r: Runs) -> Table:
-    """Multipliers by method: central differences, delta^2 of the zero dynamics, the regression
-    (27), the paper.
+    """The table of |multipliers| by method, largest first, at most ten: central differences of the return map,
+    delta^2 of the zero dynamics (the largest one alone), the regression (27), and those of the paper.
     """
     result: dict[str, tuple[list[float], str]] = {}
     for name, x in r.multipliers.items():
@@ -214,14 +225,16 @@ def _multipliers(r: Runs) -> Table:
 
 
 def _recipe(r: Runs) -> Table:
-    """The cycle of gait (b) by preset and controller, or why there is none; what its walks ask of ground and
-    motors is in "Runs".
+    """The table of the cycles of gait (b), by preset and controller: whether it is stable, its three largest
+    |multipliers|, the jump of a joint's rate against the gait at impact, and x- - x* [rad, rad/s]; None where
+    no cycle was found, and the remark says why.
     """
     rows = []
     for name, x in r.named("cycles", "(b)").items():
         result = None if isinstance(x, str) else x.orbit
         row: dict[str, object] = {"gait": name, "stable": result and result.stable}
         row["largest multipliers"] = result and np.abs(result.multipliers[:3]).tolist()
+        # the name is "gait (b), preset, controller"
         row["rate jump at impact [rad/s]"] = r.jumps[name.split(", ")[1]]["recipe"]
         row["x- minus x*"] = result and (result.x_minus[: len(X_STAR)] - X_STAR).tolist()
         rows.append(row | {"remark": x if isinstance(x, str) else ""})
@@ -233,7 +246,7 @@ COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step
 
 
 def _map(cells: list[PushCell]) -> Table:
-    """Numbers of the pushes of the map by outcome, a row for each preset, torque limit and controller."""
+    """How many walks of the map end in each outcome: a row for each preset, torque limit and controller."""
     fates = [
         (x.setting, c, word_of(w)) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)
     ]

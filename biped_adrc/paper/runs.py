@@ -2,8 +2,9 @@
 
 The walks are those of `paper.scenarios`; most are made at two integration steps. A node is an instant at which
 a state is stored; of a walk with very many nodes only those are kept that a figure of merit needs. Tasks have
-names such as "multipliers/ADRC" or "cycles/gait (b), tac2003, NPD": the kind, and the key in its mapping of
-`Runs`.
+names such as "multipliers/ADRC" or "cycles/gait (b), tac2003, NPD": the kind, which is a field of `Runs`, and
+the key in that field. Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. A
+member is one combination of the choices that the paper leaves open.
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ changes faster."""
 
 
 def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
-    """The walk without the nodes that no figure of merit needs: they are kept at a distance of `apart` [s], and
-    all of them in a single support in which a push acts and in the one after.
+    """The walk without the nodes that no figure of merit needs: those kept are at least `apart` [s] apart; in a
+    single support in which a push acts and in the one after all are kept.
     """
     run = walk.scenario
     assert run is not None
@@ -62,6 +63,8 @@ def twice(run: Scenario) -> Outcome:
     the walk has very many.
     """
     h = run.run.h
+    # nodes h apart are very many for a short h alone; and with another reset than by the model the observer has
+    # a fast transient after every impact, for which all nodes are needed
     if h is None or h > 0.2 * NODE_DISTANCE or run.controller.observer.reset != "model":
         return execute_twice(run)
     walk = sparse(walk_scenario(run))
@@ -84,10 +87,11 @@ class Headline:
 
 
 def _headline(run: Scenario) -> Headline:
-    """Make a pushed run at three integration steps; at a quarter of the step only the two single supports from
-    the push on.
+    """Make a headline run at its integration step, at half and at a quarter of it; at a quarter only the two
+    single supports from the push on, since only the peak error in them is used.
     """
     walk = sparse(walk_scenario(run))
+    # a walk begins on the orbit of its gait, also in a later single support
     half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
     quarter = walk_scenario(halved(half, walk.walker).replace(run=late)).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
@@ -96,8 +100,8 @@ def _headline(run: Scenario) -> Headline:
 
 
 def engines(one: Scenario, other: Scenario) -> float:
-    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite if they have
-    different numbers of impacts, or none.
+    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s], such as on two engines;
+    infinite if they have different numbers of impacts, or none.
     """
     a, b = (walk_scenario(run).outcome.x_minus for run in (one, other))
     n = RobotAndGait.of(one).biped.n
@@ -132,7 +136,7 @@ class Start:
 
 
 def starts(preset: str) -> list[Start]:
-    """Starts just below and just above the least speed that reaches the next impact.
+    """Walks of both controllers from just below and just above the least speed that reaches the next impact.
 
     No controller of the joints helps a start below it, which matters for the promise of global stability.
     """
@@ -144,9 +148,11 @@ def starts(preset: str) -> list[Start]:
 
 
 def least_speed(preset: str) -> float:
-    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
+    """Least speed after an impact, as a share [1] of the gait's, with which sigma^2 stays positive up to the
+    next impact.
 
-    sigma is the angular momentum about the stance foot; it has to exceed sqrt(2 V_max) after the impact.
+    sigma is the angular momentum about the stance foot; after the impact it has to exceed sqrt(2 V_max), where
+    V_max is the largest potential of the zero dynamics in the step.
     """
     scene = RobotAndGait.of(scenarios.starting("NPD", preset, 1.0))
     orbits = ZeroOrbits.of(ZeroDynamics.of(scene.biped, scene.walked.constraint))
@@ -158,14 +164,15 @@ def jumps(preset: str) -> dict[str, float]:
     """Largest jumps of signals over the joints, by name.
 
     "xi_at_impact" and "xi_at_an_edge" [rad/s^2]: of xi of (13), the total disturbance, on gait (a), at an
-    impact and when a push of 30 N m on all joints switches on. By gait [rad/s]: of q_b' - q_d' at an impact, 0
-    for a hybrid-invariant gait. "period" [s]: of gait (a), for comparison.
+    impact and when a push of 30 N m on all joints switches on. "published" and "recipe", gaits (a) and (b)
+    [rad/s]: of q_b' - q_d' at an impact, 0 for a hybrid-invariant gait. "period" [s]: of gait (a).
     """
     walks = {gait: scenarios.loose("NPD", preset, gait=gait) for gait in scenarios.GAITS}
     scenes = {name: RobotAndGait.of(run) for name, run in walks.items()}
     biped, gait = scenes["published"].biped, scenes["published"].walked
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
+    # xi before the impact in the order that the joints have after it
     xi, edge = after.xi - relabelled(before.xi, biped.swap), after.kappa @ np.full(biped.p, 30.0)
     gaits = {name: of.walked for name, of in scenes.items()}
     rates = {k: impact_jump(biped, g.constraint, g.q_minus, g.v_minus)[1] for k, g in gaits.items()}
@@ -193,7 +200,9 @@ class Order(NamedTuple):
 
 
 def orders(preset: str) -> dict[str, Order]:
-    """Table I (m = 7), and observers with one extended state of its bandwidth and of its delay margin."""
+    """The observer of Table I (m = 7), and two with one extended state (m = 1): of the same bandwidth, and of
+    the same delay margin.
+    """
     table = GPIObserver.from_poles()
     margin = ObserverLoop(table).delay_margin().delay
     named = {
@@ -217,7 +226,9 @@ def bandwidth_with(margin: float, m: int) -> float:
 
 
 def _order(preset: str, observer: GPIObserver) -> Order:
-    """The numbers of one observer, from closed forms of its loop and from a pushed walk."""
+    """The numbers of one observer, from closed forms of its loop, and from a walk on gait (a) with a push on
+    all joints, of 30 N m.
+    """
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
     member = replace(scenarios.on_the_recipe(preset), gait="published")
@@ -226,7 +237,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
         float(np.max(np.abs(loop.noise(w)))),
         observer.scale,
         loop.delay_margin().delay,
-        float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
+        float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),  # 5 Hz
         member_walk(member, "ADRC", **{"controller.observer.poles": poles}).peak,
     )
 
@@ -275,7 +286,7 @@ class Runs:
     runs: Mapping[str, Outcome] = field(default_factory=dict)
     """Walks at two steps, by the names of `scenarios.base_runs`."""
     claim_runs: Mapping[str, Outcome] = field(default_factory=dict)
-    """Those of the claims alone, by the names of `scenarios.claim_runs`."""
+    """Walks at two steps that only claims need, by the names of `scenarios.claim_runs`."""
     members: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
     """The push on the joints at all declared choices, by preset."""
     pushed_recipe: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
@@ -301,7 +312,7 @@ class Runs:
 
     @classmethod
     def of(cls, plan: Plan, values: Mapping[str, Any]) -> Runs:
-        """Sort what the tasks of a plan returned, by their names."""
+        """Sort what the tasks of a plan returned into the fields; values: by the names of `tasks`."""
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():
             kind, _, name = of.partition("/")
@@ -310,26 +321,28 @@ class Runs:
 
     @property
     def cells(self) -> list[PushCell]:
-        """The map of pushes, all parts of it."""
+        """The pushes of the map with their walks, of all its parts."""
         return [cell for part in self.map.values() for cell in part]
 
     @property
     def figures(self) -> dict[str, float]:
-        """Figures of the numerical methods, by name with unit."""
+        """Numbers for the accuracy of the methods, by name with unit, in the order of `numerics_laws`."""
         return {name: x for result in self.numerics.values() for name, x in result.items()}
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
-        """The outcomes of a walk under NPD and under ADRC; the name "push" is that of the headline runs."""
+        """The outcomes of a walk under NPD and under ADRC. name: without the controller at its end, "push" for
+        the headline runs.
+        """
         every = {**self.run_twice, **self.claim_runs}
         npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
-        """The pairs (NPD, ADRC) of the walks in `BOTH` whose names begin with one of these words."""
+        """The outcomes (NPD, ADRC) of the walks in `BOTH` whose names begin with one of these words."""
         return {name: self.pair(name) for name in BOTH if name.startswith(words)}
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:
-        """The results of a kind with all of these words in their names."""
+        """The results in the field `kind` with all of these words in their names, by name."""
         results = getattr(self, kind).items()
         return {name: x for name, x in results if all(word in name for word in words)}
 
@@ -344,6 +357,6 @@ class Runs:
 
     @property
     def run_twice(self) -> dict[str, Outcome]:
-        """Every walk that is checked at two integration steps, by name."""
+        """Every walk that is checked at two integration steps, headline runs included, by name."""
         heads = {f"push {c}": head.outcome for c, head in self.headline.items()}
         return heads | dict(self.runs)

@@ -5,6 +5,11 @@ could be an accident of it, and at choices picked afterwards it would prove noth
 levels of seven choices, and takes 36 of their 648 combinations (`Member`), an orthogonal array of strength 2:
 any two choices meet in all pairs of levels equally often, so that no effect hides behind another one.
 
+The headline runs are walks of 25 impacts under the plan's push. Gait (a) passes through the paper's x*, gait
+(b) follows the recipe of its section IV; without a word on it a walk is on gait (a). A preset is a set of
+masses and inertias of RABBIT. `values` of a function are values of a scenario by their dotted names, which
+replace its own.
+
 Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.two_steps`).
 """
 
@@ -34,7 +39,7 @@ MOTORS = ("q1", "q2", "q3", "q4")
 
 
 def declared() -> dict[str, Any]:
-    """The tables of admissible.toml."""
+    """The tables of admissible.toml, by name."""
     return packaged("biped_adrc.paper", "admissible.toml")
 
 
@@ -46,8 +51,8 @@ _STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
 """Integration steps of RK4 [s]: for the whole walk, and for single supports in which a push switches and the
 ones after."""
 LOOSE = 2e-4
-"""Integration step of the exponential method under ADRC [s], for walks whose tracking error has no spike below
-1e-5 rad that has to be resolved."""
+"""Integration step of the exponential method under ADRC [s], for walks of which no spike of the tracking error
+below 1e-5 rad has to be resolved."""
 COARSE = 1e-3
 """Integration step [s] of walks of which only endings and durations of walking steps are used."""
 
@@ -71,12 +76,12 @@ class Plan:
 
     @property
     def presets(self) -> tuple[str, ...]:
-        """The presets whose gaits are walked."""
+        """The presets in which walks are made: all three, or the headline's alone in a quick plan."""
         return (self.preset,) if self.quick else ("identified", "identified-bare", "tac2003")
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """Words for the parts that this plan does not compute."""
+        """Texts from claims.toml on the parts that this plan does not compute; none for a full plan."""
         if self.full:
             return ()
         kind = "quick" if self.quick else "usual"
@@ -85,7 +90,7 @@ class Plan:
 
 
 def on_torso(torque: float) -> Push:
-    """A push on the torso, which no motor drives, with this torque [N m] for 0.2 s."""
+    """A push on the torso, which no motor drives, with this torque [N m] for 0.2 s in single support 19."""
     return Push(torque=torque, **declared()["torso"]["push"])
 
 
@@ -95,25 +100,27 @@ def scenario(controller: str, preset: str, **values: Any) -> Scenario:
 
 
 def pushed_steps(run: Scenario) -> set[int]:
-    """Numbers of the single supports in which a push acts, and of those after."""
+    """Numbers, from 1, of the single supports in which a push acts, and of those after them."""
     return {push.step + k for push in run.pushes for k in (0, 1)}
 
 
 def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
-    """A walk with RK4, at the integration step that its controller needs."""
+    """A walk with RK4, at the integration step that its controller needs away from pushes."""
     h = _STEPS[controller][0]
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
-    """The scenario of `by_rk4`; for ADRC with the exponential method and a step of h [s] in place of RK4."""
+    """The scenario of `by_rk4`; for ADRC with the exponential method and an integration step of h [s] in place
+    of RK4, for walks of which no small spike has to be resolved. h has no effect on NPD.
+    """
     if controller == "ADRC":
         values |= {"run.method": "exponential", "run.h": h}
     return by_rk4(controller, preset, **values)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
-    """The headline run of a controller: the paper's gait under the plan's pushes."""
+    """The headline run of a controller: gait (a) under the plan's pushes, integrated finely around them."""
     fine = _STEPS[controller][1]
     return by_rk4(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
@@ -137,6 +144,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     too.
     """
     runs: dict[str, Scenario] = {}
+    # pushes with edges of 10 ms in place of vertical ones
     rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
     first = min(push.step for push in plan.pushes)
     for c in CONTROLLERS:
@@ -164,6 +172,7 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     An observer that does not expect the impact asks for torques that no motor gives.
     """
     runs, k = {}, declared()["walks"]
+    # the walk without reset and torque limit, which diverges 1.2 ms after the impact, has a step of its own
     for policy, limit in itertools.product(k["resets"], (None, 150.0)):
         h = k["diverging_step" if policy == "none" and limit is None else "reset_step"]
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
@@ -178,6 +187,7 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         for torque in declared()["torso"]["amplitudes"]:
             late = {"first_step": step, "impacts": 4}
+            # only endings and durations of these are used
             run = loose(c, preset, pushes=(on_torso(torque),), run=late).replace({"run.h": COARSE})
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
         for kind, factors in HEAVIER.items() if preset != plan.preset else ():
@@ -186,9 +196,10 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
-    """Cycles by name, and whether the observer's states are coordinates of the return map.
+    """The walks whose cycles are looked for, by name, each with whether the observer's states are coordinates
+    of the return map.
 
-    Gait (b) with them, at 1 ms; gait (a) without them, with Theta'' solved for and as printed.
+    Gait (b) with them; gait (a) without them, with Theta'' in (20) solved for and as printed.
     """
     result = {}
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
@@ -210,7 +221,7 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
-    """A walk that starts with `speed` times the gait's rates after the impact."""
+    """A walk of three impacts that starts after an impact of gait (a) with `speed` [1] times its rates."""
     return loose(controller, preset, COARSE, start={"speed": speed - 1.0}, run={"impacts": 3})
 
 
@@ -247,7 +258,9 @@ class Member:
     def run(self, controller: str, pushed: bool = True, **values: Any) -> Scenario:
         """The walk from the pushed single support on, or this one alone without the push (pushed = False).
 
-        Its integration step run.h is that of the pushed single support. values: of the scenario, over these.
+        Its integration step run.h is that of the pushed single support. Where the observer starts from zero,
+        its estimate of xi is kept at impacts, since the model is not to help it. values: of the scenario, which
+        replace these.
         """
         k, steps, joints = declared()["push"], declared()["steps"], ",".join(self.joints)
         push = Push(joints=joints, torque=self.amplitude, onset=self.onset, rise=self.rise, **k)
@@ -265,9 +278,10 @@ class Member:
 
 
 def members(preset: str | None = None) -> tuple[Member, ...]:
-    """The combinations that the file declares, of all presets or one, always in the same order."""
+    """The combinations that admissible.toml declares, of all presets if None, always in the same order."""
     factors, fraction = declared()["factors"], declared()["fraction"]
     result = []
+    # i, j choose the levels of choices with three of them, k, m those of choices with two
     for i, j, k, m in itertools.product(*map(range, (3, 3, 2, 2))):
         at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
         chosen = {name: factors[name][level] for name, level in at.items()}
@@ -276,12 +290,14 @@ def members(preset: str | None = None) -> tuple[Member, ...]:
 
 
 def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str, int]:
-    """Level of each choice at (i, j): a i + b j modulo the number of levels, which balances the fraction."""
+    """Level of each choice at (i, j), by its name: a i + b j modulo `count`, the number of levels. With the (a,
+    b) of `rule` any two choices meet in all pairs of levels equally often.
+    """
     return {name: (a * i + b * j) % count for name, (a, b) in rule.items()}
 
 
 def on_the_recipe(preset: str) -> Member:
-    """Gait (b) under a push of 30 N m on all joints."""
+    """Gait (b) under a push of 30 N m on all joints, 0.12 s after the impact, with vertical edges."""
     return Member(preset, 30.0, 0.12, MOTORS, 0.0, "model", "solved", "recipe")
 
 
@@ -302,7 +318,8 @@ class MapPush:
 
     def run(self, controller: str) -> Scenario:
         """The walk: four impacts from single support 19 on, in which the push acts for 0.2 s. The reference is
-        continued past its end, so that a fall is the robot's and not due to the steep end of a polynomial.
+        continued past the ends of its range of Theta, so that a fall is the robot's and not due to a
+        polynomial, which grows steeply there.
         """
         signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
@@ -313,9 +330,11 @@ class MapPush:
 
 
 def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
-    """Iterate over the pushes of the map in parts, by preset, torque limit [N m] and pattern.
+    """Iterate over the pushes of the map in parts, each a task: one for each preset, torque limit [N m] and
+    pattern of signs.
 
-    A plan that is not full has only pushes at 0.3 s with 150 N m, under a torque limit of 150 N m.
+    A plan that is not full has only pushes at 0.3 s with 150 N m, under a torque limit of 150 N m, and one part
+    for all patterns.
     """
     limits = (None, 150.0) if plan.full else (150.0,)
     k, patterns = declared()["map"], [*declared()["map"]["patterns"]]

@@ -16,8 +16,9 @@ In checks.toml every scenario is a check of its own, whose kind (`core.verdict`)
     consistency   a gait does not do what it was designed for
     reproduced    the paper's statement does not hold for this robot
 
-A check is a table of checks.toml, a claim one of claims.toml: its words, and by name the scenarios, the metric
-and the values for its texts (functions of `ROOMS`, or members of `Runs`). In braces of the words stand
+A check is a table of checks.toml, a claim one of claims.toml (`said` in arguments): its words, and by name the
+scenarios, the metric ("measure") and the values for its texts: functions of `ROOMS`, or attributes of the
+results `Runs`, with their first arguments behind the name. In braces of the words stand
 {limit}, {found} (the least and the largest number of the cases) and those values. Limits, and the choices under
 which claims are tried, are in admissible.toml, which was written before the runs.
 """
@@ -67,10 +68,10 @@ class Probe(NamedTuple):
     def of(
         cls, name: str, figure: AtTwoSteps, limit: _Bound, round_off: float, variant: str | None
     ) -> Probe:
-        """A scenario with its metric, compared with a limit at both integration steps.
+        """Compare the metric of a scenario, `figure`, with a limit at both integration steps.
 
-        round_off: largest change by halving the step that counts as none, in the unit of the metric. variant:
-        the scenario's name if None.
+        limit: makes the check of a value. round_off: largest change by halving the step that counts as none, in
+        the unit of the metric. variant: as the field; the scenario's name if None.
         """
         used, half = (limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(round_off)
@@ -114,7 +115,7 @@ def all_texts() -> dict[str, Any]:
 
 
 def word_of_claim(cases: Sequence[Probe]) -> str:
-    """The word for the cases of a claim, as in the head of this module."""
+    """The verdict on a claim from its cases, as the head of this module says; "not testable" without a case."""
     if all(case.marginal for case in cases):
         return "not testable"
     if all(case.kept for case in cases):
@@ -123,7 +124,10 @@ def word_of_claim(cases: Sequence[Probe]) -> str:
 
 
 def share_text(cases: Sequence[Probe], apart: bool) -> str:
-    """Text of how many cases hold, which names the marginal ones; apart: whether it also counts by variant."""
+    """Text of how many cases hold, such as "3 of 4", which names the marginal ones; empty without a case.
+
+    apart: whether it also counts the cases of each variant, unless there are more than _SHOWN variants.
+    """
     if not cases:
         return ""
     every = Counter(case.variant for case in cases)
@@ -136,8 +140,8 @@ def share_text(cases: Sequence[Probe], apart: bool) -> str:
 
 
 def limit(text: str) -> _Bound:
-    """The limit that a text such as "<= 0.01" or "in 0.9 1.1" means; "<= ratio" has its number in
-    admissible.toml.
+    """A function (name, kind, value) -> `Check` with the limit that a text such as "<= 0.01" or "in 0.9 1.1"
+    means; "<= ratio" has its number in admissible.toml.
     """
     sign, *words = text.split()
     bounds = [_number(word) for word in words]
@@ -147,7 +151,7 @@ def limit(text: str) -> _Bound:
 
 
 def _number(text: str) -> float:
-    """A number, or a limit by its name in admissible.toml."""
+    """The number that a text is, or the limit that it names in admissible.toml."""
     return float(declared()["limits"].get(text, text))
 
 
@@ -165,7 +169,11 @@ def _function(text: str) -> Callable[..., Any]:
 
 
 def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
-    """The scenarios of a claim or a check, each held against its limit; none where no run can decide."""
+    """The cases of a claim or a check: each of its scenarios with its metric and whether that keeps the limit.
+
+    said: its table in the file. Empty without scenarios, as of a claim that no run can decide. A scenario
+    without a measure is itself its number.
+    """
     if "scenarios" not in said:
         return ()
     measure = _function(said["measure"]) if "measure" in said else AtTwoSteps.of
@@ -178,9 +186,13 @@ def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
 
 
 def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
-    """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
+    """Judge a claim of the paper and fill in its texts; said: its table in claims.toml.
+
+    A word that this table has, as for a claim that no run can decide, replaces the verdict of the cases.
+    """
     of_claim = cases(said, r)
     word = said.get("word") or word_of_claim(of_claim)
+    # of a check only the text of its limit, such as "<= 0.01"
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
     values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
     values |= _function(said["values"])(r) if "values" in said else {}
@@ -202,20 +214,25 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
 
 
 def rows(r: Runs) -> list[Claim]:
-    """Every claim of the paper with what became of it, in the order of the report."""
+    """Every claim of claims.toml with what became of it, in the order of that file and of the report."""
+    # other tables of the file, such as [words], have no "claim"
     named = (said for said in all_texts().values() if isinstance(said, dict))
     return [row_of(said, r) for said in named if "claim" in said]
 
 
 def findings(r: Runs, of_claims: Iterable[Claim]) -> list[str]:
-    """One line for each main finding: those of claims, then those that the paper says nothing of."""
+    """One line for each main finding: those of claims, then those of the table [beyond] of claims.toml, of
+    which the paper says nothing.
+    """
     beyond = all_texts()["beyond"].values()
     of_others = [said["finding"].format(**_function(said["values"])(r)) for said in beyond]
     return [row.finding for row in of_claims if row.finding] + of_others
 
 
 def checks(r: Runs, of_claims: list[Claim]) -> list[Check]:
-    """All checks of a reproduction: those of checks.toml, and those of its claims."""
+    """All checks of a reproduction: those of checks.toml, judged at the integration step used, and those of the
+    judged claims `of_claims`.
+    """
     result = []
     for said in packaged("biped_adrc.paper", "checks.toml")["check"]:
         for case in cases(said, r):
@@ -227,8 +244,8 @@ def checks(r: Runs, of_claims: list[Claim]) -> list[Check]:
 def claim_checks(rows: Sequence[Claim]) -> list[Check]:
     """The checks of the claims, for the exit code of the reproduction.
 
-    Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
-    change its number or verdict at half of the step.
+    Of a claim that claims.toml marks as `asserted` all cases have to hold. And no case of any claim may change
+    its number or verdict at half of the step: their number has to be 0.
     """
     doubtful = "claims: cases whose number or verdict is another at half the step"
     result = [at_most(doubtful, "law", sum(row.marginal for row in rows), 0)]
@@ -240,6 +257,8 @@ def claim_checks(rows: Sequence[Claim]) -> list[Check]:
 
 
 def tally(rows: Iterable[Claim]) -> str:
-    """How many claims have which word, in the order of the words."""
+    """Text of how many claims have each verdict, such as "replicated 9, depends 2", in the order of the table
+    [words] of claims.toml.
+    """
     result = Counter(row.word for row in rows)
     return ", ".join(f"{word} {result[word]}" for word in all_texts()["words"])

@@ -32,14 +32,17 @@ class AtTwoSteps(NamedTuple):
         return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
 
     def gap(self, resolution: float = 0.0) -> float:
-        """|value - at_half| / |at_half|; 0 within the resolution, infinite where one of them is not finite."""
+        """|value - at_half| / |at_half| [1]; 0 if they differ by at most `resolution`, in the unit of the
+        number; infinite where one of them is not finite, or at_half is 0.
+        """
         gap, size = abs(self.value - self.at_half), abs(self.at_half)
         if gap <= resolution:
             return 0.0
         return gap / size if size and math.isfinite(gap) else math.inf
 
     def converged(self, round_off: float = ROUND_OFF) -> bool:
-        """Whether halving the step moves it by at most the share `AGREE`, or at most by `round_off`.
+        """Whether halving the step changes the number by at most the share `AGREE`, or by at most `round_off`,
+        in the number's unit.
 
         Infinite at both steps counts as converged; NaN at either, such as of a search that failed, does not.
         """
@@ -55,11 +58,13 @@ class Extremes(tuple[float, ...]):
 
     @classmethod
     def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
-        """The numbers at half of the step."""
+        """The values at half of the integration step, the more accurate ones."""
         return cls(f.at_half for f in figures)
 
     def __format__(self, form: str) -> str:
-        """Format smallest and largest value; the text also says how many values are NaN."""
+        """Text of the smallest and the largest value, each by the format `form`, ".3g" if empty; one number
+        where both give the same text, "none" without a number. It also says how many values are NaN.
+        """
         known = [v for v in self if not math.isnan(v)]
         if not known:
             return "none"
@@ -80,11 +85,11 @@ most."""
 
 
 def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
-    """The figures of merit that are compared at two integration steps, each with the resolution, in its unit,
-    within which two values agree.
+    """The figures of merit of a walk that are compared at two integration steps: pairs (value, resolution),
+    both in the unit of the value; two values agree when they differ by at most the resolution.
 
-    A force is 0 here if no single support is long enough for its mean, and a friction is if F_N <= 0, where the
-    ratio F_T / F_N has its pole: such numbers would not converge.
+    Numbers that would not converge are replaced by 0: forces that are infinite, as where no single support is
+    long enough for a mean, and the friction where F_N <= 0, as the ratio F_T / F_N has its pole at F_N = 0.
     """
     f, last = o.feasibility, o.certificates[-1] if o.certificates else None
     forces = (f.mean_normal_force, f.mean_friction, f.impulse_ratio) if f.supports else (0.0,) * 3
@@ -122,7 +127,9 @@ WalkEnd = tuple[float, str, int]
 
 
 def error_text(end: WalkEnd, half: WalkEnd) -> str:
-    """The largest tracking error at both steps, with a hint where the step is too long for it."""
+    """Text of the largest tracking error at both integration steps, end: of the walk at the step used, half: at
+    half of it; with a hint to shorten the step where the two walks do not agree.
+    """
     errors = AtTwoSteps(end[0], half[0])
     text = f"{errors.value:.3e} rad ({errors.at_half:.3e} at half the step)"
     if end[1:] != half[1:]:
@@ -134,10 +141,10 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
 
 
 def order_of_error(o: Outcome) -> float:
-    """Observed order k of the peak tracking error e in the integration step h, NaN if two of the errors are
-    equal.
+    """Observed order k [1] in which the peak tracking error e converges with the integration step h; NaN if two
+    of the errors are equal.
 
-    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|), from a run, `half` and `half.half`
+    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|), from the outcomes o, o.half and o.half.half
     """
     assert o.half is not None
     assert o.half.half is not None

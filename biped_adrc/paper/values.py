@@ -1,4 +1,10 @@
-"""The numbers in the texts of the claims: each function returns them by the names in braces in claims.toml."""
+"""The numbers in the texts of the claims: each function returns them by the names in braces in claims.toml,
+where the text around a name has its unit. `Extremes` of numbers stand in a text as "least to largest".
+
+Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. A member is one
+combination of the choices that the paper leaves open. A walk is lost when it falls or ends before its last
+impact.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +28,11 @@ from biped_adrc.paper.two_steps import Extremes
 
 
 def of_headline(r: Runs) -> dict[str, object]:
-    """How both controllers walk under the headline push."""
+    """How both controllers walk under the push of the headline runs.
+
+    npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. asked: impacts asked
+    for. words: how feasible the walks are.
+    """
     npd, adrc = r.pair("push")
     slow = r.pair("rising push")
     word = {c: r.headline[c].outcome.feasibility.outcome.replace("_", " ") for c in CONTROLLERS}
@@ -38,7 +48,12 @@ def of_headline(r: Runs) -> dict[str, object]:
 
 
 def of_members(r: Runs) -> dict[str, object]:
-    """Extremes over the declared choices, and reasons why walks of them are not feasible."""
+    """Extremes over all members, and reasons why their walks under ADRC are not feasible.
+
+    solved, printed: peak errors of ADRC by the choice of Theta''. npd, adrc: errors that the push adds;
+    npd_rates: changes of Theta' at the impact after it. why: the reasons but for the impulse at impact. apart:
+    number of walks under ADRC with any reason, count: of all members.
+    """
     every = [o for part in r.members.values() for o in part]
     adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
     why = sorted({x for w in adrc for name, x in w.infeasible.items() if name != IMPULSE})
@@ -59,20 +74,21 @@ def of_members(r: Runs) -> dict[str, object]:
 
 
 def of_recipe_push(r: Runs) -> dict[str, object]:
-    """The push on gait (b)."""
+    """The ratios of the peak errors, ADRC over NPD, under the push on gait (b)."""
     return {"peaks": Extremes.of(map(m.error_ratio, m.pushed("pushed_recipe", r).values()))}
 
 
 def of_map(r: Runs) -> dict[str, object]:
-    """Values about the pushes under which NPD falls: how the same pushes end under ADRC.
+    """Numbers of pushes of the map, by how the walks under them end.
 
-    lost: how many of these there are; "on" and "feasible" count those among them under which ADRC walks on, and
-    does so feasibly. known: pushes with the same end at both integration steps; doubtful: all others. alone:
-    pushes of the known ones under which ADRC falls and NPD does not.
+    known: pushes whose walks end alike at both integration steps; doubtful: all others. The rest is counted
+    among the known. lost: under which NPD is lost; on: of the lost, those under which ADRC makes all steps;
+    feasible: of these, those where it is feasible, the impulse at impact aside. alone: under which ADRC is lost
+    and NPD is not.
     """
     known = [c for c in r.cells if c.certain]
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
-    lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
+    lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]  # of NPD, of ADRC
     return {
         "lost": len(fates),
         "known": len(known),
@@ -84,8 +100,10 @@ def of_map(r: Runs) -> dict[str, object]:
 
 
 def of_torso(r: Runs) -> dict[str, object]:
-    """For each preset the first push on the torso that ends the walk, and whether NPD and ADRC end alike."""
-    every = m.torso(r)
+    """For each preset the least torque on the torso that stops the walk under ADRC, "none" if all are walked;
+    and "not " in `alike` unless NPD stops under the same pushes.
+    """
+    every = m.torso(r)  # torques in increasing order
     stopped: dict[str, str] = {}
     for name, (_, adrc) in every.items():
         torque, _, preset = name.partition(" on the torso, ")
@@ -97,13 +115,15 @@ def of_torso(r: Runs) -> dict[str, object]:
 
 
 def of_heavier(r: Runs) -> dict[str, object]:
-    """The largest error of ADRC over NPD's under a heavier plant."""
+    """The ratios of the peak errors, ADRC over NPD, with a plant heavier than the controller's model."""
     return {"errors": Extremes.of(map(m.error, m.heavier(r).values()))}
 
 
 def of_orders(r: Runs) -> dict[str, object]:
-    """Values that compare observers of different order."""
-    orders = next(iter(r.orders.values()))
+    """Values that compare the observer of Table I (m = 7) with two of m = 1, of equal bandwidth and of equal
+    delay margin.
+    """
+    orders = next(iter(r.orders.values()))  # computed for one preset
     table, band, delay = orders.values()
     shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in m.gains(r).items())
     return {
@@ -118,13 +138,17 @@ def of_orders(r: Runs) -> dict[str, object]:
 
 
 def of_jumps(r: Runs) -> dict[str, object]:
-    """Values of the jumps at an impact and at the edge of a push."""
+    """Extremes over the presets of the jumps at an impact and at an edge of a push, named as in
+    `runs.jumps`.
+    """
     every = [*r.jumps.values()]
     return {name: Extremes(x[name] for x in every) for name in every[0]}
 
 
 def of_cycles(r: Runs) -> dict[str, object]:
-    """The largest multiplier of gait (a) beside the closed form."""
+    """The largest multiplier of gait (a) under NPD, its closed form delta^2, and a text on ADRC's, empty where
+    that was not computed.
+    """
     npd, more = r.multipliers["NPD"], ""
     if "ADRC" in r.multipliers:
         z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
@@ -134,7 +158,9 @@ def of_cycles(r: Runs) -> dict[str, object]:
 
 
 def of_needs(r: Runs) -> dict[str, object]:
-    """Values of the undisturbed walk on gait (b), its cost and its torques, beside gait (a)."""
+    """Costs of transport of the undisturbed walks under NPD on gait (b) against gait (a), and the peak torques
+    [N m] on gait (b).
+    """
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
     torques = Extremes(b.peak_torque for b, _ in both.values())
@@ -142,7 +168,11 @@ def of_needs(r: Runs) -> dict[str, object]:
 
 
 def of_starts(r: Runs) -> dict[str, object]:
-    """Values about the starts from which the robot goes on walking."""
+    """Speeds of starts as shares of the gait's speed after impact, and how many starts walk on.
+
+    failing: all starts below the least speed; passing: those above it from which both controllers make all
+    impacts. least: the least speed. passed: number of the passing ones, above: of all above the least speed.
+    """
     every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]
@@ -156,10 +186,10 @@ def of_starts(r: Runs) -> dict[str, object]:
 
 
 def noise_spectrum() -> Array:
-    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of random numbers.
+    """What the regression (26), (27) makes of noise: the ten |lambda|, sorted, each the median over many draws.
 
-    The states at impacts are replaced by independent normal numbers, which have no dynamics at all: a spectrum
-    that the regression gives for them says nothing of a walk.
+    The states before impacts are replaced by independent normal numbers, which have no dynamics at all: a
+    spectrum that the regression gives for them says nothing of a walk.
     """
     k, n = declared()["noise"], len(X_STAR)
     random = np.random.default_rng(k["seed"])
@@ -169,8 +199,9 @@ def noise_spectrum() -> Array:
 
 
 def of_printed(r: Runs) -> dict[str, object]:
-    """The printed multipliers, how far a tracking error decays in 0.4 s, and what the regression makes of
-    noise.
+    """The printed multipliers; the share exp(-K_d t / 2) to which a tracking error decays in t = 0.4 s; the
+    longest walking step for the least printed multiplier, and the shortest period of a gait, both [ms]; and
+    what the regression makes of noise.
     """
     return {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
@@ -183,12 +214,17 @@ def of_printed(r: Runs) -> dict[str, object]:
 
 
 def of_held(r: Runs) -> dict[str, object]:
-    """The held joint, simulated and by (23)."""
+    """Amplitude of the tracking error [s^2] of the held joint per unit of disturbance: simulated, by (23)
+    corrected, and by (23) as printed; and the gains of Table II.
+    """
+    # in the order of `numerics_laws`; the second number is the first at half the integration step
     simulated, _, corrected, printed = tuple(r.figures.values())[:4]
     return {"simulated": simulated, "corrected": corrected, "printed": printed, "gains": TABLE_II}
 
 
 def of_poles(r: Runs) -> dict[str, object]:
-    """The poles of the observer, and the distance of the undisturbed walks from x*."""
+    """Magnitudes of the slowest and the fastest pole of the observer [rad/s], and the largest distance from x*
+    [rad, rad/s] at the last impacts of the undisturbed walks on gait (a).
+    """
     farthest = float(np.max([m.distance(o) for o in r.on_gait("a").values()]))
     return {"slow": -max(TABLE_I), "fast": -min(TABLE_I), "farthest": farthest}

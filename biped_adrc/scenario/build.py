@@ -4,8 +4,9 @@
     build(s)             the `Walker`: plant, controller, disturbance, timing, sensors, motors, ground
     scene.start(s)       (q, v) at which the walk begins
 
-The controller always has the nominal robot as its model; the plant differs from it where the scenario asks for
-model errors. Called by `walk`, by studies, and by worker processes, which receive the scenario alone.
+The controller always has the nominal robot as its model; the plant, the robot that walks, differs from it where
+the scenario asks for model errors. A `scene` is a `RobotAndGait`; `drawn(s, what)` is a seed for one random
+thing of the scenario. Called by `walk`, by studies, and by worker processes, which receive the scenario alone.
 """
 
 from __future__ import annotations
@@ -48,7 +49,8 @@ from biped_adrc.scenario.records import Misfit, all_taken, named_part
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
-"""Name of the plant that a walker has of its own, with a pinned foot and impacts in no time."""
+"""Name of the plant that a walker has of its own: the stance foot is pinned, impacts are plastic and take no
+time."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
 """Values of the record of the ground that soft ground takes."""
 WITHOUT_MOTORS = ("robot", "controller.name", "run", "limits", "ground.slope")
@@ -69,13 +71,14 @@ class RobotAndGait:
     cycle: PassiveCycle | None = None
     """None for a robot with motors."""
     laws: Memory = field(default_factory=Memory, repr=False)
-    """Controllers by what they were made of."""
+    """Controllers that were made already, by the values of the scenario that decide them."""
 
     @classmethod
     def of(cls, s: Scenario) -> RobotAndGait:
         """Robot and gait of a scenario, from files or from the user's own classes.
 
-        Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit.
+        Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit or,
+        unless the scenario allows that, was made for another robot.
         """
         robot, friction, name = s.robot, s.hardware.friction, s.gait.name
         values = {"preset": robot.preset, "friction": friction}
@@ -84,6 +87,7 @@ class RobotAndGait:
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
         gait = part_of_user("gait", name, {"biped": biped}, Gait)
+        # True: of another robot too, which `check_robot` refuses below for gaits of both origins
         gait = load_gait(name, biped, True) if gait is None else gait.check(biped)
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
         if s.gait.continued:
@@ -127,7 +131,10 @@ class RobotAndGait:
         return (self.cycle or self.walked).slope if own is None else own
 
     def controller(self, s: Scenario, stones: tuple[float, ...] = ()) -> Controller:
-        """The controller of a scenario; walks of equal records share it, where nothing in it can change."""
+        """The controller of a scenario; walks of equal records share it, where nothing in it can change.
+
+        stones: lengths of the steps to the stones [m].
+        """
         key = s.controller.model_dump_json(), s.hardware.torque_limit, stones
         law = self.laws.get(key) or controller(s, self.walked, self.biped, stones)
         if constant(law):
@@ -145,12 +152,13 @@ class RobotAndGait:
 
 
 def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
-    """The walker of a scenario.
+    """The walker of a scenario: plant, controller, hardware, pushes and ground.
 
     The plant is the nominal robot with the scenario's model errors, the controller's model always the nominal
     one. Sensors, motors and ground steps are None or empty where the scenario has none.
 
-    scene: robot and gait where they are at hand. Raises InputError for what does not fit together.
+    scene: robot and gait of the scenario; None: they are loaded. Raises InputError for what does not fit
+    together.
     """
     scene = RobotAndGait.of(s) if scene is None else scene
     biped, name = scene.biped, s.controller.name
@@ -163,10 +171,12 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     gait = scene.walked
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
+    # relative errors (n,) of the rates after impact; (0,) without an error of the impact map
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
     course = stones(s)
     timing: ContinuousTime | SampledTime = ContinuousTime()
     if hardware.period is not None:
+        # a clock restarts at impact only if the controller knows the impact at once
         ideal = hardware.touchdown.name is None
         timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
     moved = hardware.rate_limit or hardware.lag
@@ -191,7 +201,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
 
 
 def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
-    """The walker of a robot without motors.
+    """The walker of a robot without motors, whose longest single support is that of its `known` cycle.
 
     Raises InputError for values that have no effect without motors.
     """
@@ -203,7 +213,9 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
 
 
 def limits(s: Scenario) -> Limits:
-    """Limits of ground and motors within which the walk is feasible; the torque limit is the robot's own."""
+    """Limits of ground and motors within which the walk is feasible; the torque limit, None, is the robot's
+    own.
+    """
     return Limits(s.limits.friction, None, s.limits.window)
 
 
@@ -232,6 +244,7 @@ def sensors(s: Scenario) -> Sensor | None:
     measured exactly.
     """
     e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
+    # a filter alone is no sensor: it smooths differences of angles, which are another value of the record
     if e != EncoderRecord(filter_time=e.filter_time):
         noise = (e.noise, e.pitch_noise, e.rate_noise)
         encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
@@ -255,7 +268,8 @@ def _touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
 
 
 def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
-    """A plant of the registry, by its name, for a walker's robot on its slope. options: more values by name.
+    """A plant of the registry, by its name, for a walker's robot on its slope, with its ends of a run
+    (`max_step_time`, `fall_height`). options: more values for the plant's constructor, by name.
 
     Raises InputError for an unknown plant, or one that cannot be made.
     """
@@ -265,10 +279,11 @@ def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> St
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
-    """The walker's controller around the plant of a scenario; None for the rigid one.
+    """The closed loop of the walker's controller and a plant that moves by itself between sample instants, such
+    as MuJoCo's; None where the scenario has the rigid plant.
 
-    The plant takes by name values of the walker, and of the record of the ground. Raises InputError for one
-    that cannot be made.
+    The plant takes by name values of the walker and of the record of the ground. Raises InputError for one that
+    cannot be made.
     """
     g = s.ground
     if g.plant == RIGID:
@@ -283,7 +298,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
 
 
 def _ground(s: Scenario) -> Steps:
-    """Changes of the ground's height by the values of `ground`; () if level.
+    """Changes of the ground's height by the values of the scenario's `ground`; () if level.
 
     They add up: heights drawn with the root mean square `rms` [m] and up to `step_height` [m] for each walking
     step, and one step of the ground in single support `drop_step`, down by `drop` [m] (up if negative).
@@ -298,7 +313,8 @@ def _ground(s: Scenario) -> Steps:
 def stones(s: Scenario) -> Stones | None:
     """The stones of a scenario, stated or drawn; None without stones.
 
-    Lengths are drawn for each single support and one more, since a controller looks at the next stone.
+    Lengths [m] are drawn for each single support from 1 to the last one, and one more, since a controller looks
+    at the next stone.
     """
     g = s.ground
     if g.stones is not None:
@@ -313,25 +329,26 @@ def stones(s: Scenario) -> Stones | None:
 
 # -- pushes ----------------------------------------------------------------------------------------
 def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Disturbance | None:
-    """The sum of all pushes of a scenario; None without any.
+    """The sum of all pushes of a scenario as a disturbance; None without any.
 
-    biped: the nominal robot, for its joints. period [s]: of the gait. plant: the robot that walks, for forces
-    on its links. Raises InputError for a push that does not fit.
+    biped: the nominal robot, by which joints are known. period: duration of the gait's step [s]. plant: the
+    robot that walks, for forces on its links. Raises InputError for a push that does not fit.
     """
     parts = tuple(disturbance(s, i, biped, period, plant) for i in range(len(s.pushes)))
     return Sum(parts) if len(parts) > 1 else parts[0] if parts else None
 
 
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
-    """Push number i of a scenario, as a disturbance. biped: the nominal robot, for its joints. period [s]: of
-    the gait. plant: the robot that walks, for forces on its links.
+    """Push number i of a scenario, from 0, as a disturbance. biped, period, plant: as for `disturbances`.
 
     Raises InputError for a value that its shape does not take, and for a push outside of the walk.
     """
     push = s.pushes[i]
+    # (F_x, F_z, M) [N, N, N m] on a link, with x forwards and z up; no moment
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
     accepted = takes(find("disturbance", push.shape).load())
     forced = push.link is not None or "force" in accepted
+    # values of the push without an effect: name -> why, False where it has one
     idle = {
         "force": not forced and "is a torque; name the link on which a force acts",
         "torque": "amplitude" not in accepted and "takes no torque",
@@ -350,17 +367,20 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     place, fields = f"pushes.{i}", Push.model_fields
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
+    # of pushes from before the first single support only a step, which stays, or one over impacts may act
     if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
         raise Misfit(f"pushes.{i}.step", f"is {push.step}, the walk has {first} to {last}")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 
 
 def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
-    """When push i acts: step number, start and stop [s], frequency [Hz] and the seed of noise.
+    """The arguments of push i that say when it acts: step (number of its single support), start and stop [s],
+    frequency and bandwidth [Hz], and the seed of noise, by name.
 
-    A push counts from the start of its single support and ends with it at the latest; one that goes on over
-    impacts counts from the time at which the gait, of this period [s], would begin that single support. An
-    onset that the scenario does not state is drawn so that the push fits into the period.
+    A push counts from the start of its single support and ends with it at the latest. One that goes on over
+    impacts has step None and counts from the start of the walk: its single support is taken to begin when the
+    gait, of this period [s], would begin it. An onset that the scenario does not state is drawn so that the
+    push fits into the period.
     """
     push = s.pushes[i]
     begin = push.onset

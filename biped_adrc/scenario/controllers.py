@@ -54,6 +54,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
 
     Raises InputError for a class that is not there or lacks something, and a value that nothing takes.
     """
+    # q_b = rows q, the angles of the joints with motors
     h, rows = gait.constraint, np.eye(biped.n)[: biped.p]
     known: Arguments = {
         "biped": biped,
@@ -69,8 +70,10 @@ def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] 
 def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     """The controller of a record c, with its wrappers; place: dotted name of the record, for messages.
 
-    known: arguments that the scenario has for every constructor. Policies go around the controller inside an
-    outer loop and not around the loop, whose state would begin anew at each touchdown.
+    known: arguments that the scenario has for every constructor, which takes those that it names. A constructor
+    that takes `inner` makes an outer loop, around the controller of the record `inner` (without one the default
+    controller, ADRC). Wrappers go around the controller inside an outer loop and not around the loop, whose
+    state would begin anew at each touchdown. Raises Misfit for a value of the record that nothing takes.
     """
     entry, what = find("controller", c.name), f"controller '{c.name}'"
     make = entry.load()
@@ -84,6 +87,7 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     else:
         values, used = _values(what, make, c, entry.defaults)
     law = construct(what, make, {**known, **values}, Controller, place)
+    # values of the record that neither the constructor took, nor its gains and observer, nor a wrapper takes
     for at in c.dotted():
         head = at.partition(".")[0]
         if outer and head in _WRAPPERS:
@@ -97,8 +101,9 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
 
 
 def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) -> Controller:
-    """Wrap a controller in the policy across contact of its record, and in the registry's wrappers of the kind
-    "around" for which the record has a number other than 0, such as `prediction` [s].
+    """Wrap the controller `law` in the policy that the record `contact` of c names (what it does while contact
+    settles), then in the registry's wrappers of the kind "around" for which c has a number other than 0, such
+    as `prediction` [s]. place, known: as for `_made`.
     """
     contact = c.contact
     if contact.name is not None:
@@ -117,15 +122,16 @@ def _values(
 ) -> tuple[Arguments, set[str]]:
     """Arguments for the constructor `make` from a record c, and the dotted names of the values that were used.
 
-    A gain in the record replaces that one of the constructor's default gains. defaults: the registry's values
-    for what the record leaves out; they are not used beside poles, which already say what bandwidth and order
-    would.
+    A gain K_p or K_d in the record replaces that one of the constructor's default gains (without default those
+    of Table II of the paper). what: the controller, for messages. defaults: the registry's values for what the
+    record leaves out; they are not used beside poles, which already say what bandwidth and order would.
     """
     accepted, o = takes(make), c.observer
     settings = {name: x for name in OF_POLES if (x := getattr(o, name)) is not None}
     if o.poles is None:
         settings = {**defaults, **settings}
     gains = {name: x for name in GAINS if (x := getattr(c, name)) is not None}
+    # a constructor may take poles and gains by their own names too, or inside `observer` and `gains` below
     values = {**c.own, **settings, **gains, "solve_theta": c.solve_theta}
     values["reset"] = ResetPolicy(o.reset)
     used = {*accepted, *(f"observer.{name}" for name in accepted)}
@@ -146,14 +152,17 @@ def _observer(
     """The observer for a controller, and the names of the values that it took; None if the controller's default
     observer is used.
 
-    settings: poles, bandwidth and order. An observer can be made by its constructor and by the `MAKERS` of its
-    class. Of those for which no argument is missing, the one that takes the most values is called.
+    what, make: the controller in words, and its constructor. o: the record of the observer. settings: poles,
+    bandwidth and order. An observer can be made by its constructor and by the `MAKERS` of its class (names of
+    class methods, such as "from_poles"). Of those for which no argument is missing, the one that takes the most
+    values is called. Observers name the order m.
     """
     usual = _default(make)
     kind = type(usual) if o.name is None else find("observer", o.name).load()
     ways = [*(getattr(kind, name) for name in getattr(kind, "MAKERS", ())), kind]
     offered = {**settings, **o.own} | ({"m": settings["order"]} if "order" in settings else {})
     if o.name is None and not any(set(offered) & set(takes(way)) for way in ways):
+        # nothing was asked for: None, unless the controller cannot be made without an observer
         return (usual if "observer" in lacking(make, ()) else None), set()
     fitting = [way for way in ways if not lacking(way, offered)] or ways[:1]
     best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))

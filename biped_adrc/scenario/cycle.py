@@ -4,8 +4,8 @@
                    which Newton's method finds the fixed point
     specified(s)   `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name
 
-A robot with motors walks a stored gait under NPD or ADRC; a robot without motors walks its known cycle down a
-slope.
+A robot with motors walks a stored gait under its controller; a robot without motors walks its known cycle down
+a slope. The return map P takes the state just before an impact to that before the next one.
 
 The controller's states (an observer's) belong to the state of the map unless observer_states is False: then the
 controller starts anew after each impact, and the map has 2 n - 1 coordinates.
@@ -29,7 +29,7 @@ from biped_adrc.scenario.integration import methods_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 _DIFFERENCE = 1e-4
-"""Half width of the central differences of P [rad, rad/s], for controllers without states."""
+"""Half width of the central differences of P [rad, rad/s], for walkers that RK4 integrates by default."""
 
 
 NO_MAP = (
@@ -42,14 +42,17 @@ FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
 
 
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
-    """The return map of a scenario without its pushes, by its own integration method, and the gait's orbit as
-    the guess of its fixed point. observer_states: whether the controller's states belong to the state of the
-    map.
+    """The return map of a scenario without its pushes, and the state (nx,) before the impact of the gait's
+    orbit, as the guess of its fixed point. The integration method is the scenario's own, or the default one.
+
+    observer_states: whether the controller's states belong to the state of the map. Raises InputError for a
+    robot without motors.
     """
     scene = RobotAndGait.of(s)
     walker = build(s.replace(pushes=()), scene)
     q, v = scene.walked.q_minus, scene.walked.v_minus
-    upright = math.pi * round(q[-1] / math.pi)  # a leg that stands is at pi
+    # where the search for q_N begins: 0 where q_N is the pitch of a trunk, pi where it is the angle of a leg
+    upright = math.pi * round(q[-1] / math.pi)
     P = ReturnMap(walker, methods_of(s.run, walker)[0], observer_states, pitch=upright)
     return Cycle(P, walker.initial_state(q, v))
 
@@ -61,10 +64,11 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
         passive = cycle_of(ba.Scenario("passive", robot="compass", ground={"slope": 0.01}))
 
     observer_states: whether the controller's states belong to the state of the map. The map is integrated by
-    the scenario's method and step, if it has them; else by the exponential method at 1 ms for controllers with
-    states, such as ADRC, and by RK4 at 0.5 ms for others, whose largest multiplier is within 2e-7 of delta^2 on
-    the published gaits. Raises InputError for values that have no effect on a return map, and for a controller
-    that does not fit the robot; GaitError where no cycle is stored.
+    the scenario's method and step, if it has them; else by the exponential method at 0.5 ms where the observer
+    is linear and time continuous, as under ADRC, and by RK4 at 0.5 ms for others. With the latter the largest
+    multiplier is within 2e-7 of delta^2, that of the hybrid zero dynamics, on the published gaits. Raises
+    InputError for values that have no effect on a return map, and for a controller that does not fit the
+    robot; GaitError where no cycle is stored.
     """
     gait = RobotAndGait.of(s).gait
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
@@ -75,6 +79,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
         walker = build(s)
         return known_cycle(walker.plant, walker.ground_slope)
     cycle = gait_map(s, observer_states)
+    # `split` is None for a walker that the exponential method cannot integrate
     if cycle.P.walker.split(Mode()) is not None:
         return cycle
     method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
@@ -82,10 +87,11 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
 
 
 def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
-    """The specification of the walker of a scenario; it needs no walk.
+    """The specification of the walker of a scenario: stability, margins and ripple of its linearised loop,
+    without a walk.
 
-    Pushes, ground and start of the scenario have no part in it. Its model errors have: they make the plant
-    differ from the controller's model. scene: robot and gait, loaded if None; with the same object for many
+    Pushes, ground and start of the scenario do not count. Its model errors do: they make the plant differ from
+    the controller's model. scene: robot and gait, loaded if None; with the same object for many
     candidates the gait is linearised once. Raises InputError for a scenario in continuous time, on another
     plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
@@ -106,8 +112,9 @@ def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
 
 
 def specified(s: Scenario, scene: RobotAndGait | None = None) -> dict[str, float]:
-    """The numbers of `specification_of` by name, none of them NaN; of an unstable loop the margins are 0 and
-    the ripple is infinite. Raises InputError for a scenario that has no specification.
+    """The numbers of `specification_of` by the names and in the units of the module's table, none of them NaN;
+    of an unstable loop the margins are 0 and the ripple is infinite. scene: as there. Raises InputError for a
+    scenario that has no specification.
 
         specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}, hardware="rabbit"))
     """

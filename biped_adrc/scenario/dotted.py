@@ -1,4 +1,9 @@
-"""Dotted names of nested plain values: "controller.observer.bandwidth"."""
+"""Nested plain values (tables of tables), and the same values under dotted names.
+
+    {"run": {"seed": 1}}   <->   {"run.seed": 1}
+
+An item of a list of tables has its number from 0 in the name: "pushes.0.torque" is of the first push.
+"""
 
 from __future__ import annotations
 
@@ -10,17 +15,24 @@ NAME = ""
 
 
 def tables(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values by dotted name as nested ones: {"run.seed": 1} becomes {"run": {"seed": 1}}."""
-    made: dict[str, Any] = {}
+    """Nest values that stand under dotted names: {"run.seed": 1} becomes {"run": {"seed": 1}}.
+
+    Where two of them meet, such as "run" and "run.seed", the later one counts.
+    """
+    result: dict[str, Any] = {}
     for name, x in values.items():
         head, dot, rest = str(name).partition(".")
         inner = tables({rest: x}) if dot else tables(x) if isinstance(x, Mapping) else x
-        made[head] = merged(made.get(head), inner)
-    return made
+        result[head] = merged(result.get(head), inner)
+    return result
 
 
 def merged(before: Any, more: Any) -> Any:
-    """Nested values with others put on top; the items of a list are named by their numbers."""
+    """The nested values `before`, overridden level by level by the values `more`.
+
+    What is no table in `more` replaces all that was there. A table in `more` also changes single items of a
+    list, by their numbers {"0": ..}; values of a record; and those beside a text that stands for a record.
+    """
     if not isinstance(more, dict):
         return more
     if isinstance(before, list | tuple) and all(name.isdigit() for name in more):
@@ -37,16 +49,16 @@ def merged(before: Any, more: Any) -> Any:
 def flat(
     values: Mapping[str, Any], before: str = "", whole: Collection[str] = ()
 ) -> dict[str, Any]:
-    """The inverse of `tables`; records in a list have numbers in their names.
+    """Values by dotted name, of nested ones: the inverse of `tables`. Lists of other values become tuples.
 
-    whole: a table with one of these keys is a value.
+    before: what all names begin with, such as "run.". whole: a table with one of these keys stays one value.
     """
-    made: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     for name, x in values.items():
         if isinstance(x, list) and x and all(isinstance(y, Mapping) for y in x):
             x = {str(i): y for i, y in enumerate(x)}
         if isinstance(x, Mapping) and not set(x) & set(whole):
-            made |= flat(x, f"{before}{name}.", whole)
+            result |= flat(x, f"{before}{name}.", whole)
         else:
-            made[f"{before}{name}"] = tuple(x) if isinstance(x, list) else x
-    return made
+            result[f"{before}{name}"] = tuple(x) if isinstance(x, list) else x
+    return result

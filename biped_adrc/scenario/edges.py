@@ -12,6 +12,9 @@ that; the number 0 stands for times from the start of the walk.
 
     the push from 0.1 to 0.3 s in single support 3 was cut by the impact at 0.2531 s
     the push from 0.6 s on in single support 2 did not begin before the impact at 0.5402 s
+
+A remark is such a sentence. An arc of a trajectory is one single support; its nodes are the instants at which
+the states were stored.
 """
 
 from __future__ import annotations
@@ -44,13 +47,15 @@ SAME_CURVE = 1e-6
 
 
 def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on pushes, integration steps around their edges, start, last stone, controller and gait.
+    """Yield the remarks: on pushes, integration steps around their edges, start, last stone, controller, gait.
 
-    gait: None for a robot without motors. A push has a remark if it did not act, if an impact cuts it off, or
-    if one of its edges is within `_NEAR` of an impact, before or after it. An edge at the very start of a
-    single support has none: it is how "from the impact on" is written.
+    gait: the one that was to be walked; None for a robot without motors, and for a walk from a state alone. A
+    push has a remark if it did not act, if an impact cuts it off, or if one of its edges is within `_NEAR` of
+    an impact, before or after it. An edge at the very start of a single support has none: it is how "from the
+    impact on" is written.
     """
     for part in () if walker.disturbance is None else summands(walker.disturbance):
+        # number of the single support, 0 for the whole walk -> times of the edges in it [s]
         edges = {k: sorted(s for j, s in part.switches if j == k) for k, _ in part.switches}
         found = [x for step, times in edges.items() for x in _of_edges(step, times, trajectory)]
         yield from found
@@ -71,18 +76,21 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
 
 
 def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
-    """A sentence for a controller with a state but no `jump`, and for a speed that `Footstep` does not keep."""
+    """Yield a sentence for each controller that has a state but no method `jump`, which exchanges the legs in
+    the state at an impact, and for a `Footstep` controller with a target speed outside of those it can keep.
+    """
     for law in nested(walker.controller):
         name, kept = type(law).__name__, law._writes("initial_state") and not law._writes("jump")
         if kept and trajectory.events(FOOT_STRIKE):
             yield f"{name} has a state and no jump(s, after, swap) to exchange the legs in it at an impact"
+        # rounded to mm/s: the speed of a gait, which may be the target, has round-off
         if isinstance(law, Footstep) and not SLOWEST <= round(law.speed, 3) <= FASTEST:
             yield f"{name} aims at {SLOWEST:g} to {FASTEST:g} m/s, and was asked for {law.speed:g} m/s"
 
 
 def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
-    """A sentence for each difference to what the gait was made for: robot and preset, slope, and the curve that
-    the controller tracks.
+    """Yield a sentence for each of these three that is not the gait's own: the robot with its preset, the slope
+    of the ground, and the curve q_b = h(Theta) that the controller tracks.
     """
     name, slope, plant = f"gait '{gait.name}'", walker.ground_slope, walker.plant
     if (gait.robot, gait.preset) != (plant.description.name, plant.preset):
@@ -90,6 +98,7 @@ def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
     if gait.slope != slope:
         yield f"{name} was made for a slope of {gait.slope:g} rad, and the ground has {slope:g} rad"
     h, c = own_reference(walker.controller), gait.constraint
+    # curves over another phase variable Theta cannot be compared point by point
     if h != c and isinstance(h, VirtualConstraint) and np.array_equal(h.phase, c.phase):
         inside = np.linspace(c.theta_plus, c.theta_minus)
         off = max(float(np.max(np.abs(h.h(x)[0] - c.h(x)[0]))) for x in inside)
@@ -98,9 +107,10 @@ def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
 
 
 def _acted(part: Disturbance, steps: set[int], trajectory: Trajectory, n: int) -> bool:
-    """Whether a disturbance was other than zero at some node of the walk, of n coordinates.
+    """Whether the torque zeta of a disturbance was other than zero at some node of the walk.
 
-    steps: single supports in which it switches; they come first, since there the answer is found soonest.
+    steps: numbers of the single supports in which it switches; these are tried first, since there the answer is
+    found soonest. n: number of coordinates, so that a stored state begins with q (n,), q' (n,).
     """
     return any(
         np.any(part.zeta(t, arc.mode.step, arc.mode.start, x[:n], x[n : 2 * n]))
@@ -110,8 +120,10 @@ def _acted(part: Disturbance, steps: set[int], trajectory: Trajectory, n: int) -
 
 
 def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on the edges of one push in single support `step`, at these times [s] from its start; for step
-    = 0 from the start of the walk.
+    """Yield sentences on those edges of one push that lie in single support `step`.
+
+    times: of the edges, increasing [s], from the start of that single support; for step 0 from the start of the
+    walk, and then no impact cuts the push.
     """
     name, arcs = _name(step, times), trajectory.arcs
     starts = [0.0] if step == 0 else [arc.mode.start for arc in arcs if arc.mode.step == step]
@@ -120,6 +132,7 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
         return
     if step == 0 and times[0] > trajectory.t_end:
         yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
+    # the impacts, as (number of the single support that it ends, time [s] counted as `times` are)
     ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
     impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= _NEAR}
@@ -134,14 +147,15 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
 
 
 def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
-    """A sentence if the fixed integration step is too long for the observer's transient after an edge of a
-    push.
+    """Yield a sentence if the fixed integration step is too long for the observer's transient after an edge of
+    a push.
 
-    In the coordinates of `Walker.split` the observer's error decays with its poles. If the integration step is
-    longer than 1 / |p| of the fastest pole p, the tracking error after an edge is mostly an error of
-    integration. Single supports with an edge are looked at, and those after them. Methods that control their
-    error need no remark.
+    `Walker.split` gives the linear dynamics E' = A E of the observer's error, whose eigenvalues are the poles;
+    None without a linear observer in continuous time. If the integration step is longer than 1 / |p| of the
+    fastest pole p, the tracking error after an edge is mostly an error of integration. Single supports with an
+    edge are looked at, and those after them.
     """
+    # a method that controls its error has its tolerance "rtol" in its text, and needs no remark
     if walker.disturbance is None or "rtol" in trajectory.settings.get("method", ""):
         return
     split = walker.split(Mode())
@@ -161,6 +175,8 @@ def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
 
 
 def _name(step: int, times: list[float]) -> str:
-    """The push as a message names it, by its window and its single support."""
+    """The push as a message names it: by its first and last edge in `times` [s], or by "on" where it has only
+    one, and by its single support `step`, which 0 leaves out.
+    """
     window = f"from {times[0]:g}" + (f" to {times[-1]:g} s" if len(times) > 1 else " s on")
     return f"the push {window}" + (f" in single support {step}" if step > 0 else "")

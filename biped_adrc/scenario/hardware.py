@@ -18,7 +18,7 @@ sampling, encoders, torque and friction published for RABBIT (Chevallereau et al
 
 
 class EncoderRecord(Record):
-    """Encoders and rates."""
+    """How joint angles, the pitch and their rates are measured."""
 
     SHORT = ""
     counts: float | None = field(None, "1", ge=1)
@@ -76,23 +76,29 @@ class HardwareRecord(Record):
     @model_validator(mode="before")
     @classmethod
     def _opened(cls, values: Any) -> Any:
-        """Make a mapping of a profile's name, and fill in the profile's values for those that are left out."""
+        """Make a mapping of a profile's name, and fill in the profile's values for those that `values` leaves
+        out; other values stay.
+        """
         values = super()._opened(values)  # type: ignore[operator]
         if not isinstance(values, Mapping):
             return values
         profile = PROFILES.get(str(values.get("profile")), {})
-        given = {name: values[name] for name in profile if name in values}
-        return {**values, **merged(profile, given)}
+        own = {name: values[name] for name in profile if name in values}
+        return {**values, **merged(profile, own)}
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:
         """Raise Misfit for a value that would do nothing in continuous time."""
+        # by `Record.record`, which also has the values that the profile filled in
         idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
         if self.period is None and idle:
             raise Misfit(min(idle), "does nothing in continuous time; give hardware.period too")
         return self
 
     def record(self, usual: Record | None = None) -> dict[str, Any]:
+        """Nested plain values that differ from those of the profile, and the profile's name unless it is
+        "none". `usual` does not count: the values of the profile are the defaults here.
+        """
         if self.profile == "none":
             return super().record()
         return {"profile": self.profile, **super().record(HardwareRecord(profile=self.profile))}

@@ -6,6 +6,8 @@ the single supports in which the disturbance switches and those after, a usual o
 trajectories of the parts are joined.
 
     refined(walker, 8, 1, RK4(), 5e-5)               # parts: usual, fine where the push switches, usual
+
+A method here is an integration method with its step or tolerance, such as RK4(h=1e-3).
 """
 
 from __future__ import annotations
@@ -69,7 +71,8 @@ robots."""
 
 
 def default_method(walker: Walker) -> OneStepMethod:
-    """The exponential method for a walker with a linear stiff part (an observer), RK4 at 1 ms for others.
+    """The integration method for a walker: the exponential one at 0.5 ms where `Walker.split` gives a linear
+    stiff part (an observer in continuous time), RK4 at 1 ms for others.
 
     RK4 takes a shorter integration step with sensors, motors or a torque limit, whose counts and limits magnify
     an error of the motion, and where the controller's states are so fast that 1 ms would be unstable, such as
@@ -86,7 +89,9 @@ def default_method(walker: Walker) -> OneStepMethod:
 
 
 def rate_of_friction(plant: Biped) -> float:
-    """Largest |eigenvalue| [1/s] of D_s^-1 dF/dq' of joint friction F at q = q' = 0; 0 for none."""
+    """Largest |eigenvalue| [1/s] of D^-1 dF/dq' (n, n) at q = q' = 0, with the mass matrix D and the joint
+    friction F (n,) [N m]: the rate at which friction alone makes rates decay; 0 without friction.
+    """
     if not plant.friction:
         return 0.0
     still = np.zeros(plant.n)
@@ -95,9 +100,8 @@ def rate_of_friction(plant: Biped) -> float:
 
 
 def rate_of_law(walker: Walker) -> float:
-    """Largest |eigenvalue| [1/s] of ds'/ds of a controller, by differences at q = q' = 0; 0 for none.
-
-    In sampled time no state of a controller flows.
+    """Largest |eigenvalue| [1/s] of ds'/ds, with s (k,) the controller's state, by central differences at
+    q = q' = 0; 0 without a state, and in sampled time, where the state changes at sample instants only.
     """
     if walker.sampled:
         return 0.0
@@ -122,8 +126,8 @@ def rate_of_law(walker: Walker) -> float:
 
 
 def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | None]:
-    """The integration method of a walk, and its integration step [s] where a push switches; None for the usual
-    step.
+    """The integration method of a walk, and the integration step [s] where a push switches; None: that of the
+    method there too.
 
     A record without method and step takes the walker's default, and on the compiled engine `FINE_STEP` for the
     exponential method. On Pinocchio the fine steps would take minutes; there they have to be asked for, and
@@ -144,14 +148,16 @@ def refined(
     """Parts of a walk, with the integration step `fine` [s] in the single supports in which the disturbance
     switches and those after, and the method `usual` in the others.
 
-    first_step: number of the first single support. A disturbance that switches at times of the walk rather than
-    of a single support makes all of the walk fine, since its single support is not known beforehand.
+    impacts: number of single supports. first_step: number of the first one. fine None: one part with the method
+    `usual`. A disturbance that switches at times of the walk rather than of a single support makes all of the
+    walk fine, since its single support is not known beforehand.
     """
     if fine is None:
         return (WalkPart(impacts, usual),)
     steps = range(first_step, first_step + impacts)
     times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
     late, short = walker.max_step_time, replace(usual, h=fine)  # type: ignore[type-var]
+    # when single support k begins is not known: k * late stands for it, as only finite or not is asked
     switched = {k for k in steps if any(map(math.isfinite, times(k, k * late)))}
     methods = (short if {k, k - 1} & switched else usual for k in steps)
     return tuple(WalkPart(len(list(group)), method) for method, group in groupby(methods))
@@ -165,11 +171,12 @@ def in_parts(
     engine: str,
     progress: Progress | None = None,
 ) -> Trajectory:
-    """The run from `start` by several methods in turn.
+    """Simulate a walk from `start` by the methods of its parts in turn, and join the trajectories.
 
-    Each part begins after the last impact of the one before. start: (q, v), each (n,) [rad, rad/s]. Ends early
-    with a fall. Raises InputError for more than one part under a clock that does not restart at impact, since a
-    part begins with a sample instant.
+    Each part begins after the last impact of the one before; a fall ends the walk early. start: (q, v), each
+    (n,) [rad, rad/s], in the single support `mode`. engine, progress: as in `runs_in_parts`. Raises InputError
+    for more than one part under a clock that does not restart at impact, since a part begins with a sample
+    instant.
     """
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
@@ -194,7 +201,7 @@ def runs_in_parts(
 
     engine: "compiled" or "pinocchio". progress: called with the time [s] and the number of events.
     """
-    done = 0
+    done = 0  # events of the parts before
 
     def shown(t: float, events: int) -> None:
         assert progress is not None
@@ -225,7 +232,7 @@ def check_start(q: Array, v: Array, walker: Walker) -> None:
 
 
 def _joined(runs: Sequence[Trajectory]) -> Trajectory:
-    """One trajectory of runs that follow one another.
+    """Join runs that follow one another to one trajectory, with the status and detail of the last one.
 
     Its settings["method"] says which single supports each method took.
     """
@@ -241,8 +248,8 @@ def _joined(runs: Sequence[Trajectory]) -> Trajectory:
 
 
 def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> float:
-    """Largest difference at impacts and the end, max |dq| [rad] and |dt| [s], of a run in these parts and one
-    whose start differs by ASIDE; infinite if one of the two makes more impacts.
+    """The larger of max |dq| [rad] and max |dt| [s] over all impacts and the end, between `run`, which was
+    simulated in these parts, and a run whose start differs by ASIDE; infinite if one makes more impacts.
 
     Where a comparison decides, as in an encoder, the two may read other counts and walk apart from then on;
     around an unstable motion a quantised loop does so sooner or later (Delchamps, IEEE TAC 35(8), 1990), at

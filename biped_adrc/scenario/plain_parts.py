@@ -5,7 +5,8 @@ with inner objects in records of their own, each once, referred to by number. `R
 Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
 its own: of a class of the user's the name alone is stored, and a stand-in takes the place of such a controller.
 
-How values are written:
+A part here is any such object. A class is ours if it is in one of the modules of this package that `_ROOMS`
+names; all others are the user's. How values are written:
 
     None, bool, int, float, str   as they are
     array                         {"array": [...], "shape": [...], "dtype": "float64"}
@@ -47,12 +48,12 @@ class MissingPart(InputError):
 
 
 def home_of(kind: Any) -> str:
-    """Name of a class or function, such as `module:Class`."""
+    """Name of a class or function as `module:Class`, by which it can be imported again."""
     return f"{kind.__module__}:{kind.__qualname__}"
 
 
 def is_ours(home: str) -> bool:
-    """True where module:Class is of this package, and may be imported when a record is read."""
+    """True where module:Class lies in a module of `_ROOMS`, and may be imported when a record is read."""
     return _ROOMS.fullmatch(home.partition(":")[0]) is not None
 
 
@@ -71,9 +72,7 @@ class Writer:
     """id of an object -> its place, and the object itself, kept alive so that no other one gets its id."""
 
     def plain(self, x: object) -> object:
-        """The value as JSON has it; {kind: ...} for arrays, tuples, enums and paths, {"part": place} for
-        objects.
-        """
+        """The value as JSON has it, in the form of the table in the head of this file."""
         if x is None or (isinstance(x, bool | int | float | str) and not isinstance(x, Enum)):
             return x
         if isinstance(x, np.generic):
@@ -93,15 +92,18 @@ class Writer:
         return {"part": self.part(x)}
 
     def part(self, x: object) -> int:
-        """The place of an object among the records, written the first time it is seen."""
+        """The place from 0 of an object's record in `records`; the first call for an object writes it there."""
         if id(x) not in self._known:
-            made = self._record(x)
+            # first the record, which may append records of inner objects; then its own place is known
+            result = self._record(x)
             self._known[id(x)] = len(self.records), x
-            self.records.append(made)
+            self.records.append(result)
         return self._known[id(x)][0]
 
     def _record(self, x: Any) -> PartRecord:
-        """The record of one object; for an object of a user's class it has the class alone."""
+        """The record of one object. It has the class alone for an object of the user's, and for one that does
+        not keep all arguments of its constructor as attributes.
+        """
         if hasattr(x, "__qualname__"):  # a class or a function itself
             return {"class": home_of(x)}
         home, names = home_of(type(x)), takes(x.__class__)
@@ -115,10 +117,12 @@ class Reader:
     """Makes objects of records; the inverse of `Writer`."""
 
     records: list[PartRecord]
+    """The records that a `Writer` left."""
     _made: dict[int, object] = field(default_factory=dict)
+    """Place of a record -> the object made of it, so that an object that is used twice is one again."""
 
     def made(self, x: object) -> Any:
-        """Make the value again of which `Writer.plain` made the record x.
+        """The value that `Writer.plain` wrote as x.
 
         Raises MissingPart for an object of the user's and what contains one, InputError for a class that this
         version of the package does not have, and what a class raises of values that it does not take.

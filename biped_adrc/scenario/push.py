@@ -36,8 +36,8 @@ _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finished class alone
     """A torque on joints or a force on a link, of a shape in time.
 
-    values: further ones, those that the shape takes, by name. Raises InputError for a shape that there is not
-    and for a value out of its range.
+    values: further ones, those that the class of the shape takes, by name. Raises InputError for a shape that
+    there is not, for a value out of its range, and for a force beside a torque.
 
     >>> push = ba.Push(torque=-60.0, joints="q1,q2", step=2, onset=0.1)
     >>> ba.walk_scenario(ba.Scenario("NPD", pushes=[push], run={"impacts": 2})).impacts
@@ -79,7 +79,9 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
 
     @property
     def factors(self) -> dict[str, float]:
-        """Torque [N m] by joint, empty for random joints."""
+        """Torque [N m] by name of the joint, with the signs of `joints`; empty for random joints, whose factors
+        are drawn when the walker is built.
+        """
         if isinstance(self.torque, dict):
             return dict(self.torque)
         torques: dict[str, float] = {}
@@ -89,8 +91,10 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
         return torques
 
     def stop(self, onset: float) -> float:
-        """The end [s] of a push that begins at `onset` [s]; onset and duration are added as decimal numbers, so
-        that 0.1 and 0.2 make 0.3.
+        """The end [s] of a push that begins at `onset` [s].
+
+        Onset and duration are added as decimal numbers, so that 0.1 and 0.2 make 0.3; an onset that was drawn
+        has no short decimal form, and floats are added.
         """
         if self.onset is None:
             return onset + self.duration
@@ -99,11 +103,11 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
     def in_words(self) -> str:
         """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19".
 
-        One that `parse_push` does not read is written by its values.
+        A force, and a push whose onset or torques are drawn, are written by their values: "Push(force=..)".
         """
         if self.onset is None or self.link is not None or self.force or not self.factors:
             return repr(self)
-        groups: dict[float, list[str]] = {}
+        groups: dict[float, list[str]] = {}  # torque [N m] -> joints that get it
         for joint, torque in self.factors.items():
             groups.setdefault(torque, []).append(joint)
         what = " and ".join(f"{x:g} N m on {', '.join(on)}" for x, on in groups.items())
@@ -117,7 +121,8 @@ def parse_push(text: str) -> Push:
     """A push from its text: torques [N m] by joint, step, window [s], and :sine=HERTZ or :rise=SECONDS.
 
     Joints without a torque of their own take the next one: "q1,q2=30,q5=20@19:0.1-0.3". Without a stop
-    ("@19:0.1-") it is a step that stays. Raises InputError with the form expected.
+    ("@19:0.1-") it is a step that stays. A sine ends with its single support. Raises InputError with the form
+    expected.
     """
     match = _PUSH.fullmatch(text.strip())
     if match is None:
@@ -125,6 +130,7 @@ def parse_push(text: str) -> Push:
     start, stop = match["start"], match["stop"]
     values: dict[str, Any] = {"step": int(match["step"])}
     values["shape"] = "sine" if match["frequency"] else "pulse" if stop else "step"
+    # a sine would else go on over impacts; None: as the shape does
     values["across_impacts"] = False if match["frequency"] else None
     values |= {name: match[name] for name in ("frequency", "rise") if match[name]}
     try:
@@ -136,6 +142,7 @@ def parse_push(text: str) -> Push:
             for joints, value in re.findall(r"([^=]+)=([^,]+),?", match["joints"])
             for joint in joints.split(",")
         }
+        # one torque for all joints is written as joints and a number, else as a table by joint
         alike = set(torque.values())
         one = {"joints": ",".join(torque), "torque": alike.pop()}
         return Push(**values, **({"torque": torque} if alike else one))

@@ -16,6 +16,8 @@ reproduction of the paper read it.
     walk.rounding()      does rounding decide its numbers?
     walk.plot, animate   figures and pictures
     walk.save, export    .npz to read it again, .mat for MATLAB
+
+A node is an instant whose state is stored. A walk is cut if only its beginning is kept (`until_infeasible`).
 """
 
 from __future__ import annotations
@@ -163,9 +165,13 @@ class Walk(Shown):
 
     @cached_property
     def signals(self) -> Signals:
-        """References, errors, torques, estimates and forces over time, computed at the first call and kept."""
+        """References, errors, torques, estimates and forces over time, computed at the first call and kept.
+
+        Errors are from the gait's curve, or without a gait from the controller's own reference.
+        """
         if self.recorded is not None:
             return self.recorded
+        # a robot without motors has neither: its reference is one of no joints, of arrays (0,)
         curve = own_reference(self.walker.controller) if self.gait is None else self.gait.constraint
         no_joints = TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
         return signals(self.walker, self.trajectory, no_joints if curve is None else curve)
@@ -192,7 +198,9 @@ class Walk(Shown):
 
     @property
     def soft(self) -> bool:
-        """Whether the walk ran on a plant with soft contact, in which a double support takes time."""
+        """Whether the walk ran on a plant of its own such as MuJoCo's, with soft contact, in which a double
+        support takes time; only such a run records a "plant".
+        """
         return "plant" in self.trajectory.settings
 
     @cached_property
@@ -205,8 +213,8 @@ class Walk(Shown):
         return () if ground is None else recorded_steps(self.trajectory, *ground)
 
     def _soft_ground(self) -> tuple[float, tuple[Array, Array]] | None:
-        """Friction [1] and axes of the soft ground, for a run that recorded what its feet do there;
-        else None.
+        """Friction [1] of the soft ground, and its axes: unit vectors (x, z) along it and out of it, each (2,).
+        None for a run that did not record what its feet do on such ground.
         """
         run = self.trajectory
         ground = run.settings.get("plant", {}).get("ground")
@@ -229,12 +237,13 @@ class Walk(Shown):
         return self.feasible_within(Limits())
 
     def feasible_within(self, limits: Limits) -> Feasibility:
-        """Judge the walk as `feasibility` does, within other limits; the unfinished last step counts too."""
+        """Judge the walk as `feasibility` does, within other limits, whose None are the values of the robot's
+        record; the unfinished last step counts too.
+        """
         run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
         impacts, after = self.impacts, after_last_impact(self.walker, run)
-        if (
-            self.soft
-        ):  # a plant that does not say what its feet did has no soft steps, and no slip is known
+        # a plant that does not say what its feet did has no soft steps: no slip is known, and 0 stands for it
+        if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
         return Feasibility(run.status, judged, impacts)
@@ -256,6 +265,7 @@ class Walk(Shown):
         if self.scenario is None:
             raise InputError("an outcome is of a scenario's walk; take signals, or walk_scenario")
         run, s = self.trajectory, self.signals.before_fall
+        # the walk of a scenario begins at t = 0
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
         return Outcome(
             self.scenario,
@@ -275,37 +285,43 @@ class Walk(Shown):
     def until_infeasible(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.
 
-        Its status is then INFEASIBLE and its detail says which limit, when, and by how much. None: the limits
-        of the robot's record.
+        Its status is then INFEASIBLE and its detail says which limit, when, and by how much; without such an
+        instant it is the walk itself. limits None: those of the robot's record.
         """
         run, ground = self.trajectory, self._soft_ground()
         slipped = None if ground is None else slip_times(run, *ground)
         cut = until_infeasible(self.walker, run, self.signals, limits, slipped)
         if cut is run:
             return self
+        # signals that came from a file are cut to these nodes; others are computed anew
         count = sum(len(arc.t) for arc in cut.arcs)
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
         return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept), parts=())
 
     @cached_property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences to know before using its numbers, those of `edges.remarks`; `walk` warns with each."""
+        """Sentences to know before using its numbers, those of `edges.remarks`, each once; of a stored walk
+        those of its file. `walk` warns with each.
+        """
         if self.recorded is not None:
             return self.stored_remarks
         return tuple(dict.fromkeys(remarks(self.walker, self.gait, self.trajectory)))
 
     def rounding(self) -> float:
-        """Largest difference [rad, s] at impacts and the end to the same walk from a start that is 1e-12 off:
-        above 1e-7 rounding decides its numbers. Raises InputError without `parts`.
+        """Largest difference of angles [rad] and times [s], at impacts and the end, to the same walk from a
+        start that is 1e-12 off: above 1e-7 rounding decides its numbers. Raises InputError without `parts`.
         """
         return rounding(self.walker, self.trajectory, self.parts)
 
     @property
     def controller_name(self) -> str:
-        """Name of the controller in the scenario, or else of its class without "Controller"."""
+        """Name of the controller in the scenario; of a walk without scenario or gait that of the controller's
+        class, without its module and without "Controller" at its end.
+        """
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
+        # a stand-in for a class of the user's has the name of that class in `home`
         name: str = getattr(law, "home", type(law).__name__)
         return name.rpartition(":")[2].removesuffix("Controller")
 
@@ -337,7 +353,8 @@ class Walk(Shown):
     def save(self, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
         """Write the run (.npz) with robot, gait, controller and torques inside; `load_walk` reads it anywhere.
 
-        settings: more plain values beside them. Raises InputError and OutputError.
+        settings: more plain values for the file, beside versions, remarks and scenario. Returns the path, with
+        .npz at its end. Raises InputError and OutputError.
         """
         writer = Writer()
         walker, gait = writer.part(self.walker), writer.plain(self.gait)
@@ -351,8 +368,8 @@ class Walk(Shown):
         return storage.save(self.trajectory, path, {**about, **(settings or {})}, arrays)
 
     def _columns(self) -> dict[str, Any]:
-        """Columns (K,) of the table of `to_csv`, by name with unit; `step` is the number of the single
-        support.
+        """Columns (K,) of the table of `to_csv`, for K nodes, by name with unit; `step` is the number of the
+        single support.
         """
         s, events = self.signals, list[str]()
         for arc in self.trajectory.arcs:
@@ -362,7 +379,7 @@ class Walk(Shown):
         return columns | joint_columns(s, _OF_JOINTS) | forces
 
     def to_csv(self, path: Path | str) -> Path:
-        """Write a table (.csv), a row for each stored node; its path. Raises InputError and OutputError.
+        """Write a table (.csv) with a row for each node; returns its path. Raises InputError and OutputError.
 
             t [s], step, event, q1 [rad] .. qN, v1 [rad/s] .., u1 [N m] .. up, q_d1 [rad] .. qp,
             v_d1 [rad/s] .., error1 [rad] .., F_T [N], F_N [N]

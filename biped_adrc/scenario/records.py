@@ -8,7 +8,9 @@ A number may be text with a unit, "150 N m" or "1 ms"; "none" is no value where 
 has one obvious name, `SHORT`, may be that name alone. Values of records inside records have dotted names,
 "controller.observer.bandwidth", the same in Python, in TOML and on the command line.
 
-Records of parts of the user's own are open: they keep other names in `own`, and the part takes them by name.
+A part is what the registry makes of a name: a controller, an observer, a sensor, a push, a plant. A kind is one
+of these groups in the registry. Records of parts may be open: they keep values with other names in `own`, which
+only a part of the user's knows, and the part's constructor takes them by name.
 """
 
 from __future__ import annotations
@@ -48,17 +50,19 @@ SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
 
 
 def field(default: Any, unit: str = "", kind: str = "", **limits: Any) -> Any:
-    """A field with its unit, "1" for a dimensionless number, and range (ge, gt, le, lt).
+    """Declare a field of a record, with its default, and the ends of its range as ge, gt, le, lt.
 
-    kind: for a name of the registry, which kind of thing it names ("controller"). The docstring below the field
-    is its help text.
+    unit: of its numbers, "1" for dimensionless ones, "" where no unit is taken. kind: for a field that is a
+    name of the registry, the kind of part that it names, such as "controller". The docstring below the field is
+    its help text.
     """
     return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
 
 
 class Misfit(InputError):
-    """A value that a record does not take; `place` is its dotted name, `known` whether a record has such a
-    name.
+    """The error for a value that a record does not take: `place` is its dotted name, `text` the fault.
+
+    known: False where no record has a value of this name, so that `misfit` proposes names of the outer record.
     """
 
     def __init__(self, place: str, text: str, known: bool = True) -> None:
@@ -86,10 +90,11 @@ def named_part(
 ) -> _T:
     """Construct the part that the registry has of this kind and name.
 
-    Its constructor takes by name what is known of the scenario, then the registry's defaults, then `own`: the
-    user's own values in its record, which override these. place: the dotted name of that record. fields: the
-    record's declared fields. base: class that the part must have. Raises InputError for a part that is not
-    there or cannot be made, and Misfit for an own value that it does not take.
+    Its constructor gets by name those values that it takes: of `known`, what the scenario knows, such as
+    "biped"; over them of the registry's defaults; over them of `own`, the user's own values in the record of
+    the part. place: dotted name of that record, for messages. fields: names of its declared fields, which count
+    as known names too. base: class that the part must have. Raises InputError for a part that is not there or
+    cannot be made, and Misfit for an own value that it does not take.
     """
     entry = find(kind, name)
     make = entry.load()
@@ -120,8 +125,12 @@ class Described(NamedTuple):
         return "" if self.unit in PLAIN else f" [{self.unit}]"
 
     def read(self, x: Any) -> Any:
-        """A value as the field takes it. Raises ValueError for one of another type, or out of its range."""
+        """The value x as the field keeps it: texts with units become numbers in the field's unit.
+
+        Raises ValueError for a value of another type, out of its range, or not among its choices.
+        """
         x = converted(self, as_python(x))
+        # an int is also a float here; a bool, which Python counts as an int, is neither
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
@@ -141,7 +150,7 @@ class Described(NamedTuple):
 
     @property
     def range_text(self) -> str:
-        """Its range, or its choices, in a few words."""
+        """The choices, or else the range, in a few words: ">= 0, <= 1"."""
         ends = (f"{SIGNS[sign]} {x:g}" for sign, x in self.limits)
         return " or ".join(self.choices) or ", ".join(ends)
 
@@ -171,12 +180,13 @@ class Record(BaseModel):
     @classmethod
     def _opened(cls, values: Any) -> Any:
         """Make a mapping of a text that stands for the record, and check values that only a user's part
-        knows.
+        knows. pydantic calls it first; a record that is not open refuses such values afterwards.
         """
         if isinstance(values, str) and cls.SHORT in cls.model_fields:
             values = {cls.SHORT: values}
         if not isinstance(values, Mapping):
             return values
+        # `dotted.merged` puts a text that stands for the record under NAME
         result = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
@@ -187,19 +197,24 @@ class Record(BaseModel):
 
     @classmethod
     def own_value(cls, name: str) -> Described:
-        """The description of a value that only the user's part knows: it says nothing but the name."""
+        """The description of a value that only the user's part knows: any type, any unit, no default."""
         return Described(name, (), unit=ANY)
 
     @classmethod
     def _of_part(cls, what: Described, part: object) -> Described:
-        """The value with the unit that the registry states for the part of this name."""
+        """The description `what` with the unit that the registry states for this value of the part named
+        `part`; unchanged where it states none.
+        """
         kind = described(cls, cls.SHORT).kind if cls.SHORT in cls.model_fields else ""
         return what._replace(unit=unit_in(kind, part, what.name, what.unit))
 
     @field_validator("*", mode="before")
     @classmethod
     def _read(cls, x: Any, info: ValidationInfo) -> Any:
-        """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
+        """A value as its field keeps it: numbers from text with a unit, names as the registry spells them.
+
+        info: of pydantic: name of the field, and `data`, the fields that were read before it.
+        """
         what = described(cls, str(info.field_name))
         if isinstance(x, str):
             what = cls._of_part(what, info.data.get(cls.SHORT))
@@ -207,8 +222,10 @@ class Record(BaseModel):
 
     @classmethod
     def names(cls, before: str = "") -> list[str]:
-        """Dotted names of all values. A list of records gives those of its first record; a record in one of its
-        own class gives its name alone.
+        """Dotted names of all values, each behind the text `before`.
+
+        A list of records gives those of its first record; a record inside one of its own class, such as the
+        controller in an outer loop, gives its name alone, since the names would not end.
         """
         result = []
         for name, info in cls.model_fields.items():
@@ -222,9 +239,11 @@ class Record(BaseModel):
 
     @classmethod
     def field_of(cls, name: str) -> Described:
-        """Type, unit, range, default and text of a value by its dotted name.
+        """Type, unit, range, default and text of a value by its dotted name, in which numbers of list items do
+        not count.
 
-        Raises InputError with the nearest names.
+        The name of a record stands for its field SHORT; a name below a table, as errors.mass.torso, for one of
+        the table's numbers. Raises Misfit with the nearest names.
         """
         at: type[Record] = cls
         parts = [part for part in name.split(".") if not part.isdigit()]
@@ -247,8 +266,9 @@ class Record(BaseModel):
     def value_of(cls, name: str, x: object) -> Any:
         """Reads and checks a value x for a field by its dotted name, such as "run.h".
 
-        "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
-        Raises InputError for an unknown field, and for a value that the field does not take.
+        "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class";
+        1 becomes 1.0 in a field of floats, so that equal values have equal texts. Raises InputError for an
+        unknown field, and for a value that the field does not take.
         """
         what = cls.field_of(name)
         result = what.taken(x)
@@ -272,7 +292,8 @@ class Record(BaseModel):
         return dict(self.model_extra or {})
 
     def record(self, usual: Record | None = None) -> dict[str, Any]:
-        """Nested plain values that differ from the defaults, or from those of another record, as JSON has them.
+        """Nested plain values, as JSON has them, that differ from those of the record `usual`; None: from the
+        defaults.
 
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
@@ -280,6 +301,7 @@ class Record(BaseModel):
         result = {}
         for name in type(self).model_fields:
             x, before = getattr(self, name), getattr(usual, name)
+            # of an inner record the differences; none, an empty table, counts as equal
             if isinstance(x, Record) and isinstance(before, Record):
                 x, before = x.record(before), {}
             if x != before:
@@ -289,7 +311,7 @@ class Record(BaseModel):
         return result | {name: as_json(x) for name, x in self.own.items() if others.get(name) != x}
 
     def _asdict(self) -> dict[str, Any]:
-        """For `core.files.plain`."""
+        """The values of `record`; `core.files.plain` looks for a method of this name to write JSON."""
         return self.record()
 
     def dotted(self) -> dict[str, Any]:
@@ -328,7 +350,9 @@ def as_python(x: Any) -> Any:
 
 
 def converted(what: Described, x: Any) -> Any:
-    """Convert a value that is a text to the type of its field, a number to SI units; other values stay.
+    """Convert a value x that is a text to the type of the field `what`: "none" to None, a number to the field's
+    unit, a registered name to its spelling, "1, 2" to a tuple. In a table each text becomes a number. A whole
+    float becomes an int in a field of ints; other values stay.
 
     Raises ValueError for a text that does not fit.
     """
@@ -357,13 +381,13 @@ def converted(what: Described, x: Any) -> Any:
 
 @lru_cache
 def by_default(cls: type[Record]) -> Record:
-    """The record of the defaults."""
+    """The record of this class with all its defaults: one object per class, made without checks."""
     return cls.model_construct()
 
 
 @lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
-    """The description of the field `name` of a record; place: its dotted name, if longer."""
+    """The description of the field `name` of a class of records; place: its dotted name, if that is longer."""
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
@@ -377,6 +401,7 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
 
 
 def _members(hint: Any) -> tuple[Any, ...]:
+    """The types of a union `A | B`; a type that is none is alone."""
     return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
 
 
@@ -390,10 +415,13 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
 
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
-    """The first thing that is wrong, as an error with the dotted name of the value."""
+    """The first fault that pydantic found in values for a record of class `cls`, as an error with the dotted
+    name of the value.
+    """
     result = error.errors()[0]
     place = dotted_place(result)
     inner = result.get("ctx", {}).get("error")
+    # a Misfit that was raised inside has a place within that at which pydantic caught it
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)
         if inner.known:

@@ -195,6 +195,7 @@ class StartRecord(OpenRecord):
 
     @classmethod
     def own_value(cls, name: str) -> Described:
+        """The description of a coordinate's offset, q1.. or v1... Raises Misfit for another name."""
         if not cls._COORDINATE.fullmatch(name):
             raise Misfit(name, "expected speed, spread, or a coordinate such as q5 or v5")
         return Described(name, (float,), default=0.0, unit="rad" if name[0] == "q" else "rad/s")
@@ -239,6 +240,7 @@ class RunRecord(Record):
 
     @model_validator(mode="after")
     def _own_step(self) -> Self:
+        """Raise Misfit for an integration step beside the method "adaptive", which chooses its own."""
         if self.method == "adaptive" and (step := self.h or self.fine) is not None:
             raise Misfit("h", f"is {step:g} s, and 'adaptive' chooses its own; leave it out")
         return self
@@ -298,6 +300,10 @@ class Scenario(Record):
         run: RunRecord | _Values = by_default(RunRecord),
         **dotted: Any,
     ) -> None:
+        """Join the records of the call and, over them, the values by dotted names; see the class.
+
+        A record that is the very object of its default was left out, and is not stated again.
+        """
         here, fields = vars(), type(self).model_fields.items()
         records = {name: here[name] for name, x in fields if here[name] is not x.default}
         super().__init__(**tables(records | dotted))
@@ -305,7 +311,10 @@ class Scenario(Record):
     @field_validator("pushes", mode="before")
     @classmethod
     def _parsed(cls, x: Any) -> Any:
-        """Pushes from their texts, from one record, and from records by number."""
+        """A tuple of pushes, of texts of a command line ("q1=30@3:0.1-0.3 q5=20@4:0.1-"), of one push, of a
+        table by number {"0": ..}, or of a list; pydantic refuses anything else.
+        """
+        # several pushes in one text: one begins behind a blank that JOINTS= follows
         if isinstance(x, str):
             x = re.split(r"\s+(?=[^\s@=]+=)", x.strip())
         elif isinstance(x, Mapping):
@@ -318,21 +327,20 @@ class Scenario(Record):
 
 
 def read_scenario(path: Path) -> Scenario:
-    """The scenario of a TOML file. Raises InputError with the file and the name of the value.
+    """The scenario of a TOML file, such as the following. Raises InputError with the file and the name of the
+    value.
 
-    controller.name = "LESO"
-    controller.observer.bandwidth = "160 rad/s"
-    pushes = [{ joints = "q1", torque = "30 N m", step = 2, onset = "0.1 s" }]
+        controller.name = "LESO"
+        controller.observer.bandwidth = "160 rad/s"
+        pushes = [{ joints = "q1", torque = "30 N m", step = 2, onset = "0.1 s" }]
     """
     with reading("scenario file", path, InputError):
         return Scenario(**tomllib.loads(path.read_text(encoding="utf-8")))
 
 
 def write_scenario(path: Path, s: Scenario, comment: str) -> None:
-    """Write the values of a scenario that differ from the defaults, and its controller and robot. Raises
-    OutputError.
-
-    comment: the line at the top of the file.
+    """Write a TOML file that `read_scenario` reads: names of controller and robot, and the values that differ
+    from the defaults. comment: text for the line at the top. Raises OutputError.
     """
     write_text(path, "\n".join([f"# {one_line(comment)}", *scenario_lines(s), ""]))
 
@@ -356,7 +364,7 @@ its end."""
 
 
 def drawn(s: Scenario, what: str, item: int = 0) -> int:
-    """A 63-bit seed for one purpose of `DRAWN`, from the scenario's seed; item: number of a push.
+    """A 63-bit seed for one purpose of `DRAWN`, from the scenario's seed; item: number of a push, from 0.
 
     The streams are independent: a scenario with one random thing more keeps the draws of all others, so that
     two scenarios differ by what was changed and not by luck.
@@ -369,4 +377,4 @@ def drawn(s: Scenario, what: str, item: int = 0) -> int:
     """
     key = (DRAWN.index(what), item) if item else (DRAWN.index(what),)
     words = np.random.SeedSequence(s.run.seed, spawn_key=key).generate_state(1, np.uint64)
-    return int(words[0] >> np.uint64(1))
+    return int(words[0] >> np.uint64(1))  # 63 bits, as files hold signed integers of 64

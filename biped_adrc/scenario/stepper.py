@@ -13,6 +13,10 @@ states after it:
 
 Without inputs each walk is that of `ba.walk_scenario`. Walks whose parts all compile are moved in one call of
 machine code; the others one by one (`engine.samples`).
+
+A sample is the motion from one sample instant to the next one, or to the end of the walk; it ends at an impact
+if the clock restarts there. To judge a single support is to compare the ground forces and torques that it needs
+with limits (`analysis.certificate`).
 """
 
 from __future__ import annotations
@@ -96,6 +100,7 @@ class Stepper:
         self.what = what
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
+        """The curve of the scenario's gait, from which errors are measured; None for a walker."""
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError("no sample instants; give hardware.period or timing=SampledTime(1e-3)")
         if isinstance(what, Scenario):
@@ -105,10 +110,11 @@ class Stepper:
             self.curve = self.scene.walked.constraint
         self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
         self.why = ""
-        """Why walks are not moved in machine code; empty where they are."""
+        """Why walks that begin are not moved in machine code; empty where they are."""
         self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
+        """Each walk in its present state; None before it has begun."""
         self.walkers: list[Walker | None] = [None] * count
-        """Walkers as the scenario makes them, with inputs for torque and force."""
+        """Walkers of the walks, with inputs for torque and force."""
         self.in_python = False  # whether at least one walk is moved in Python
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk; empty without
@@ -116,6 +122,8 @@ class Stepper:
         """
         self._kernels = kernels()
         self.addresses = np.zeros(count, dtype=np.int64)
+        """Address of each compiled walk in memory; 0 for a walk that machine code does not move."""
+        # the first two arguments of the kernels, which read `addresses` in place
         self._walks = self.addresses.ctypes.data, count
         self.inputs = np.zeros((count, self.p + 2))
         """Torque (p,) [N m] and force (2,) [N] from outside in the next sample."""
@@ -134,7 +142,7 @@ class Stepper:
 
     @property
     def sample(self) -> Sample:
-        """Time, step and state of each walk now."""
+        """Time, step, state and status of each walk now; the arrays are copies."""
         rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
         return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
 
@@ -157,11 +165,15 @@ class Stepper:
         return self.sample
 
     def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
-        """Begin walk i, with seed and start as in `reset`: None takes the scenario's own."""
+        """Begin walk i, with seed and start as in `reset`: None takes the scenario's own.
+
+        It becomes a `CompiledWalk`, or a `PythonWalk` where its plant moves by itself or one of its parts has
+        no machine code; from then on this stepper tries to compile no walk that begins (`why`).
+        """
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
             mode = Mode(s.run.first_step)
-            if seed is not None:
+            if seed is not None:  # only the seed changes, so nothing else is checked again
                 s = s.model_copy(update={"run": s.run.replace(seed=seed)})
             walker, outside = with_inputs(build(s, self.scene))
             start = self.scene.start(s) if start is None else start
@@ -187,10 +199,11 @@ class Stepper:
         self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
-        """Put a walk, with the code of its status, into place i."""
+        """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
         _, t, x, mode = walk.at
-        if not self.rows.size:
+        if not self.rows.size:  # the first walk says how many numbers x has
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
+            # the other arguments of `kernels.samples`: length of a row, and addresses of arrays
             arrays = (self.inputs, self.rows, self.codes, self._impacts)
             self._states = self.rows.shape[1], *(x.ctypes.data for x in arrays)
         self.rows[i] = (t, mode.step, *x)
@@ -216,7 +229,11 @@ class Stepper:
         return self.sample
 
     def move(self) -> None:
-        """Move the walks by one sample as `step` does, without its checks of `inputs` and of the walks."""
+        """Move the walks that go on by one sample under `inputs`, as `step` does, without its checks.
+
+        It renews `rows`, `codes` and, with `within`, `over`.
+        """
+        # machine code moves all compiled walks; `ends`: how many of them ended a single support
         ends = self._kernels.samples(*self._walks, *self._states)
         self.over = self._judged() if ends > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
@@ -226,8 +243,8 @@ class Stepper:
                 self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
 
     def _judged(self) -> list[tuple[int, Support]]:
-        """Judge the single supports that have just ended in machine code; returns each with the number of its
-        walk.
+        """Judge the single supports that ended in the last sample of compiled walks, by an impact or with the
+        walk; returns each with the number of its walk.
         """
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
         moved = self._impacts >= 0
@@ -237,8 +254,10 @@ class Stepper:
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
             n = Nodes(walk.run.rows(), plant.n, plant.p)
             q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
+            # right after an impact there is no node of the next single support: the state gives the momentum
             after = plant.momentum(q, v) if len(n.steps) == impacts else None
             judged = supports(walker, n, within.of(plant.description), impacts, after)
+            # of a walk that goes on, the single supports with an impact; of one that ended, the last one too
             result += [(i, s) for s in judged[: None if ended else impacts]]
             # the nodes of the single support that goes on are kept, those of finished ones are dropped
             on = n.rows[n.edges[impacts] :]
@@ -246,14 +265,16 @@ class Stepper:
         return result
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
-        """Judge one single support of walk i, whose arc has all its nodes."""
+        """Judge one single support of walk i, moved in Python by `loop`; `arc` has all its nodes."""
+        # the status says nothing here; the engine lets signals be computed in machine code
         run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
+        # states of a plant that moves by itself are brought into the layout of a walker's
         run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
         walk = Walk(cast(Walker, self.walkers[i]), self.scene.walked, run)
         return walk.feasible_within(cast(Limits, self.within)).supports[0]
 
     def save(self, i: int = 0) -> Snapshot:
-        """A copy of walk i as it is now, for `restore`. Raises InputError for a walk that has not begun."""
+        """A copy of walk i (from 0) as it is now, for `restore`. Raises InputError before it has begun."""
         walk, walker = self.walks[i], self.walkers[i]
         if walk is None or walker is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
@@ -276,10 +297,10 @@ class Stepper:
 
     def read(self, view: Reading) -> Array:
         """The numbers that the function view(loop, t, x, mode, reference), such as `signals_at`, returns for
-        each walk at its present instant: an array with N rows.
+        each of N walks at its present instant, its arrays one after the other: an array (N, size).
 
-        The reference is the scenario's gait. Raises InputError for a stepper of a walker, and if no walk has
-        begun.
+        The reference is the curve of the scenario's gait; the row of a walk that has not begun is 0. Raises
+        InputError for a stepper of a walker, and if no walk has begun.
         """
         if self.curve is None or not self.rows.size:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
@@ -290,6 +311,7 @@ class Stepper:
             result = np.zeros((len(laws), size))
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         _, result, at = self._laws[view]
+        # rows of walks in Python are written here, those of compiled walks by the kernel
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk):
                 result[i] = python_row(walk, view, self.curve)
@@ -313,6 +335,7 @@ def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Arra
     if x.shape != shape:
         raise InputError(f"the {what} has shape {x.shape}, expected {shape}")
     flat = x.ravel()
-    if not math.isfinite(flat.dot(flat)) and not np.isfinite(x).all():  # the product is fast
+    # the product is fast; it may overflow for finite numbers, so these are looked at one by one
+    if not math.isfinite(flat.dot(flat)) and not np.isfinite(x).all():
         raise InputError(f"the {what} is {x}, expected finite numbers")
     return x

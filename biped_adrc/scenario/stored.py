@@ -6,9 +6,12 @@ files matter.
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": number of the walker's record in this list,
-                from 0, "gait": the gait as a value, see below}
+                from 0, "gait": the gait as `plain_parts` writes a value}
     signal.*    the arrays of `analysis.signals.Signals`, one row for each stored time
     settings    versions, the scenario's record, remarks, names of the states, and what the caller adds
+
+A class of the user's is not imported again. A stand-in takes the place of such a controller or disturbance, so
+that the walk can be looked at and not walked on.
 """
 
 from __future__ import annotations
@@ -58,13 +61,14 @@ class AbsentDisturbance(Disturbance):
 
 
 def _again(home: str) -> str:
+    """Message where a walk would need the user's class `home` (module:Class), for which a stand-in stands."""
     return f"a stored walk cannot go on without '{home}'; walk it again with walk_scenario(walk.scenario)"
 
 
 _OF_TWO = ("ground_reaction", "outside", "momentum", "swing_foot", "hip")
 OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u", "zeta_estimate")
-"""Signals with two columns (x and z), with one for each coordinate, and with one for each joint, as all that
-begin with xi; each other signal has one number in a row."""
+"""Signals with two columns (x and z), with one for each of n coordinates, and with one for each of p joints, as
+all that begin with xi; each other signal has one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a stand-in replaces a part of the user's; in other fields such a part is left
 out.
@@ -81,6 +85,7 @@ def load_walk(path: Path | str) -> Walk:
     >>> ba.load_walk(walk.save(folder / "walk.npz")).impacts
     2
     """
+    # a file has modes as numbers: the single support's number as a float, and its start [s]
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
     with reading("run", path, InputError):
@@ -101,7 +106,9 @@ def load_walk(path: Path | str) -> Walk:
 
 
 def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory) -> Signals:
-    """The signals in a file. Raises ValueError for an array that does not fit the walk."""
+    """The signals of a file, from its arrays by name, one row for each stored time of the trajectory. Raises
+    ValueError for an array that does not fit the walk.
+    """
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
     wide = dict.fromkeys(_OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
     estimates = [name for name in arrays if name.startswith("xi")]
@@ -114,7 +121,9 @@ def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
-    """The walker of a record, with a stand-in for a controller or a disturbance of the user's."""
+    """The walker of a record, with a stand-in for a controller or a disturbance of the user's; other parts of
+    the user's are left out, so that the walker has its default for them.
+    """
     values = dict[str, Any]()
     for name, x in record["values"].items():
         try:

@@ -73,10 +73,11 @@ def quantity(text: str, unit: str) -> float:
 
 
 def own_quantity(text: str, unit: str) -> float | str:
-    """Convert a text such as "2 mm" to a number in `unit`; a text of another form is returned unchanged.
+    """Convert a number with its unit, such as "2 mm", to a number in `unit`; any other text stays as it is.
 
-    Raises ValueError where the number has a unit that does not fit; with `ANY` such a text is returned
-    unchanged.
+    It reads values that only a part of the user's knows, and these may be texts: so "5" stays a text too.
+    Raises ValueError where the unit does not fit. With `ANY` (the result is then in SI units) nothing is
+    raised, and a text such as "3 times", whose last word is no unit, stays as it is.
     """
     match = _QUANTITY.fullmatch(text)
     with suppress(ValueError) if unit == ANY else nullcontext():
@@ -89,7 +90,7 @@ def unit_of(text: str) -> Unit:
 
     Raises ValueError for an unknown symbol, and a factor out of range.
     """
-    factor, powers = _WHOLE["1"]
+    factor, powers = _WHOLE["1"]  # the product begins with 1, without dimension
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
@@ -111,7 +112,7 @@ def unit_of(text: str) -> Unit:
 def _scaled(number: float, factor: float) -> float:
     """number * factor. For a factor 10^k the decimal point is shifted in the text of the number: so 1.5 ms is
     the float nearest to 1.5e-3. The product 1.5 * 1e-3 may be the float beside it, which would be another
-    scenario.
+    scenario. A number whose text has an exponent already, such as 1e-07, is multiplied.
     """
     digits = math.log10(factor)
     shift = round(digits)

@@ -5,7 +5,7 @@
 at half the integration step; their difference estimates the error of integration.
 
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
-    made = ba.walk(walker, gait, impacts=8)          # a Walk
+    result = ba.walk(walker, gait, impacts=8)        # a Walk
 
 Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
 from the stored state, and a walk starts just after its impact.
@@ -48,8 +48,9 @@ from biped_adrc.scenario.scenario import RunRecord, Scenario
 def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    It runs on the compiled engine. The adaptive method, which chooses its own step, gets a hundredth of the
-    tolerance. The half of the shortest step that a scenario may have is not refused here.
+    walker: that of the scenario, by which its steps are known. The scenario returned runs on the compiled
+    engine. The adaptive method, which chooses its own step, gets a hundredth of the tolerance. The half of the
+    shortest step that a scenario may have is not refused here, since `model_copy` checks no ranges.
     """
     run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
     if ground.plant != RIGID:
@@ -105,6 +106,7 @@ def walk(
     ('COMPLETED', 'COMPLETED')
     """
     check_part(walker, "what is to walk", Walker)
+    # the gait may be None beside a start, unless errors of joints could then be measured from nothing
     tracks = walker.plant.p == 0 or own_reference(walker.controller) is not None
     check_part(gait, "the gait of the walk", Gait, *[NoneType] * (start is not None and tracks))
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
@@ -128,7 +130,7 @@ def walk(
         check_start(*start, walker)
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:
-        usual = RunRecord.model_construct(engine=engine)
+        usual = RunRecord.model_construct(engine=engine)  # all else by default
         methods = methods_of(usual, walker) if method is None else (method, None)
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
@@ -141,7 +143,8 @@ def walk(
 def walk_scenario(
     s: Scenario, progress: Progress | None = None, controller: Controller | None = None
 ) -> Walk:
-    """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
+    """Simulate a scenario from just after the impact of the gait's periodic orbit, or of the cycle of a robot
+    without motors, with the scenario's offsets.
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
@@ -169,6 +172,6 @@ def walk_scenario(
 
 
 def execute_twice(s: Scenario) -> Outcome:
-    """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
+    """Walk a scenario twice: its `Outcome`, whose `half` is the outcome with integration steps half as long."""
     walk = walk_scenario(s)
     return replace(walk.outcome, half=walk_scenario(halved(s, walk.walker)).outcome)

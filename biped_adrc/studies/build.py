@@ -5,8 +5,9 @@
     hardware.torque_limit         "none"      None      no limit
     start.v5                      0.1         0.1       [rad/s]
 
-Robots and gaits are loaded once per process. A study may name files (a robot's TOML and URDF, a gait) and
-classes of the user: their contents are hashed into the versions of its results.
+The columns are name, value as text in a file, value in SI units, and its unit or meaning. Robots and gaits are
+loaded once per process. A study may name files (a robot's TOML and URDF, a gait) and classes of the user: their
+contents are hashed into the versions of its results.
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ def scenario_of(values: PlainValues) -> Scenario:
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
-    """Hashes of the files and classes that these values name, and versions of their plants.
+    """What decides numbers beside these values (name, value): hashes of the files and classes that they name,
+    and versions of the engines of their plants, by "file ..", "source .." and "engine of ..".
 
     Raises InputError for a class that cannot be imported or a plant that there is not.
     """
@@ -87,22 +89,26 @@ def _hash(path: Path) -> str:
 
 
 def _digits(data: bytes) -> str:
+    """The first 12 hexadecimal digits of SHA-256."""
     return hashlib.sha256(data).hexdigest()[:12]
 
 
 def _source(thing: Callable[..., object]) -> str:
-    """Hash of the text of a class or function; "none" where there is no text."""
+    """Hash of the source text of a class or function; "none" where Python finds no text, as in a console."""
     with suppress(OSError, TypeError):
         return _digits(inspect.getsource(thing).encode())
     return "none"
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:
-    """The files that a value names: of a robot its TOML and its URDF; empty for a registered name."""
+    """The files that the value called `name` of a scenario names: of a robot its TOML and its URDF; none for a
+    registered name, and for values that are no files.
+    """
     if not isinstance(value, str) or Path(value).suffix != _SUFFIXES.get(name):
         return ()
     path = Path(value)
-    with suppress(ModelError):  # who loads it says what is wrong
+    # a TOML that cannot be read stands here without its URDF; the error is raised where the robot is loaded
+    with suppress(ModelError):
         return (path, load_description(path).urdf) if name == "robot.name" else (path,)
     return (path,)
 
@@ -120,7 +126,9 @@ def scene_of(s: Scenario) -> RobotAndGait:
 def _scene(
     robot: RobotRecord, gait: GaitRecord, friction: bool, hashes: tuple[str, ...]
 ) -> RobotAndGait:
-    """The cached part of `scene_of`: what robot and gait depend on."""
+    """Load robot and gait for `scene_of`, once for all equal arguments. hashes: of their files; they are not
+    read, but load a file again when it has changed.
+    """
     return RobotAndGait.of(Scenario(robot=robot, gait=gait, hardware={"friction": friction}))
 
 
@@ -136,15 +144,16 @@ class Trial(NamedTuple):
 
 def acting(disturbance: Disturbance | None) -> tuple[Disturbance, ...]:
     """The parts of a disturbance, without waves whose amplitude is zero: they change nothing, though a seed may
-    shift the times of their window.
+    shift the times of their window. Empty for None.
     """
     parts = () if disturbance is None else summands(disturbance)
+    # a force on a link has its shape in time in `wave`; other pushes are waves themselves
     waves = ((x, getattr(x, "wave", x)) for x in parts)
     return tuple(x for x, w in waves if not isinstance(w, Windowed) or np.any(w.amplitude))
 
 
 def differ(*trials: Trial) -> bool:
-    """Whether walks of the same values and of different seeds may differ.
+    """Whether the walks of these trials, equal in all values but the seed, may differ.
 
     All that a seed can change is compared to the last bit. True also where a user's part cannot be compared.
     """
@@ -174,6 +183,7 @@ def trial_of(s: Scenario) -> Trial:
     scene = scene_of(s)
     q, v = scene.start(s)
     walker, mode = build(s, scene), Mode(s.run.first_step)
+    # [0]: the other one, the step where a push switches, is None in sampled time
     curve = scene.walked.constraint
     made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
     return Trial(s, scene, made, soft_loop(s, walker))

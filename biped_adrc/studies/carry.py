@@ -7,6 +7,9 @@ import:
     if __name__ == "__main__":
         found = ba.study("study.toml", "out/study")
         print(found.table())
+
+A case is a named set of values, a condition another one that is crossed with it (`study`). A search proposes
+candidates, settings of a case, and walks them on three sets of walks, "search", "choice" and "test" (`search`).
 """
 
 from __future__ import annotations
@@ -69,6 +72,7 @@ def study(
         optuna_library()
     undrawn = Undrawn()
     if function is None:
+        # only walks are rehearsed: what a function of the caller's makes of the values is not known
         undrawn = study_.rehearse()
         function = partial(run_trials, aside="rounding" in study_.columns)
     folder = Path(out)
@@ -100,7 +104,8 @@ class _Searched:
     """Walks the candidates of a search. Its walks get places in the study one after the other, in an order that
     does not depend on what is stored already; so a search that was stopped finds its rows again.
 
-    undrawn: pairs (case, condition) in which no part uses the seed, walked once each.
+    place: the next free place, from 0. undrawn: pairs (case, condition) in which no part uses the seed, walked
+    once each.
     """
 
     def __init__(self, study: Study, search: Search, runner: Runner, undrawn: Undrawn) -> None:
@@ -108,10 +113,11 @@ class _Searched:
         self.undrawn = undrawn
 
     def choice(self, case: str) -> Choice | str:
-        """Search a case, and choose among its best few candidates; returns a text with the reason where no
-        candidate keeps all limits.
+        """Search a case ("" for the base alone), and choose among its best few candidates by their walks on the
+        second set; returns a text with the reason where no candidate keeps all limits.
         """
         search, base = self.search, self.study.values_of(case)
+        # numbers of the candidates that were the best so far, one after the other
         best: list[int] = []
 
         def report(c: Candidate) -> None:
@@ -137,9 +143,10 @@ class _Searched:
         return failure
 
     def test(self, choices: Mapping[str, Choice]) -> None:
-        """Walk the settings on the test set: what was chosen for each case, and each case as it was.
+        """Walk settings on the test set: what was chosen for each case, and each case as it was.
 
-        The first of them is what the others are compared with: without cases the setting as it was.
+        The table of results compares with what is walked first: the setting chosen for the first case; without
+        cases the setting as it was.
         """
         chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
         before = [(x.candidates[0], case, "before") for case, x in choices.items()]
@@ -147,12 +154,13 @@ class _Searched:
         self.walk(
             "test", [(c.number, c.values, walk_names(case=x, setting=s)) for c, x, s in every]
         )
-        self.runner.total = self.runner.done
+        self.runner.total = self.runner.done  # `total` was the most that the search might need
         self.runner.tell()
 
     def walk(self, kind: str, candidates: Candidates) -> list[Walks]:
-        """The walks of each candidate on a set of walks (kind "search", "choice" or "test"); a walk without a
-        seed, in which nothing is drawn, stands for the walks of all seeds.
+        """Walk candidates on a set of walks (kind "search", "choice" or "test"); returns for each candidate its
+        walks, (condition, row) each. A walk without a seed, in which nothing is drawn, stands there once for
+        each seed.
         """
         walks = getattr(self.search.walks, kind)
         conditions = self.study.conditions_of(walks)
@@ -173,8 +181,8 @@ class _Searched:
         return [result[i : i + count] for i in range(0, len(result), count)]
 
     def failure(self, found: Sequence[Candidate], case: str, kind: str) -> str:
-        """Text for a search in which no candidate keeps all limits: how many each limit excluded, and the
-        nearest candidate. Empty where one keeps them.
+        """Text for a search of a case in which no candidate keeps all limits on the set of walks `kind`: how
+        many missed each limit, and the nearest candidate. Empty where one keeps them.
         """
         if any(c.feasible for c in found):
             return ""
@@ -191,7 +199,9 @@ class _Searched:
 
 
 def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
-    """The best few candidates, without a second one of the same values, and the case itself."""
+    """The best `search.finalists` candidates, without a second one of the same values; and the case itself, if
+    it is none of them.
+    """
     some: dict[str, Candidate] = {}
     for c in search.ranked(found):
         some.setdefault(repr(sorted(c.values.items())), c)

@@ -1,5 +1,8 @@
 """One number of many walks, from a column of their rows: what a search minimises, limits, and a page shows.
 
+A row is the results of one walk by column; columns.toml has the columns with their units. A measure is such a
+number: a column, and what is taken of it over all walks (median, mean, quantile or worst).
+
 Some columns need no walk: they are numbers of the linearised loop of a scenario without its seed and condition,
 which takes some 40 ms. On soft ground they are those of the rigid plant.
 
@@ -56,7 +59,9 @@ def is_counted(row: Row) -> bool:
 
 
 def _known(column: str) -> str:
-    """The column's name itself. Raises ValueError for a column that does not exist."""
+    """The name of the column, unchanged. Raises ValueError for a column that does not exist or has no
+    numbers.
+    """
     if column not in MEASURED:
         raise ValueError(f"'{column}' is an {unknown(column, MEASURED)}")
     return column
@@ -82,7 +87,7 @@ class Measure(Section):
 
     @property
     def sign(self) -> float:
-        """1 where less is better, -1 where more is."""
+        """1 where less is better, as here; -1 where more is, in subclasses."""
         return 1.0
 
     @property
@@ -93,11 +98,14 @@ class Measure(Section):
 
     @property
     def worst(self) -> float:
-        """The number of a walk that ranks worst."""
+        """The number of a walk that ranks worst: plus or minus infinity."""
         return self.sign * math.inf
 
     def number(self, row: Row) -> float:
-        """The number of a walk, infinite where it ranks worst."""
+        """The number of a walk in the unit of the column; `worst` where the walk does not count, or has none.
+
+        Columns of OF_ALL have a number for every walk; None, of what was no walk, is 0 in them.
+        """
         x = row.get(self.column)
         if self.column in OF_ALL:
             return float(x or 0.0)
@@ -105,8 +113,10 @@ class Measure(Section):
         return float(x) if fine and isinstance(x, int | float) else self.worst
 
     def of(self, walks: Sequence[tuple[str, Row]], known: Mapping[str, float | None]) -> float:
-        """The measure of walks, (condition, row) each. known: values of columns that need no walk, used in
-        place of the walks; None ranks worst.
+        """The measure of these walks, (condition, row) each, in the unit of the column.
+
+        known: column -> number, for columns that need no walk; it is returned in place of one from the walks,
+        and `worst` for None.
         """
         if self.column in known:
             x = known[self.column]
@@ -115,7 +125,7 @@ class Measure(Section):
         numbers: Array = np.array([self.number(row) for row in rows])
         if self.over in ("mean", "median"):
             return float(getattr(np, self.over)(numbers))
-        # `over` is a quantile, such as "0.9"; `sign` is 1 where less is better, so that 1.0 is the worst walk.
+        # `over` is a quantile, such as 0.9; `sign` makes the largest number the worst, so 1.0 is that walk.
         # inverted_cdf does not interpolate: between infinite numbers, of falls, that would be NaN
         p = 1.0 if self.over == "worst" else float(self.over)
         return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
@@ -128,6 +138,7 @@ class Aim(Measure):
 
     @property
     def sign(self) -> float:
+        """1 where the measure is to be minimised, -1 where it is to be maximised."""
         return 1.0 if self.goal == "minimise" else -1.0
 
 
@@ -140,13 +151,14 @@ class Limit(Measure):
 
     @model_validator(mode="after")
     def _one(self) -> Limit:
-        """Raises ValueError for two bounds, or none."""
+        """The limit itself. Raises ValueError for two bounds, or none."""
         if (self.least is None) == (self.most is None):
             raise ValueError("expected one of least and most")
         return self
 
     @property
     def sign(self) -> float:
+        """1 for an upper bound `most`, -1 for a lower bound `least`."""
         return -1.0 if self.most is None else 1.0
 
     @property
@@ -160,18 +172,20 @@ class Limit(Measure):
         return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
-        """Distance of x from the limit as a share of its bound [1]; 0 where x keeps the limit."""
+        """By how much a measure x misses the limit, as a share of its bound [1]; 0 where x keeps it.
+
+        It is at most MOST_EXCESS; where the bound is 0 it is the distance itself, in the unit of the column.
+        """
         scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
         return min(max(self.sign * (x - self.bound) / scale, 0.0), MOST_EXCESS)
 
 
 @lru_cache(maxsize=128)
 def _specification(text: str) -> Specification:
-    """The numbers of the linearised loop of a scenario whose values are this JSON, cached for all columns of
-    them.
+    """The numbers of the linearised loop of a scenario, cached, since a candidate is asked for several columns.
 
-    The ground keeps its shape, and is made rigid, since a loop on soft ground is not linearised. Raises
-    InputError.
+    text: JSON of the values by name, which can be a key of the cache as a dict cannot. The ground keeps its
+    shape, and is made rigid, since a loop on soft ground is not linearised. Raises InputError.
     """
     s = scenario_of(json.loads(text))
     g = s.ground
@@ -180,7 +194,8 @@ def _specification(text: str) -> Specification:
 
 
 def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, float | None]:
-    """Compute the columns that need no walk, for a candidate with these values of a scenario.
+    """Compute those of the columns that need no walk, for a candidate with these values of a scenario; other
+    columns are left out. Returns column -> number.
 
     None where there is no finite number, or where the values do not fit together.
     """

@@ -1,4 +1,8 @@
-"""The page of a study: its table, and one picture for each question that its rows answer."""
+"""The page of a study: its table, and one picture for each question that its rows answer.
+
+A row is the results of one walk by column; a group is the walks of one case under one condition, and a line of
+the table says what they are together (`results`).
+"""
 
 from __future__ import annotations
 
@@ -26,7 +30,7 @@ PAGE = "study.html"
 
 
 def write_page(found: Results) -> Path:
-    """Write the page into the folder of the study. Raises OutputError."""
+    """Write the page into the folder of the study, and return its path. Raises OutputError."""
     path = found.folder / PAGE
     text = rendered(
         "study",
@@ -43,14 +47,16 @@ def write_page(found: Results) -> Path:
 
 
 def headings(found: Results) -> tuple[str, ...]:
-    """Headings of the table of a study."""
+    """Headings of the columns of `texts`; the ratio is to the case of the table's first line."""
     middle = f"median {found.study.measure.column}"
     first = next((line.name for line in found.table()), "") or "first"
     return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"
 
 
 def choices(found: Results) -> dict[str, str]:
-    """The values that a search chose, as text by case, and the candidate's number."""
+    """By case, the number of the candidate that a search chose, and its values of the variables, as text; a
+    study without cases has the name "chosen". Empty without a search.
+    """
     variables = found.study.search.variables if found.study.search else ()
     return {
         name or "chosen": f"candidate {x.selected[0].number}, "
@@ -62,7 +68,8 @@ def choices(found: Results) -> dict[str, str]:
 def texts(line: TableLine, short: bool = False) -> tuple[str, ...]:
     """A line of the table as text: "17 of 20 (0.64 to 0.95)", and a dash for a number that does not exist.
 
-    short: whether to leave out the intervals but that of the ratio.
+    In order: case, condition, feasible walks, walks made to the end, median of the study's measure, ratio to
+    the first case, p-value. short: whether to leave out the intervals but that of the ratio.
     """
     count = f"{round(line.feasible.value * line.walks)} of {line.walks}"
     middle, ratio, p = interval(line.median), "–", "–"
@@ -85,8 +92,8 @@ def interval(x: Interval) -> str:
 
 
 def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
-    """The questions that a study answers, as (question, figure); a question without finite numbers is left
-    out.
+    """Yield the questions that a study answers, as (question, figure). A question is left out if no number in
+    its figure is finite and above 0, as a logarithmic axis needs.
     """
     lines, measure = found.table(), found.study.measure
     if not lines:
@@ -98,6 +105,7 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         shares = {key: x.feasible for key, x in by.items()}
         title = "share of feasible walks"
         yield "Whose walks are feasible?", dots_figure(shares, title, "linear")
+    # columns of OF_ALL, such as impacts, are no errors: no question of size or ratio is asked of them
     column, counts = _named(measure.column), measure.column in OF_ALL
     better = f"ratio to {lines[0].name} in {measure.column}"  # a ratio has no unit
     for question, title, numbers, at in (
@@ -122,16 +130,18 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
 
 
 def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) -> Figure:
-    """A map of `number` over the two fields of grid and draws that have the most levels.
+    """Draw a map of `number` over the two fields of grid and draws that have the most levels.
 
-    A condition, a case and a third field make panels; with one field alone the second axis is the case.
-    number: from a row to what is drawn. log: whether its colours have a logarithmic scale.
+    There is a panel for each condition, case and level of a third field; with one field alone the second axis
+    is the case. number: from a row to what is drawn. title: of its colours. log: whether these have a
+    logarithmic scale.
     """
     study, groups = found.study, found.groups
     levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
     axes = sorted(levels, key=lambda name: -levels[name])
     panels: dict[str, tuple[list[Any], list[Any], list[float]]] = {}
     for g in groups:
+        # on a grid, walks that only an idle seed separates would weigh double in the mean of their cell
         for x in found.different(g) if study.grid else g.rows:
             where = _panel(g, x.at, axes)
             xs, ys, values = panels.setdefault(where, ([], [], []))
@@ -144,12 +154,14 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
 
 
 def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
-    """Title of the panel in which a walk is drawn: its condition, case, and level of the third of the axes."""
+    """Title of the panel in which a walk of group g is drawn: its condition, its case unless that is an axis,
+    and its level of the third of the axes. at: the values of the walk that vary, by name.
+    """
     words = [g.condition, *([g.name] if len(axes) > 1 else [])]
     words += [f"{name} = {at[name]}" for name in axes[2:3]]
     return ", ".join(filter(None, words))
 
 
 def _named(column: str) -> str:
-    """A column with its unit in brackets, for a label."""
+    """The name of a column with its unit in brackets, taken from the text in columns.toml, for a label."""
     return " ".join([column, *re.findall(r"\[[^]]+\]", COLUMNS.get(column, ""))])

@@ -1,15 +1,16 @@
 """What a study found: its rows in one SQLite file, and the table of its cases under its conditions.
 
     study    one row: name, hash, the study and the versions of all that decides its numbers, as JSON
-    walks    one row for each walk: its place in the study; what locates it, the values of its scenario and its
-             results, as JSON; its status; and a checksum of all of these
+    walks    one row for each walk: its place in the study, a number; what locates it (`at`), the values of its
+             scenario and its results, as JSON; its status; and a checksum of all of these
 
 The file can be opened after a kill at any moment: rows that are handed in together are one transaction. Nothing
 is written into a file before it is known to be of the same study and the same versions. A row that does not fit
 its checksum is walked again; a file that SQLite finds damaged is refused.
 
-Walks of two cases under the same condition with the same values and the same seed are a pair. A walk that is
-not feasible counts as an infinite error. Rows that are equal to the last bit count as one walk. Confidence
+A case is a named set of values that are compared, a condition one under which they are; `study` has both. Walks
+of two cases under the same condition with the same values and the same seed are a pair. A walk that is not
+feasible counts as an infinite error. Rows that are equal to the last bit count as one walk. Confidence
 intervals are those of `analysis.statistics`. They exist only where the walks are a sample, by seeds or by
 draws; the walks of a declared grid are no sample, so a number over them, or of one walk, has no interval.
 """
@@ -53,7 +54,9 @@ class Result(NamedTuple):
     """A finished walk: what locates it in the study, and its row."""
 
     at: dict[str, Any]
+    """Case, condition, of a search also set, candidate and setting, and the values that vary, by name."""
     row: dict[str, Any]
+    """Its results by column of columns.toml; None for a number that does not exist."""
 
 
 @dataclass(frozen=True)
@@ -62,11 +65,12 @@ class Store:
 
     path: Path
     db: sqlite3.Connection
+    """The connection to the file."""
 
     def add(self, walks: Iterable[tuple[Point, str, str | None]]) -> None:
-        """Keep finished walks, each with its row as JSON and its status, in one transaction.
+        """Write finished walks into the file, each as (point, row as JSON, status), in one transaction.
 
-        Raises OutputError.
+        A walk that is there already is replaced. Raises OutputError.
         """
         rows = [(p.place, json.dumps(p.at), json.dumps(p.record), *said) for p, *said in walks]
         with _errors(self.path), self.db:
@@ -74,8 +78,8 @@ class Store:
             self.db.executemany(text, [(*row, checksum(row)) for row in rows])
 
     def mend(self) -> dict[int, bool]:
-        """Delete the rows that do not fit their checksums; returns, for each place that had a row, whether it
-        fits.
+        """Delete the rows that do not fit their checksums; returns, for each place that had a row, whether that
+        row fitted.
 
         Raises InputError for a file that SQLite finds damaged.
         """
@@ -90,7 +94,9 @@ class Store:
         return fits
 
     def results(self, first: int = 0, count: int = 2**62) -> Iterator[Result]:
-        """Finished walks of the places first .. first + count - 1, in their order, read one after the other."""
+        """Yield the finished walks of the places first .. first + count - 1 (2**62: to the end), in their
+        order, each read when it is asked for. Raises InputError for a row that does not fit its checksum.
+        """
         text = "SELECT * FROM walks WHERE place >= ? AND place < ? ORDER BY place"
         with _errors(self.path):
             for *row, x in self.db.execute(text, (first, first + count)):
@@ -128,8 +134,8 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
-    """Write the tables into an empty file; check a file that has some. Returns what is wrong with it, as the
-    rest of a sentence; an empty text if nothing is.
+    """Write the tables and the study into an empty file; check those of any other file. Returns what is wrong
+    with it, as the rest of a sentence that begins with its name; an empty text if nothing is.
     """
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
     tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
@@ -244,17 +250,20 @@ class Results(Shown):
 
     @cached_property
     def groups(self) -> list[Group]:
-        """The walks by case and condition, those of a search on its test set; the first case comes first."""
+        """The walks by case and condition, those of a search on its test set; the first case comes first. Rows
+        of what was no walk, as REFUSED, are left out.
+        """
         results = dict[tuple[str, str], list[Result]]()
         for result in self.results():
+            # walks of a study without a search have no set
             if result.at.get("set", "test") == "test" and result.row["status"] not in NO_WALK:
                 where = _name(result.at), str(result.at.get("condition", ""))
                 results.setdefault(where, []).append(result)
         return [Group(*where, tuple(rows)) for where, rows in results.items()]
 
     def _same(self, *walks: Result) -> str:
-        """A text that is the same for walks (or pairs of walks) whose rows are equal to the last bit, if they
-        also have the same levels of the grid; the seed, as an axis of a grid, does not count.
+        """A text that is equal for walks (or pairs of walks) whose rows are equal to the last bit, so that they
+        count once; walks at different levels of the grid (but for the seed as an axis) have different texts.
         """
         cell = [name for name in self.study.grid if name != SEED]
         return repr([([x.at.get(name) for name in cell], x.row) for x in walks])
@@ -272,7 +281,7 @@ class Results(Shown):
         all groups under this condition are taken, and has no ratio itself. Where the walks are no sample
         (`Study.drawn`) numbers stand without interval and p-value.
         """
-        first, lines = dict[str, Group](), []
+        first, lines = dict[str, Group](), []  # first: condition -> its first group
         for g in self.groups:
             reference, rows = first.setdefault(g.condition, g), self.different(g)
             ratio = None if g is reference else paired(*self._pairs(g, reference))
@@ -306,9 +315,11 @@ class Results(Shown):
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences on what the table counts: walks without a seed, equal ones, too few for an interval."""
+        # pairs (case, condition) whose walks have no seed, as nothing is drawn in them
         once = [(g.name, g.condition) for g in self.groups if all(SEED not in x.at for x in g.rows)]
         lines, many = self.table(), len(self.study.every_seed) > 1
         equal = sum(len(g.rows) for g in self.groups) - sum(x.walks for x in lines)
+        # a sample of several walks, of which the median has no interval
         few = self.study.drawn and any(x.walks > 1 and math.isnan(x.median.low) for x in lines)
         notes = {
             self.study.walked_once(once): once and many,
@@ -318,14 +329,18 @@ class Results(Shown):
         return tuple(note for note, holds in notes.items() if holds)
 
     def statuses(self) -> dict[str, tuple[int, str]]:
-        """For each status the number of walks that ended so, and the text of the first of them."""
+        """For each status, the most frequent first, the number of walks that ended so, and the column `detail`
+        of the first of them.
+        """
         details: dict[str, list[str]] = {}
         for _, row in self.results():
             details.setdefault(str(row["status"]), []).append(str(row.get("detail") or ""))
         return {s: (len(x), x[0]) for s, x in sorted(details.items(), key=lambda one: -len(one[1]))}
 
     def export(self, path: Path) -> None:
-        """Write all rows as CSV. Raises InputError, OutputError."""
+        """Write all rows as CSV, with a column for each name in any of them, empty where a row has no value.
+        Raises InputError, OutputError.
+        """
         rows = list(self.rows())
         names = dict.fromkeys(name for row in rows for name in row)
         write_csv({name: [row.get(name) for row in rows] for name in names}, path)
@@ -340,8 +355,8 @@ def _name(at: Mapping[str, Any]) -> str:
 
 
 def _by_place(g: Group) -> dict[tuple[str, int | None], Result]:
-    """Walks of a group by (all else that locates them, as text; seed); the seed is None where nothing is
-    drawn.
+    """Walks of a group by (levels, seed): the text of all that locates them but case, setting, candidate and
+    seed; and the seed, None where nothing is drawn.
     """
     apart = ("case", "setting", "candidate", SEED)
     keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)

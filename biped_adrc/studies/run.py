@@ -12,6 +12,10 @@ forces.
 
 `rows_of(run_trials, records)` is what `studies.runner` hands to workers. The meaning and the unit of each
 column are in columns.toml.
+
+A record is the values of one walk's scenario by dotted name, a row its results by column. A trial is a walk
+that is built and not yet simulated. A stage is one of build, walk, measure; where one raises, the row that says
+why takes the trial's place in the stages after it.
 """
 
 from __future__ import annotations
@@ -77,8 +81,9 @@ def rows_of(
     """Walk each record, and return its row as JSON with the row's status; worker processes call this.
 
     folders: name of a module of the user's -> its folder, as `registry.FOLDERS` has it in the calling process.
-    Where the function raises on a chunk it is called again with one record at a time; a record on which it
-    raises has a row with the status RAISED, so that one bad record spoils no other.
+    The status is None in a row that has none. Where the function raises on several records it is called again
+    with one at a time; a record on which it raises alone has a row with the status RAISED, so that one bad
+    record spoils no other.
     """
     FOLDERS.update(folders or {})
     try:
@@ -92,8 +97,8 @@ def rows_of(
 
 
 def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[WalkRow]:
-    """Walk the trials, and return a row for each in their order. aside: whether rows have the column
-    `rounding`, which takes a second walk.
+    """Walk the records, and return a row with all columns for each, in their order. aside: whether rows have a
+    value of the column `rounding`, for which a walk from a start beside the first one is made too.
 
     Stage by stage (build, walk, measure) all trials that memory holds well are worked on together: the code of
     one stage stays in the processor's cache, which takes a fifth less time than trial by trial.
@@ -114,7 +119,9 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
 
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
-    """The function that walks a trial; unlike building and measuring, it may run in several threads at once."""
+    """The function that walks a trial; unlike building and measuring, it may run in several threads at once. On
+    another plant than the rigid one, `t.loop` is walked in place of the walker.
+    """
     c, loop = t.case, t.loop
     if loop is None:
         return run_case(c)
@@ -129,7 +136,7 @@ def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
 
 
 def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
-    """step(x), or the row that says why it raised."""
+    """step(x), or the row that says why it raised: REFUSED by an error of this package, RAISED by any other."""
     try:
         return step(x)
     except BipedError as error:
@@ -141,8 +148,9 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
 def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
-    aside: whether to walk once more for the column `rounding`. The cost of transport, work [J] over weight [N]
-    times distance [m], is None without forward motion.
+    aside: whether to walk again for the column `rounding`, on the rigid plant. The cost of transport, work [J]
+    over weight [N] times distance [m], is None without forward motion. A walk that left no nodes, since it
+    raised before the first one, has neither errors nor torques.
     """
     s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
     plant = walker.plant
@@ -156,12 +164,15 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
         **_pace(t, walked),
     }
     if status not in NO_WALK:
+        # not feasible, as if every limit were broken, until `counted` has looked at the nodes
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
         row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
         row["infeasible_qp"] = infeasible_instants(parts(walker, walked.final_state).s)
+    # signals at the nodes: from the whole run, or from the table that the compiled walk filled
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
+        # after (2,) [N s]: momentum after the last impact, for its impulse, if the walk ends with that impact
         n, k, after = Nodes(walked.table, plant.n, plant.p), limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
@@ -178,9 +189,11 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
 
 
 def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
-    """Errors, torques, work and feasibility of a walk.
+    """The columns for errors, torques, work and feasibility of a walk.
 
-    tracked: the nodes that have a tracking error. soft: whether the walk was made on soft ground.
+    n: all its nodes, for torques and work. tracked: those of them that have a tracking error, in a fall not the
+    last ones. found: its verdict. soft: whether the walk was made on soft ground, where slips are judged in
+    place of impulses at impact.
     """
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
@@ -195,8 +208,8 @@ def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) ->
 
 
 def counted_in(walk: Walk, limits: Limits) -> WalkRow:
-    """The columns of `counted` for a walk with all its nodes, and those of feet on soft ground and of detected
-    touchdowns where the walk has them.
+    """The columns of `counted` for a walk whose whole trajectory is stored; on soft ground those of the feet
+    too, and with a detector of touchdowns those of its delays and faults.
     """
     return {
         **counted(
@@ -211,9 +224,9 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
 
 
 def _on_the_ground(walk: Walk) -> WalkRow:
-    """Columns of a walk on soft ground: the errors that touchdowns and pushes leave, and the largest slip,
-    penetration [m], flight and double support [s] of all walking steps; these four only if the plant records
-    them.
+    """Columns of a walk on soft ground: the errors that touchdowns and pushes leave [rad], and, only if the
+    plant records its feet, the largest slip and penetration [m], flight and double support [s] of a walking
+    step.
     """
     row, steps = contact_errors(walk.signals.before_fall)._asdict(), walk.soft_steps
     if not steps:
@@ -228,11 +241,13 @@ def _on_the_ground(walk: Walk) -> WalkRow:
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
     """Distance [m], mean speed and speed of the last two walking steps [m/s], and the mean speed's difference
-    from the gait's speed, as a share of it. Without an impact the distance is 0 and there is no speed.
+    from the gait's speed, as a share of it, over the walking steps that ended in an impact. Without an impact
+    the distance is 0 and there is no speed.
     """
     if walked.impacts == 0:
         return {"distance": 0.0}
     plant, gait = t.case.walker.plant, t.scene.walked
+    # length of a step: x of the swing foot from the stance foot [m], horizontal on any slope
     steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
     times = [walked.t_start, *walked.times.tolist()]
     speed = sum(steps) / (times[-1] - times[0])
@@ -242,8 +257,8 @@ def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
 
 
 def _row(known: WalkRow) -> WalkRow:
-    """The row with all columns in the order of columns.toml, None where there is no number or it is not
-    finite.
+    """The row with all columns in the order of columns.toml: the `known` ones, None where there is no value or
+    a number is not finite.
     """
     row: WalkRow = dict.fromkeys(COLUMNS)
     for k, x in known.items():

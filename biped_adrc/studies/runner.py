@@ -1,4 +1,7 @@
-"""Walks carried out: handed out in chunks to an executor, and every finished chunk stored at once.
+"""Carry out walks: chunks of points go to an executor, and every finished chunk is stored at once.
+
+A point is one walk that is to be made, a chunk some of them that one worker walks together. An executor is one
+of `concurrent.futures`. A record is the values of a walk's scenario by name, a row its results.
 
 A kill at any moment loses the chunks on their way and nothing else; the same command walks them again. A worker
 that dies takes its chunk with it, and a pool all chunks on their way: their walks are then made one by one, and
@@ -25,13 +28,13 @@ from biped_adrc.studies.run import Function, rows_of
 from biped_adrc.studies.study import Point
 
 _PRELOADED = ("biped_adrc.studies.run",)
-"""Modules that worker processes share: all that they need."""
+"""Modules that are imported once, before worker processes are forked: all that these need."""
 LARGEST_CHUNK = 32
 """Most walks handed to a worker at once: what a kill may lose, and what progress is counted in."""
 _AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 MOST_CRASHED = 20
-"""A study ends once so many walks, one after the other, have killed their workers."""
+"""A study ends once so many walks have killed their workers with no finished chunk in between."""
 
 
 class WorkersError(SimulationError):
@@ -59,6 +62,7 @@ class Crew:
     workers: Executor | int | None = None
 
     def __post_init__(self) -> None:
+        """Start the executor, so that its processes load the package while the caller goes on."""
         self.start()
 
     def __enter__(self) -> Crew:
@@ -69,7 +73,7 @@ class Crew:
             end_all(self.executor)
 
     def start(self) -> None:
-        """Start the executor, if it is none of the user's."""
+        """Set `executor`: the user's own, or a new pool of processes."""
         if isinstance(self.workers, Executor):
             self.executor: Executor = self.workers
         else:
@@ -77,11 +81,15 @@ class Crew:
 
     @property
     def count(self) -> int:
-        """How many chunks are walked at the same time."""
+        """How many chunks are walked at the same time; for an executor that does not say it, as that of a Dask
+        client, the number of cores here.
+        """
         return int(getattr(self.executor, "_max_workers", None) or cores())
 
     def renew(self) -> None:
-        """Start another pool in place of one of which a process died. Raises WorkersError for a user's."""
+        """Start another pool in place of one of which a process died. Raises WorkersError for an executor of
+        the user's.
+        """
         if self.executor is self.workers:
             raise WorkersError("a worker of the executor died, which the study cannot start anew")
         end_all(self.executor)
@@ -92,8 +100,9 @@ class Crew:
 class Runner:
     """Walks points and stores their rows; `done` counts walks over all calls of `run`.
 
-    function: computes rows from records. total: number of walks of the study. progress: called after each
-    chunk. crashed: walks in a row that killed their workers. pending: chunks that the executor has.
+    function: computes rows from records. store: the open results file. total: number of walks of the study.
+    progress: called after each chunk. crashed: number of walks that killed their workers since the last
+    finished chunk. pending: chunks that the executor has.
     """
 
     function: Function
@@ -110,10 +119,11 @@ class Runner:
     def run(self, points: Iterable[Point], count: int | None = None) -> None:
         """Walk those of the points that have no row yet; they may come from a generator.
 
-        count: number of points, `total` if None; chunks are a fraction of it. Raises OutputError, and
+        count: number of points, `total` if None, which decides the size of chunks. Raises OutputError, and
         WorkersError where MOST_CRASHED workers die one after the other.
         """
         workers = self.crew.count
+        # at least four chunks for each worker, so that none waits long for the last one
         size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
         missing = self._missing(iter(points))
         while part := tuple(itertools.islice(missing, size)):
@@ -125,12 +135,12 @@ class Runner:
         self.tell()
 
     def tell(self, note: str = "") -> None:
-        """Report progress."""
+        """Call `progress` with what is done; note: a sentence on what has just happened, "" for none."""
         if self.progress is not None:
             self.progress(StudyProgress(self.done, max(self.total, self.done), note))
 
     def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
-        """Iterate over the points without a row, and count those that have one as done."""
+        """Yield the points without a row, and count those that have one as done."""
         for p in points:
             if p.place not in self.there:
                 yield p
@@ -168,9 +178,11 @@ class Runner:
         return lost
 
     def _again(self, lost: Sequence[Point]) -> None:
-        """Walk lost points again, one by one and with nothing beside them.
+        """Walk lost points, those that were with a worker when it died, again: one by one, with nothing beside
+        them; without such points do nothing.
 
-        The row of a point whose worker dies again says CRASHED.
+        The row of a point whose worker dies again has the status CRASHED. Raises WorkersError after
+        MOST_CRASHED of them with no other walk in between.
         """
         if not lost:
             return
@@ -178,6 +190,7 @@ class Runner:
         self.tell("a worker died; what it was walking is walked again, one by one")
         self.crew.renew()
         for point in lost:
+            # both return the points that are lost: none if this one has been walked and stored
             if not (self._send([point]) or self._collect(futures.ALL_COMPLETED)):
                 continue
             self.crashed += 1
@@ -193,7 +206,7 @@ class Runner:
                 )
 
     def _keep(self, chunk: Sequence[Point], rows: Sequence[tuple[str, str | None]]) -> None:
-        """Store a chunk and count it."""
+        """Store a chunk, with (row as JSON, status) of each of its points, and count it as done."""
         self.store.add((p, *said) for p, said in zip(chunk, rows, strict=True))
         self.done += len(chunk)
         self.tell()

@@ -34,6 +34,9 @@ and on judged candidates, and neither on workers nor on kills. The first part of
 2021), with the choices of the best one. Both use only the order of the candidates, so each is told to them as
 one number, less for a better one: the objective, with its sign changed where more is better; or, for a
 candidate that misses limits, a number above every objective, larger the more it misses.
+
+Some columns need no walk (`measure`). A candidate that misses a limit on one of them is judged and not walked,
+and does not count in the budget. The case itself is candidate number 0.
 """
 
 from __future__ import annotations
@@ -56,7 +59,7 @@ Walks = Sequence[tuple[str, Row]]
 
 
 class WalkSet(Section):
-    """The walks by which candidates are judged: one for each seed under each condition."""
+    """A set of walks by which each candidate is judged: one for each seed under each condition."""
 
     seeds: Seeds = Field(min_length=1)
     conditions: tuple[str, ...] = ()
@@ -64,7 +67,7 @@ class WalkSet(Section):
 
 
 class WalkSets(Section):
-    """The three sets of walks, without a seed in common."""
+    """The three sets of walks, without a seed in common; a candidate is searched, chosen and tested on them."""
 
     search: WalkSet
     choice: WalkSet
@@ -83,12 +86,12 @@ class Variable(Section):
 
     @property
     def middle(self) -> Any:
-        """The first choice, or the middle of the range."""
+        """The first choice, or the middle of the range: on a logarithmic scale the geometric mean."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
     def acts(self, values: Values, free: Collection[str] = ()) -> bool:
-        """Whether the variable has an effect in a scenario with these values; free: names of fields that may
-        still get any value, so that conditions on them count as met.
+        """Whether the variable has an effect in a scenario with these values: by `when`, where a field without
+        a value has its default. free: names of fields that may still get any value; these count as met.
         """
         return all(
             name in free or values.get(name, Scenario.field_of(name).default) in those
@@ -97,7 +100,9 @@ class Variable(Section):
 
 
 def _variable(name: str, value: Any) -> Variable:
-    """One variable of a file. Raises ValueError."""
+    """The variable of the field `name`, from its table in a file, with its values read with units. A single
+    value in `when` may stand without a list. Raises ValueError.
+    """
     keys = table(value)
     beside = keys.pop("when", {})
     when = by_entry(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
@@ -138,7 +143,7 @@ class Search(Section):
         return (self.objective, *self.limits)
 
     def count(self, sets: Mapping[str, int]) -> int:
-        """Largest number of walks of one case. sets: name of a set of walks -> walks of one candidate in it.
+        """Largest number of walks of one case. sets: "search", "choice", "test" -> walks of one candidate.
 
         The case itself is walked beside the finalists, and on the test set beside the chosen one: + 1, and 2.
         """
@@ -146,8 +151,8 @@ class Search(Section):
         return self.budget * sets["search"] + again
 
     def acting(self, values: Values) -> dict[str, Variable]:
-        """The variables that may have an effect in a case with these values; other variables may get any
-        value.
+        """The variables, by name, that may have an effect in a case with these values, whatever values the
+        search gives to the other variables.
         """
         return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
@@ -157,6 +162,7 @@ class Search(Section):
         """
         candidate = {**base, **chosen}
         acts = {n: v.acts for n, v in self.variables.items() if n in chosen}
+        # an idle variable is left out with all its values, that of the case too: the scenario has its default
         while idle := [n for n in acts if n in candidate and not acts[n](candidate)]:
             for name in idle:  # and in the next round those that depend on one of them
                 del candidate[name]
@@ -165,13 +171,15 @@ class Search(Section):
     def judged(
         self, base: Values, number: int, chosen: dict[str, Any], walks: Walks | None = None
     ) -> Candidate:
-        """The candidate, with its objective and by how much it misses each limit.
+        """Judge the setting `chosen` (values of the variables, by name) of a case as candidate `number`: its
+        objective, and by how much it misses each limit.
 
-        base: values of the case. chosen: values of the variables. walks: its walks; None for a candidate that
-        has not been walked, of which only limits on columns that need no walk are judged.
+        base: values of the case. walks: its walks; None for a candidate that has not been walked, of which only
+        limits on columns that need no walk are judged, and whose objective is the worst.
         """
         values = self.values(base, chosen)
         known = numbers_without_walk([m.column for m in self.measures], values)
+        # before the walks, a limit that needs them counts as kept
         missed = (
             0.0 if walks is None and m.column not in known else m.excess(m.of(walks or (), known))
             for m in self.limits
@@ -180,13 +188,13 @@ class Search(Section):
         return Candidate(number, chosen, values, objective, tuple(missed), walks is not None)
 
     def ranked(self, found: Sequence[Candidate]) -> list[Candidate]:
-        """The walked candidates, best first: by what they miss, by the objective, by number."""
+        """The walked candidates, best first: by the sum of what they miss, then by the objective, by number."""
         walked, sign = [c for c in found if c.walked], self.objective.sign
         return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
     def some(self, values: Values) -> Iterator[dict[str, Any]]:
-        """Candidates that stand for all: the middle of all variables, and each choice beside the others'
-        middle.
+        """Yield settings that stand for all in a case with these values: the middle of all variables, and each
+        choice beside the middle of the others; each as the values of those variables that have an effect.
 
         Corners of ranges may be refused, as gains that do not go together are: their walks rank worst.
         """
@@ -221,7 +229,7 @@ class Candidate(NamedTuple):
 
 
 FIRST_PART = 0.4
-"""The share of the budget that TPE proposes."""
+"""The share of the budget that TPE proposes at least."""
 _SMALLEST = 10
 """Least number of candidates of TPE before CMA-ES takes over, which begins from the best tenth of them."""
 _ASKED = 8
@@ -247,17 +255,21 @@ def optuna_library() -> Any:
 def searched(
     search: Search, base: Values, walk: WalkAll, report: Callable[[Candidate], None]
 ) -> list[Candidate]:
-    """All candidates of a case by number; number 0 is the case itself, with the values `base`.
+    """Search a case: returns all its candidates by number; number 0 is the case itself, with the values `base`.
 
-    report: called with the best candidate after each generation. Raises InputError where none may be walked.
+    walk: walks the candidates of a generation. report: called with the best candidate after each generation.
+    The search ends with the budget, or when a whole round of proposals misses limits that are known without a
+    walk. Raises InputError where Optuna is missing.
     """
     proposals = _Proposals(optuna_library(), search, base)
     result: list[Candidate] = []
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in result)) > 0:
+        # those to be walked in this generation, and all that are judged in it
         batch, new = list[Candidate](), list[Candidate]()
         for number in itertools.islice(numbers, _ASKED * search.generation):
             c = search.judged(base, number, proposals.ask(number) if number else {})
+            # the case itself is walked in any event, as it is what the others are compared with
             if number == 0 or not any(c.missed):
                 batch.append(c)
             else:
@@ -277,9 +289,14 @@ def searched(
 
 
 class _Proposals:
-    """Optuna's study of one case, and its trials that are not judged yet, by number of the candidate."""
+    """Optuna's proposals for one case: first those of its sampler TPE, then (`refine`) those of CMA-ES.
+
+    space: variable -> Optuna's distribution from which its values are proposed. fixed: values of the variables
+    that are not proposed any more. open: Optuna's trials that are not judged yet, by number of the candidate.
+    """
 
     def __init__(self, optuna: Any, search: Search, base: Values) -> None:
+        """optuna: the module. base: values of the case, by which variables without an effect are left out."""
         self.optuna, self.search = optuna, search
         self.space = {n: self._distribution(v) for n, v in search.acting(base).items()}
         self.fixed: dict[str, Any] = {}
@@ -289,7 +306,7 @@ class _Proposals:
         self.study = optuna.create_study(sampler=sampler)
 
     def _distribution(self, variable: Variable) -> Any:
-        """The distribution of Optuna from which a variable's values are proposed."""
+        """The distribution of Optuna for a variable: of its choices, integers, or floats on its scale."""
         of, r = self.optuna.distributions, variable.range
         if r is None:
             return of.CategoricalDistribution(variable.choices)
@@ -298,7 +315,7 @@ class _Proposals:
         return of.FloatDistribution(r.low, r.high, log=r.scale == "log")
 
     def ask(self, number: int) -> dict[str, Any]:
-        """Values of all variables that may have an effect, proposed for the candidate with this number."""
+        """Propose values, by name, of all variables that may have an effect for the candidate `number`."""
         trial = self.open[number] = self.study.ask(self.space)
         return {**self.fixed, **trial.params}
 
@@ -310,8 +327,8 @@ class _Proposals:
             self.study.tell(self.open.pop(c.number), self.score(c))
 
     def score(self, c: Candidate) -> float:
-        """The number that Optuna minimises: the objective with its sign, or above all of them for missed
-        limits.
+        """The number that Optuna minimises: the objective, with its sign changed where more is better; for
+        missed limits a number above all of these, and a larger one if no walk was spent on it.
         """
         if any(c.missed) or not c.walked:
             return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
@@ -323,10 +340,11 @@ class _Proposals:
         CMA-ES needs two variables with ranges and generations of four; else TPE goes on. It keeps the choices
         of the best candidate (`fixed`).
         """
-        best = [c for c in self.search.ranked(found) if c.number]
+        best = [c for c in self.search.ranked(found) if c.number]  # without the case itself
         if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
+        # CMA-ES takes ranges alone, and of these the ones that have an effect beside the best one's choices
         acting, variables = best[0].values, self.search.variables
         space = {n: x for n, x in self.space.items() if n in acting and variables[n].range}
         if len(space) < 2 or self.search.generation < 4:

@@ -2,7 +2,8 @@
 
     p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale
 
-w in [0, 1) is a uniform random number or a point of a Sobol sequence; low and high are in the SI unit of p.
+w in [0, 1) is a uniform random number or a point of a Sobol sequence; low and high are in the SI unit of p. A
+field is a value of a scenario, by its dotted name such as "controller.K_p".
 """
 
 from __future__ import annotations
@@ -32,14 +33,18 @@ class Section(BaseModel):
 
 
 def table(value: object) -> dict[str, Any]:
-    """A table of a file. Raises ValueError for what is none."""
+    """A table of a file, as a dict of its own. Raises ValueError for what is no table."""
     if not isinstance(value, Mapping):
         raise ValueError(f"found {value!r}, expected a table")
     return dict(value)
 
 
 def by_entry(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
-    """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
+    """Dotted name -> read_one(name, value), for each entry of a table `value` of a file, which may be nested.
+
+    A table inside it with "from", "to" or "choices" is one entry. Raises ValueError with all entries that
+    `read_one` refuses.
+    """
     result, wrong = {}, []
     for name, x in flat(table(value), whole=("from", "to", "choices")).items():
         try:
@@ -61,11 +66,11 @@ class Span(Section):
     scale: Literal["linear", "log"] = "linear"
     """Equal differences of w are equal differences of p ("linear"), or equal ratios ("log")."""
     whole: bool = False
-    """Integers only, both ends included."""
+    """Whether its numbers are integers only, both ends included."""
 
     @model_validator(mode="after")
     def _ordered(self) -> Span:
-        """Raises ValueError for low >= high, and for integers or numbers <= 0 on a log scale."""
+        """The span. Raises ValueError for low >= high, and for integers or numbers <= 0 on a log scale."""
         log = self.scale == "log"
         if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
             raise ValueError(
@@ -77,6 +82,7 @@ class Span(Section):
         """The value at w in [0, 1): low at w = 0, and high only in the limit; each integer equally likely."""
         if self.whole:
             count = int(self.high - self.low)
+            # `min` is for w (count + 1) that round-off lifts to count + 1
             return int(self.low) + min(int(w * (count + 1)), count)
         if self.scale == "log":
             return self.low * (self.high / self.low) ** w
@@ -98,7 +104,11 @@ R = TypeVar("R", bound=Span)
 
 
 def read_range(name: str, value: object, kind: type[R] = Span) -> R:  # type: ignore[assignment]
-    """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
+    """The range of the field `name`, from the table {from, to, scale} `value`; both ends may have units.
+
+    kind: class of the range, a `Span` or `Levels`. It is whole where the field takes integers only, or its
+    table says so. Raises ValueError.
+    """
     types, keys = Scenario.field_of(name).types, table(value)
     whole = int in types and float not in types
     ends = {key: Scenario.value_of(name, keys[key]) for key in ("from", "to") if key in keys}
@@ -106,9 +116,12 @@ def read_range(name: str, value: object, kind: type[R] = Span) -> R:  # type: ig
 
 
 def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
-    """Read a list of values of one field. Raises ValueError where it has too few, or two that are equal."""
+    """The values of the field `name` in a list, read with their units. Raises ValueError for less than `least`
+    values, and for two that are equal.
+    """
     row = value if isinstance(value, list | tuple) else ()
     result = tuple(Scenario.value_of(name, x) for x in row)
+    # by their texts, as values of several types may stand in one list
     if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(f"found {value!r}, expected a list of different values or {{from, to}}")
     return result
@@ -122,7 +135,9 @@ def _levels(name: str, value: object) -> tuple[Any, ...]:
 
 
 def _seeds(value: object) -> object:
-    """The seeds 0 .. n-1 of a number n, those of {from, count}, or of a list of different ones."""
+    """The seeds that `value` of a file states: 0 .. n - 1 for a number n, `count` ones from `from` on for
+    {from, count}, or a list of different ones. Raises ValueError for anything else.
+    """
     keys = value if isinstance(value, Mapping) else {"from": 0, "count": value}
     if set(keys) == {"from", "count"}:
         first, count = keys["from"], keys["count"]
@@ -160,20 +175,21 @@ class Draw(Section):
     @model_validator(mode="before")
     @classmethod
     def _gathered(cls, value: Any) -> Any:
-        """Ranges stand beside the other keys in a file."""
+        """Collect the ranges under the key `ranges`; in a file they stand beside the other keys."""
         if not isinstance(value, Mapping) or "ranges" in value:
             return value
         own = {name: x for name, x in value.items() if name in ("kind", "count", "seed")}
         return own | {"ranges": {name: x for name, x in value.items() if name not in own}}
 
     def samples(self) -> list[dict[str, Any]]:
-        """The samples in their order, each a value by name; the same at every call, on any machine."""
+        """The samples in their order, each as field -> value; the same at every call, on any machine."""
         random, n = np.random.default_rng(self.seed), len(self.ranges)
         if self.kind == "random":
             w = random.random((self.count, n))
         else:
             from scipy.stats import qmc
 
+            # a Sobol sequence is balanced at powers of 2: the next one is drawn, and its first points are taken
             w = qmc.Sobol(n, seed=random).random_base2(math.ceil(math.log2(self.count)))
         ranges = self.ranges.items()
         rows = (zip(ranges, row, strict=True) for row in w[: self.count].tolist())

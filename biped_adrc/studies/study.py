@@ -10,8 +10,14 @@
     [draw]        kind, count, seed, p = {from, to, scale}
     [search]                           `study.search`
 
-The points are the Cartesian product of cases, conditions, levels, samples and seeds, the seeds varying fastest.
+A point is one walk: the points are the Cartesian product of cases, conditions, levels (of the grid), samples
+(of the draw) and seeds, the seeds varying fastest. Its place is its number in this order; what locates it in
+the study, `at`, are case, condition and the values that vary. Where no part of a walker uses random numbers,
+the seed `run.seed` changes nothing, and one walk stands for all seeds (`Undrawn`). A row is the results of one
+walk.
+
 Whatever is wrong in a file is reported in one error. Values are numbers in the SI unit or texts with a unit.
+Names of values are those of a scenario, such as "controller.K_p".
 """
 
 from __future__ import annotations
@@ -39,31 +45,32 @@ from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Named, Section, Seeds, Sets
 
 Undrawn = frozenset[tuple[str, str]]
-"""Cases under conditions in whose walks nothing that acts is drawn from the seed: each is walked once."""
+"""Pairs (case, condition) in whose walks nothing that acts is drawn from the seed: each is walked once."""
 MOST_LEVELS = 200
-"""Most levels of one axis, most samples, and most combinations of text values that a rehearsal builds."""
+"""Most levels of one axis, most samples, and most combinations of text values that `rehearse` builds."""
 _LONGEST = 100
-"""Letters of the name of a file that a search writes."""
+"""Most letters in the name of a file that a search writes."""
 
 
 def walk_names(**names: object) -> dict[str, Any]:
-    """The names that say to what a walk belongs, without those that are empty.
+    """Collect the names that say to what a walk belongs, without those that are empty (""), as a study without
+    cases has no `case`.
 
-    All walks have `case` and `condition`. Those of a search also have `set`, which is "search", "choice" or
-    "test", and `candidate`, a number; in the set "test" they have `setting`, which is "chosen" for what the
+    Every walk may have `case` and `condition`. Those of a search also have `set`, which is "search", "choice"
+    or "test", and `candidate`, a number; in the set "test" they have `setting`, which is "chosen" for what the
     search chose, or "before" for the case as it was.
     """
     return {name: x for name, x in names.items() if x != ""}
 
 
 def place_of(names: Mapping[str, Any]) -> tuple[str, str]:
-    """Case and condition of a walk, by what locates it."""
+    """The pair (case, condition) of a walk, from the `names` that locate it; "" where it has none."""
     return str(names.get("case", "")), str(names.get("condition", ""))
 
 
 class Point(NamedTuple):
-    """A walk of a study: its place (number in the order of the study), `at` (case, condition, and the values
-    that vary, by name), and `record` (all values of its scenario).
+    """A walk of a study: its place (number in the order of the study, from 0), `at` (case, condition, and the
+    values that vary, by name), and `record` (all values that the study states for its scenario, by name).
     """
 
     place: int
@@ -98,7 +105,10 @@ class Study(Section):
         return self
 
     def _twice(self) -> Iterator[str]:
-        """Fields that two places set; the base may be overridden by cases, conditions and variables."""
+        """Yield a sentence for each value that two places of the file set.
+
+        Allowed are those in `over`: cases, conditions and variables override the base, variables the cases.
+        """
         places: dict[str, Mapping[str, object]] = {
             "base": self.base,
             "cases": dict.fromkeys(n for x in self.cases.values() for n in x),
@@ -115,7 +125,7 @@ class Study(Section):
                 yield f"{name} is in '{a}' and in '{b}', expected one place"
 
     def _searched(self, search: Search) -> Iterator[str]:
-        """Iterate over the faults of a study with a search, each as a sentence; none for a right one."""
+        """Yield the faults of a study with a search, each as a sentence."""
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]
@@ -134,8 +144,8 @@ class Study(Section):
                     yield f"'{m.words}': the walks of {kind} have no condition '{m.condition}'"
 
     def conditions_of(self, walks: Any) -> tuple[str, ...]:
-        """The conditions under which a set of walks of a search is walked: its own, else all of the study; one
-        without a name where the study has none.
+        """The conditions under which a set of walks of a search, a `WalkSet`, is walked: those that it names,
+        else all of the study; a single one named "" where the study has none.
         """
         return tuple(walks.conditions or self.conditions or ("",))
 
@@ -145,7 +155,8 @@ class Study(Section):
         return self.count_of(frozenset())
 
     def count_of(self, undrawn: Undrawn) -> int:
-        """The number of walks of a study; for a search the largest number that it may need.
+        """The number of walks of a study; for a search the largest number that it may need, each walked with
+        every seed.
 
         undrawn: pairs (case, condition) in which no part uses the seed: one walk stands for all their seeds.
         """
@@ -165,19 +176,21 @@ class Study(Section):
     def seeded(
         self, seeds: Sequence[int], at: PlainValues, undrawn: Undrawn
     ) -> list[dict[str, int]]:
-        """{"run.seed": seed} for each seed; one empty table, for one walk, without seeds, or where `at` names a
-        case and condition of `undrawn`, in which no part uses the seed.
+        """A table {"run.seed": seed} for each seed, that is for each walk. One empty table, for a single walk,
+        where there are no seeds, or where case and condition in `at` are a pair of `undrawn`.
         """
         return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
 
     def walked_once(self, undrawn: Iterable[tuple[str, str]]) -> str:
-        """A sentence that names the pairs (case, condition) in which nothing is drawn; empty for no pairs."""
+        """A sentence that names these pairs (case, condition), in which nothing is drawn; empty for no pairs.
+        The pair ("", "") is named by the study.
+        """
         words = "; ".join(", ".join(filter(None, one)) or self.name for one in sorted(undrawn))
         return words and f"Walked once, as nothing that acts is drawn from the seed: {words}."
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """The fields that the grid and the samples vary."""
+        """Names of the values that the grid and the samples vary, such as "controller.K_p"."""
         return (*self.grid, *(() if self.draw is None else self.draw.ranges))
 
     @property
@@ -203,7 +216,8 @@ class Study(Section):
 
     @property
     def versions(self) -> dict[str, str]:
-        """Versions of the packages, and hashes of the files and classes, that the study's walks use, by name.
+        """Versions of the packages, and hashes of the files and classes, that the study's walks use, by name:
+        results that were made with others are not continued.
 
         Raises InputError for a class that cannot be imported.
         """
@@ -220,8 +234,8 @@ class Study(Section):
                 yield from ((name, x) for x in variable.choices)
 
     def sets(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """For each case under each condition: the values that its walks share, and {"case": .., "condition":
-        ..} (not the sets of walks of a search).
+        """Yield, for each case under each condition, the values that its walks share, by name, and the names
+        {"case": .., "condition": ..}. (These are not the sets of walks of a search.)
         """
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
             values = self.values_of(case_) | self.conditions.get(condition, {})
@@ -232,7 +246,9 @@ class Study(Section):
         return {**self.base, **self.cases.get(name, {})}
 
     def points(self, undrawn: Undrawn = frozenset()) -> Iterator[Point]:
-        """All walks of a study without a search; values that do not fit together make a row that says so."""
+        """Yield all points of a study without a search, in their order. Values that do not fit together are not
+        left out: their row will say so.
+        """
         places = itertools.count()
         samples = [{}] if self.draw is None else self.draw.samples()
         for values, named in self.sets():
@@ -244,11 +260,12 @@ class Study(Section):
                     yield Point(next(places), named | at, values | at)
 
     def rehearse(self) -> Undrawn:
-        """Build the walkers of points that stand for all, without walking them, and again with another seed.
+        """Build the walkers of some points, so that mistakes show before the first walk; walk none of them.
 
         Case by case under each condition it builds each level of each axis, and combinations of values that are
-        texts; of a search the values of the case, the middle of all variables, and each choice. Returns the
-        pairs (case, condition) in which the other seed changed nothing. Raises InputError that names the point.
+        texts; of a search the values of the case, the middle of all variables, and each choice. Each is built
+        again with the second seed: returned are the pairs (case, condition) in which that changed nothing, none
+        for a study with fewer than two seeds. Raises InputError that names the point.
         """
         other = [{SEED: seed} for seed in self.every_seed[1:2]]
         result = {place_of(names) for _, names in self.sets() if other}
@@ -267,7 +284,10 @@ class Study(Section):
         return frozenset(result)
 
     def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-        """The points that `rehearse` builds of one case under one condition: the values that vary, by name."""
+        """Yield the points that `rehearse` builds of one case under one condition: the values that vary, each.
+
+        values: those that all walks of this case and condition share, by name.
+        """
         if self.search is not None:
             seed = {SEED: self.search.walks.search.seeds[0]}
             yield seed
@@ -276,9 +296,11 @@ class Study(Section):
         axes = self.grid | ({SEED: self.seeds[:1]} if self.seeds else {})
         first = {name: levels[0] for name, levels in axes.items()}
         samples = [{}] if self.draw is None else self.draw.samples()[:MOST_LEVELS]
+        # each sample with the first levels; each other level of one axis with the first ones of the others;
+        # then all combinations of the axes that have texts, as two names may not go together
         yield from (first | sample for sample in samples)
         for name, levels in axes.items():
-            step = math.ceil(len(levels) / MOST_LEVELS)
+            step = math.ceil(len(levels) / MOST_LEVELS)  # of a long axis only each step-th level
             yield from (first | samples[0] | {name: x} for x in levels[1::step])
         worded = (x if any(isinstance(y, str) for y in x) else x[:1] for x in axes.values())
         for combined in itertools.islice(itertools.product(*worded), 1, MOST_LEVELS):
@@ -286,9 +308,11 @@ class Study(Section):
 
 
 def read_study(source: Path | str | Mapping[str, Any]) -> Study:
-    """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it.
+    """The study of a TOML file (source: its path), or of its tables. Raises InputError with everything that is
+    wrong in it.
 
-    Modules of the user's and a scenario file that a study file names are looked for in its folder.
+    Modules of the user's and a scenario file that a study file names are looked for in its folder. The values
+    of the scenario file stand below the base, without those that the study varies.
     """
     where, tables, here = "the study", source, Path()
     if not isinstance(source, Mapping):
@@ -318,7 +342,9 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
 
 
 def _problem(error: Any) -> str:
-    """Sentence on one fault of a file; for an unknown key it names the nearest known ones."""
+    """Sentence on one fault of a file, an entry of pydantic's `ValidationError.errors()`; for an unknown key it
+    names the nearest known ones.
+    """
     if error["type"] != "extra_forbidden":
         return problem(error)
     inside = (Search, WalkSets, Variable, Aim, Limit)

@@ -8,5 +8,6 @@
 
 Everything becomes a figure, bytes or a file; no window is opened and pyplot's global state is not
 used. The data are a walk (`Drawable`: walker, trajectory and signals), or plain summaries.
+A node is an instant at which the state of a walk is stored, an arc of a trajectory one single support.
 Studies and paper import this folder; it knows nothing of them.
 """

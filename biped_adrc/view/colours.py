@@ -19,9 +19,11 @@ METRES_PER_NEWTON_METRE = 0.004
 
 
 def bent_arrow(radius: float) -> Array:
-    """Outline (63, 2) [m] of an arrow bent around 0, counter-clockwise for a positive radius [m].
+    """Outline (63, 2), x and z [m], of an arrow bent around the origin, counter-clockwise for a positive radius
+    [m] and mirrored, so clockwise, for a negative one.
 
-    Outer rim, head and inner rim, from -60 to 240 degrees: the opening below leaves a joint visible.
+    The points are those of the outer rim, the head and the inner rim, from -60 to 240 degrees: the opening
+    below leaves a joint visible.
     """
     angle, tip = np.radians(np.linspace(-60.0, 200.0, 30)), np.radians(240.0)
     rim = np.column_stack((np.cos(angle), np.sin(angle)))

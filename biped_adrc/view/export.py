@@ -24,14 +24,15 @@ SUFFIXES = (".html", ".gif", ".png", ".svg")
 
 
 def export(path: Path, walks: Mapping[str, Drawable], clip: Clip | None = None) -> None:
-    """Write the walks to `path` as its suffix says; a strip shows the last of them.
+    """Write the walks to the file `path`, in the kind that its suffix says; a strip shows only the last walk.
 
-    walks: name -> walk, one or more; the names are shown. clip: the part shown and how, the defaults
-    if None. Raises InputError for a suffix, a part or an option that does not fit, and OutputError
+    walks: name -> walk, one or more; page and moving picture show the names. clip: the part shown and how, the
+    defaults if None. Raises InputError for a suffix, a part or an option that does not fit, and OutputError
     where the file cannot be written.
     """
     clip = Clip() if clip is None else clip
     suffix = output_path(path, SUFFIXES).suffix.lower()
+    # whether the clip has options that only a moving picture, or only a page takes
     of_gif, of_page = clip.apart or clip.slower != 1.0, clip.view != "side"
     if (of_gif and suffix != ".gif") or (of_page and suffix != ".html"):
         raise InputError(

@@ -55,7 +55,10 @@ def rendered(template: str, package: str = _HERE, **values: object) -> str:
 
 @cache
 def _environment(package: str) -> Environment:
-    """Jinja's environment for the templates of a package, made once, since it compiles them."""
+    """Jinja's environment for the templates of `package` and of this one, made once, since it compiles them.
+
+    Templates have the policy, the name of the style sheet, and file(name): the text of a file beside them.
+    """
     places = [files(package), files(_HERE), files(_HERE) / "templates"]
     loader = FileSystemLoader([str(place) for place in places])
     environment = Environment(
@@ -71,7 +74,8 @@ def _environment(package: str) -> Environment:
 
 
 def as_text(value: object) -> str:
-    """Text of a value on a page: texts as they are, a dash for None, yes or no, floats with four digits.
+    """Text of a value on a page: texts as they are, a dash for None, yes or no, floats with 4 significant
+    digits.
 
     Entries of mappings and lists are joined with commas, recursively.
     """
@@ -106,7 +110,7 @@ def report_html(
 
     summary: as in summary.json; parts that are missing are left out of the page. figures: name -> an
     SVG or PNG; the name selects the caption. animation: text of the page of
-    `meshcat.view.animation_html`, shown in a frame.
+    `meshcat.view.animation_html`, shown in a frame; no frame if None.
     """
     return rendered(
         "report",
@@ -119,9 +123,11 @@ def report_html(
 
 
 def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
-    """Heading, caption and data URI of one figure of the report; the caption is the one its name begins with.
+    """Heading, caption and data URI of one figure of the report.
 
-    The rest of the name, such as the preset of a map, follows in the heading.
+    The caption is that entry of captions.toml whose name the figure's name is, or begins with before a "_". The
+    rest of the name, such as the preset in "push_map_tac2003", follows in the heading. A figure without a
+    caption has its name as heading.
     """
     known = packaged(_HERE, "captions.toml")["report"]
     key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
@@ -136,20 +142,22 @@ def with_viewer(
 ) -> str:
     """Text of a page that draws in Meshcat's viewer and whose scripts read the settings as JSON.
 
-    template: name of the page's template, in `package`. settings: as `meshcat.view.scene_settings` gives
-    them. values: other names in the template. The template has the JSON twice: `data` as
-    text, `packed` deflated in base64.
+    template: name of the page's template, in `package`. settings: as `meshcat.view.scene_settings` returns
+    them. values: other names in the template. A template takes the JSON as text (`data`) or deflated in base64
+    (`packed`), which is shorter.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     text = json.dumps(settings)
     values |= {"s": settings, "viewer": Markup(viewer)}
+    # no "</script>" in a text may end the script
     values["data"] = Markup(text.replace("<", "\\u003c"))
     values["packed"] = base64.b64encode(zlib.compress(text.encode(), 9)).decode("ascii")
     return rendered(template, package, **values)
 
 
 def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
-    """HTML of the output of a notebook's cell: a line of text, the page `animation` in a frame, figures below.
+    """HTML of the output of a notebook's cell: the line `summary`, the page `animation` in a frame, then
+    figures.
 
     The frame has the page as its source text, so the scripts of the notebook and of the page cannot meet.
     """

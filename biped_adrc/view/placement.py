@@ -16,7 +16,8 @@ The ground is a slope with steps down and up,
     z(x) = -tan(slope) x - sum of the drops of the steps behind x, negative for a step up
 
 The vertical face of a step of the ground ("edge" here) is drawn half way between the footholds on either side
-of it; the walk does not depend on where it is.
+of it; the walk does not depend on where it is. An arc of a trajectory is one single support; a foothold is
+where its stance foot stands. A placement is a homogeneous transform (4, 4).
 """
 
 from __future__ import annotations
@@ -54,8 +55,8 @@ VIEWS = ("side", "perspective")
 class Surface:
     """The ground of a walk: a slope with steps down and up.
 
-    slope [rad]: positive downhill. edges (E,) [m]: x of the steps, in order. drops (E,) [m]: by how
-    much the ground is lower behind each of them, negative for a step up.
+    slope [rad]: positive downhill. edges (E,) [m]: x of the steps of the ground, in increasing order. drops
+    (E,) [m]: by how much the ground is lower behind each of them, negative for a step up.
     """
 
     slope: float
@@ -76,10 +77,10 @@ class Surface:
         return np.array([(low, self.height(low)), *corners, (high, self.height(high, True))])
 
     def tiles(self, low: int, high: int) -> list[tuple[Array, bool]]:
-        """Tiles of the ground from x = low TILE to high TILE, with whole numbers low, high; cut at edges too.
+        """Tiles of the ground, each TILE long, from x = low TILE to high TILE; at an edge a tile is cut in two.
 
-        Of each tile x and z of both ends (2, 2) [m], and whether it is a light one: tiles are light and dark in
-        turn, counted from x = 0, to show how far a walk has come.
+        Returns of each tile x and z of both ends (2, 2) [m], and whether it is a light one: tiles are light and
+        dark in turn, counted from x = 0, to show how far a walk has come.
         """
         inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
         cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
@@ -103,7 +104,9 @@ def placed(origin: Sequence[float] | Array = (0.0, 0.0, 0.0), R: Array | None = 
 
 
 def joint_transform(joint: Joint, value: float) -> Array:
-    """Placement (4, 4) of the child link in its parent; value [rad] or [m], ignored when fixed."""
+    """Placement (4, 4) of a joint's child link in its parent at this value of the joint, [rad] or [m]; a fixed
+    joint ignores it.
+    """
     if joint.type == "revolute":
         return placed(joint.origin, turn(joint.axis, value))
     moved = value if joint.type == "prismatic" else 0.0
@@ -113,7 +116,7 @@ def joint_transform(joint: Joint, value: float) -> Array:
 def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
     """World placement (4, 4) of every link, by name; joints that `values` does not name stand at 0.
 
-    values: joint name -> [rad] or [m], as `joint_values` gives them for the floating URDF.
+    values: joint name -> [rad] or [m], as `joint_values` returns them, with those of the base.
     """
     return {name: link_placement(tree, values, name) for name in tree.links}
 
@@ -122,14 +125,14 @@ def link_placement(tree: Tree, values: dict[str, float], link: str) -> Array:
     """World placement (4, 4) of one link; values: joint name -> [rad] or [m], 0 for joints that it does not
     name.
     """
-    M = np.eye(4)
+    M = np.eye(4)  # from the link up to the root
     for joint in tree.path_to_root(link):
         M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
     return M
 
 
 def is_wheel(biped: Biped) -> bool:
-    """Whether the robot is a rimless wheel: no link changes over at impact (R is the identity)."""
+    """Whether the robot is a rimless wheel: the relabelling R at impact is the identity."""
     return np.array_equal(biped.R, np.eye(biped.n))
 
 
@@ -148,14 +151,14 @@ def spokes(biped: Biped) -> list[Array]:
 
 
 def exchanged(biped: Biped, step: int) -> bool:
-    """Whether the drawn legs have changed over in single support `step` (from 1): in even
-    ones, but never for a wheel.
+    """Whether in single support `step` (from 1) the drawn robot stands on the other leg than in the first one:
+    in even ones, but never for a wheel.
     """
     return step % 2 == 0 and not is_wheel(biped)
 
 
 def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Names of the links of the leg that carries odd steps, and of the other, each from the foot up.
+    """Names of the links of the leg that carries odd single supports, and of the other, each from the foot up.
 
     Empty for a wheel, whose links have no sides.
     """
@@ -169,15 +172,17 @@ def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
 def joint_values(
     biped: Biped, q: Array, step: int = 1, foothold: float = 0.0, height: float = 0.0
 ) -> dict[str, float]:
-    """Values of all joints of the floating URDF [rad], [m] for q (n,) [rad] in single support `step` (from 1).
+    """Values of all joints of the URDF, the base's among them, by name [rad], [m]; for q (n,) [rad] in single
+    support `step` (from 1).
 
-    The two prismatic joints of the base are chosen so that the stance foot stands at x = foothold,
-    z = height [m].
+    The two prismatic joints of the base, along x and z, are chosen so that the stance foot stands at
+    x = foothold, z = height [m].
     """
     d = biped.description
     other = exchanged(biped, step)
     drawn = biped.relabel(q) if other else q
     values = dict(zip(d.joints, map(float, drawn), strict=True))
+    # where the foot is while the base, not yet in `values`, is at 0
     M = link_placement(biped.tree, values, d.swing_foot if other else d.stance_foot)
     values[d.base[0]] = foothold - float(M[0, 3])
     values[d.base[1]] = height - float(M[2, 3])
@@ -204,7 +209,8 @@ class Clip(Checked):
     def part(self, begin: float, end: float, usual: float) -> tuple[float, float]:
         """Start and stop [s] of the part shown of walks that last from `begin` to `end` [s].
 
-        usual [s]: start if the clip has none. Raises InputError for times outside the walks.
+        usual [s]: the start of a clip without one; its stop is `end`. Raises InputError for times outside the
+        walks.
         """
         start = usual if self.start is None else self.start
         stop = end if self.stop is None else self.stop
@@ -257,7 +263,9 @@ class WalkScene:
         return float(self.footholds[i]), float(self.heights[i])
 
     def foot(self, i: int, t: float) -> tuple[float, float]:
-        """x and z [m] of the stance foot in arc i at t [s]: its foothold, but where it slips on soft ground."""
+        """x and z [m] of the stance foot in arc i at t [s]: its foothold; on soft ground, where it may slip,
+        its recorded place.
+        """
         arc = self.trajectory.arcs[i]
         if PLACE not in arc.read:
             return self.foothold(i)
@@ -266,14 +274,16 @@ class WalkScene:
 
     @cached_property
     def surface(self) -> Surface:
-        """The ground under the footholds: the walker's slope, and its steps down and up so far."""
+        """The ground under the footholds: the walker's slope, and the steps of the ground between them."""
         arcs = self.trajectory.arcs[: len(self.footholds) - 1]
         drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
         middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
         return Surface(self.walker.ground_slope, middles[drops != 0.0], drops[drops != 0.0])
 
     def level(self, x: float) -> float:
-        """z [m] of a smooth line through the footholds at x [m], for a camera that does not jump at steps."""
+        """z [m] of the ground at x [m], with its steps smoothed: between footholds the line through them, so
+        that a camera does not jump at a step; before and behind them the slope goes on.
+        """
         fall = math.tan(self.walker.ground_slope)
         return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
@@ -283,13 +293,13 @@ class WalkScene:
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
     def posture(self, t: float) -> tuple[int, Array]:
-        """Index of the arc shown at t [s], and q (n,) [rad]; before and after the run, those of its ends."""
+        """Index of the arc shown at t [s], and q (n,) [rad]; before and after the run, those at its ends."""
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
         i = self.arc_at(t)
         return i, self.trajectory.arcs[i](t)[: self.biped.n]
 
     def joints(self, t: float) -> dict[str, float]:
-        """Joint values of the URDF at t [s]: name -> [rad] or [m]."""
+        """Values of all joints of the URDF at t [s], the base's among them: name -> [rad] or [m]."""
         i, q = self.posture(t)
         return joint_values(self.biped, q, self.trajectory.arcs[i].mode.step, *self.foot(i, t))
 
@@ -303,11 +313,11 @@ class DrawnLoads(NamedTuple):
     """Forces on the drawn robot at one stored node, an instant at which the walk's state is stored."""
 
     ground_reaction: Array
-    """Force (2,) of the ground on the stance foot [N], along x and z of the world."""
+    """Force (2,) of the ground on the stance foot [N], along x and z of the world, also on a slope."""
     zeta: Array
     """External torque (n,) on the drawn joints of q1..qn [N m]."""
     other: Array = np.zeros(2)
-    """Force (2,) of the ground on the other foot [N], where both touch soft ground."""
+    """Force (2,) of the ground on the other foot [N], along x and z, where both touch soft ground; else 0."""
     slips: bool = False
     """Whether a foot slides with its force at the friction cone."""
 
@@ -322,9 +332,9 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
     arcs, at, s = scene.trajectory.arcs, scene.arc_at(t), scene.walk.signals
     arc, other, slips = arcs[at], np.zeros(2), False
     k = min(max(int(np.searchsorted(arc.t, t, side="right")) - 1, 0), len(arc.t) - 1)
-    if FORCE in arc.read:
+    if FORCE in arc.read:  # on soft ground: forces on stance foot and other foot (K, 4)
         other, slips = arc.read[FORCE][k, 2:], bool(foot_slips(scene, arc)[k])
-    row = k + sum(len(before.t) for before in arcs[:at])
+    row = k + sum(len(before.t) for before in arcs[:at])  # signals have the nodes of all arcs
     force, zeta = s.ground_reaction[row], s.zeta[row]
     # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
     drawn = scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
@@ -332,15 +342,17 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
 
 
 def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
-    """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
+    """Whether one of the feet slips, at each of the K nodes of an arc on soft ground (K,): its force is at the
+    friction cone and it moves, as `analysis.soft_steps` counts it.
+    """
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
     F, _, v = meters.feet_of(arc)
     return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.ground_slope)), axis=1)
 
 
 def contact_changes(scene: WalkScene, arc: Arc) -> Array:
-    """Times (K,) [s] at which, on soft ground, the other foot touches or leaves the ground, or a
-    foot begins or ends to slip.
+    """Times (K,) [s] of the first nodes after the other foot touches or leaves soft ground, or a foot begins or
+    ends to slip; none on the rigid plant.
     """
     if FORCE not in arc.read:
         return np.zeros(0)
@@ -366,7 +378,7 @@ def ending(trajectory: Trajectory) -> str:
     if status.ok:
         return ""
     event = trajectory.arcs[-1].event
-    reason = status.value.split(";")[0]
+    reason = status.value.split(";")[0]  # without the advice behind the semicolon
     if event is not None and event.x_plus is None:
         reason = event.guard.replace("_", " ")
     elif trajectory.detail:

@@ -80,7 +80,8 @@ def literal(text: str) -> str:
 def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:
     """Encode a figure as the bytes of a "png" or "svg" file, without date (SVG) or name of the program (PNG).
 
-    So the same figure gives the same bytes. dpi [1/inch]: of a PNG. Raises InputError for another kind.
+    Without them the same figure has the same bytes every day. dpi [1/inch]: of a PNG. Raises InputError for
+    another kind.
     """
     if kind not in ("png", "svg"):
         raise InputError(f"a figure was asked for as '{kind}', expected 'png' or 'svg'")
@@ -100,5 +101,7 @@ def write_figure(path: Path, figure: Figure) -> None:
 
 
 def _shortened(svg: bytes) -> bytes:
-    """Round the coordinates of an SVG's paths to a hundredth of a point, for smaller files."""
+    """Round the coordinates in the paths of an SVG to a hundredth of a point, for a smaller file; only numbers
+    with three decimals or more.
+    """
     return _PATH.sub(lambda path: _LONG.sub(lambda n: b"%.2f" % float(n[0]), path[0]), svg)

@@ -1,21 +1,24 @@
 """A gait at some of its phases, and the robot linearised there, for a set of inertias.
 
-At a phase of the periodic orbit the robot has (q, q', q''), and a small change of it obeys
+A phase is here a share of the time of a walking step. At a phase of the periodic orbit the robot has (q, q',
+q''), and a small change of it obeys
 
     d q'' = A_q dq + A_v dq' + D^-1 B_s du                  about q'' of the orbit
 
 The configuration is frozen: a controller that samples at 1 kHz sees it move by less than 1 % of the step in a
 period. The same is done for robots whose trunk and legs are lighter or heavier than the model. So an error of
 the model enters as it does in a walk, as a matrix L L_model^-1 with L = (I - H_b - H_N A_N) kappa in place of
-one number: it couples the joints and reaches Theta.
+one number: it couples the joints and reaches Theta. H_b and H_N are the columns of H for q_b and q_N in the
+reference's q_d'' = drift + H q'', and q_N'' = A_N q_b'' + a_N is the unactuated row.
 
 `tick_matrices` linearises the sample instant (tick) of a walker at the same phases:
 
-    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
+    z+ = Z z + Y (q, q'),     u = C z + E (q, q')
 
-z is the walker's state from tick to tick: controller, observer, sensors with their filter, and the torques
-that the controller knows of. The derivative is taken of the methods themselves (`analysis.tick_derivative`), so
-that the path of an encoder's error through Theta and Theta' is in it, and no controller has a formula here.
+for small changes of all. z is the walker's state from tick to tick: controller, observer, sensors with their
+filter, and the torques that the controller knows of. The derivative is taken of the methods themselves
+(`analysis.tick_derivative`), so that the path of an encoder's error through Theta and Theta' is in it, and no
+controller has a formula here.
 
 Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
 """
@@ -71,7 +74,7 @@ class FrozenGait(Shown):
     period: float
     """Time of one step of the orbit [s]."""
     falling: float
-    """sqrt(g / l) [1/s] of a body as high as the hip: the rate at which the robot falls over its foot."""
+    """sqrt(g / l) [1/s], l the height of the hip: the rate at which the robot falls over its foot."""
 
     @classmethod
     def of(
@@ -84,12 +87,14 @@ class FrozenGait(Shown):
     ) -> FrozenGait:
         """Linearise the plant, and its like with other inertias, at phases of the gait's orbit.
 
-        model: robot on which the orbit is computed, the plant itself when None. phases: shares of
-        the step's time. Raises GaitError for a gait without a periodic orbit, InputError for a
-        spread that is not between 0 and 1.
+        model: robot on which the orbit is computed, the plant itself when None. phases: shares of the step's
+        time [1]; the nearest node of the orbit is taken. spread: share [1] by which masses and inertias of the
+        four other robots differ (`_robots`); 0 for the plant alone. Raises GaitError for a gait without a
+        periodic orbit, InputError for a spread that is not between 0 and 1.
         """
         check_positive(1.0 - spread, f"the spread of inertias is {spread}")
         orbit = ZeroDynamics.of(plant if model is None else model, gait.constraint).cycle
+        # times of the orbit's nodes, each in the middle of its weight
         time = np.cumsum(orbit.time_weights) - 0.5 * orbit.time_weights
         robots = tuple(_robots(plant, spread))
         nodes = [int(np.argmin(np.abs(time - phase * orbit.period))) for phase in phases]
@@ -99,8 +104,8 @@ class FrozenGait(Shown):
 
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
-    """Iterate over the plant and four robots like it: all lighter, all heavier, trunk heavier and legs
-    lighter, and the other way round.
+    """Iterate over the plant and four robots like it: all lighter, all heavier, trunk heavier and legs lighter,
+    and the other way round, each by the share `spread` [1]; over the plant alone for 0.
     """
     yield plant
     if spread == 0.0:
@@ -120,6 +125,7 @@ def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) ->
     A, B = np.zeros((len(robots), 2 * n, 2 * n)), np.zeros((len(robots), 2 * n, p))
     A[:, :n, n:] = np.eye(n)
     for A_i, B_i, robot in zip(A, B, robots, strict=True):
+        # force: the generalised force under which this robot has q'' = a
         force = robot.inertia(q) @ a + robot.bias(q, v)
         if robot.friction:
             force = force - robot.friction_torque(v)
@@ -135,7 +141,7 @@ _SAME = 1e-12
 
 
 class TickMatrices(NamedTuple):
-    """The tick at some phases, their axes in front: k numbers in z, n coordinates, p motors."""
+    """Matrices of the module's tick at some phases (first axes); k numbers in z, n coordinates, p motors."""
 
     Z: Array
     """(.., k, k)."""
@@ -165,6 +171,9 @@ def linear_twin(walker: Walker) -> Walker:
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
 
+    The state x = (q, q', z) of the derivative J is that before and after a tick; numbers of z without effect
+    are dropped.
+
     Raises NotFiniteError where a method has no finite derivative there.
     """
     assert isinstance(twin.timing, SampledTime)
@@ -187,14 +196,16 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
 
 
 def _acting(tick: TickMatrices) -> TickMatrices:
-    """Drop the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
+    """The tick without the numbers of z on which, at all phases, neither the torque nor z+ depends.
 
-    Two numbers that act on everything in the same ratio become one, their weighted sum: as the old angle of an
-    encoder and the rate of its filter do. Without the dropped numbers others may have no effect, so it repeats.
+    Numbers whose columns of Z and C are proportional, such as the old angle of an encoder and the rate of its
+    filter, become one, their weighted sum. Without the dropped numbers others may have no effect, so it
+    repeats.
     """
     Z, Y, C, E = tick
     columns = np.concatenate((*Z, *C)).T  # row i: all effects of number i of z
     k = len(columns)
+    # shape: columns over their largest entries, alike: pairs of proportional columns, first: first of each kind
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]
     alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < _SAME
@@ -207,8 +218,8 @@ def _acting(tick: TickMatrices) -> TickMatrices:
 
 
 def _released(layout: Layout, J: Array) -> Array:
-    """J (nx, nx) at the later instant at which the waiting torque begins to act: its rows move as
-    `semantics.release` moves the numbers of x.
+    """J (nx, nx) with x+ at the later instant at which the torque of the tick begins to act, f T after it: the
+    rows of the torque that waits replace those of u. Unchanged for a delay of whole periods.
     """
     # `release` moves numbers and computes nothing, so its derivative moves the same rows
     u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))

@@ -18,7 +18,7 @@ loops:
 
 The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
 until the next step catches it, and no torque on joints that track a gait changes that. g is gravity, l the
-height of the hip. So a mode exp(s t) counts only where |s| exceeds OWN = 2 times that rate, and margins are
+height of the hip. So a mode exp(s t) counts only where |s| exceeds 2 times that rate (_OWN), and margins are
 taken at frequencies above this bound. The multipliers of the return map (`analysis.return_map`) describe the
 effect of impacts.
 
@@ -106,12 +106,15 @@ class Specification(Shown):
 
     @cached_property
     def delay_margin(self) -> float:
-        """The smallest unknown delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
+        """The smallest unknown delay [s] with which one of the loops is unstable: 0 to MOST_DELAY."""
         return self.loops.delay_margin(MOST_DELAY)
 
     @cached_property
     def disk_margin(self) -> float:
-        """The smallest multiloop disk margin of the loops [1]; above 2 no gain alone makes one unstable."""
+        """The smallest multiloop disk margin of the loops [1]; above 2 no gain alone makes one unstable.
+
+        It is 0 for an unstable loop.
+        """
         if not self.stable:
             return 0.0
         S = self.loops.sensitivity()
@@ -119,12 +122,14 @@ class Specification(Shown):
 
     @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] that the sensors' errors make over a step, of the motor with
-        most, on the plant itself.
+        """rms over a step of the torque [N m] that the sensors' errors make in the motor with the largest one.
+
+        On the plant itself, not the other robots; infinite for an unstable loop.
         """
         if not self.stable:
             return math.inf
         plant = (self.loops[i, 0] for i in range(len(self.shares)))
+        # mean squares (p,) of the torques at each phase
         squares = [np.diag(loop.covariance_of_torque(self.errors)) for loop in plant]
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
@@ -160,9 +165,11 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
         gait = FrozenGait.of(walker.plant, gait, walker.nominal)
     T, delay, slow = twin.timing.period, twin.timing.delay, _OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
+    # the new axis is that of the robots: the tick is the same for all of them
     tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
     loops = WalkerLoops(tick, A, B, T, delay, lag, slow)
+    # sensors add their errors to those of `exact`, which are none
     n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
     sensors = walker.sensors
     errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
@@ -178,7 +185,10 @@ _SMOOTH = (8, 64, 512)
 
 
 def balanced_bound(M: ComplexArray) -> Array:
-    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: fast, but not the least ones."""
+    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: fast, but not the least ones.
+
+    Each scaling d_i makes the norms of row i and column i equal, diagonal entries left out.
+    """
     p = M.shape[-1]
     a = np.moveaxis(np.abs(M) ** 2, 0, -1) * (1.0 - np.eye(p))[..., np.newaxis]  # (p, p, F)
     d = np.ones((p, len(M)))
@@ -192,19 +202,20 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 
 def structured_value(M: ComplexArray) -> float:
-    """Least upper bound of mu over scalings d of one matrix M (p, p)."""
+    """Least upper bound of mu of one matrix M (p, p): the minimum over scalings d of the module's sigma_max."""
     from scipy.optimize import minimize  # it takes half a second to load, in vain for `poincare`
 
     p = len(M)
     if p == 1:
         return float(abs(M[0, 0]))
 
+    # only ratios of d count, so the last of the p numbers log d stays 0
     def scaled(x: Array) -> ComplexArray:
         d = np.exp(np.append(x, 0.0))
         return d[:, np.newaxis] * M / d
 
     def smooth(x: Array, power: float) -> tuple[float, Array]:
-        """log of the norm of order `power` at log d = (x, 0), and its gradient (p - 1,)."""
+        """log of (sum sigma^power)^(1/power), sigma of scaled M, at log d = (x, 0); its gradient (p - 1,)."""
         U, sigma, V = np.linalg.svd(scaled(x))
         weight = (sigma / sigma[0]) ** power
         slope = np.abs(U) ** 2 @ weight - (np.abs(V) ** 2).T @ weight
@@ -218,9 +229,15 @@ def structured_value(M: ComplexArray) -> float:
 
 
 def disk_margin(S: ComplexArray) -> float:
-    """alpha of sensitivities S (F, p, p) at F frequencies; infinite where S - 1/2 is zero at all of them."""
+    """alpha of the module for sensitivities S (F, p, p) at F frequencies: 1 / the largest mu(S - 1/2).
+
+    Infinite where S - 1/2 is zero at all of them. mu is computed in the order of its fast upper bounds, until
+    these are below the largest mu found.
+    """
     M = S - 0.5 * np.eye(S.shape[1])
-    rough = np.linalg.norm(M, axis=(-2, -1))  # Frobenius: mu is at most this, and at least a radius
+    # mu is at most the Frobenius norm and at least the spectral radius: so a matrix whose norm is below the
+    # largest radius cannot have the largest mu
+    rough = np.linalg.norm(M, axis=(-2, -1))
     radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))
     M = M[rough >= (1.0 - 1e-9) * radius]
     bounds, largest = balanced_bound(M), 0.0

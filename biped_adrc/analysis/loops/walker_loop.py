@@ -5,8 +5,11 @@ One period, for small changes of the state at a phase of the gait:
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `frozen_gait`
     (q, q', u_m)+ = Phi (q, q', u_m) + Gamma_1 u_(k-j-1) + Gamma_2 u_(k-j)       robot and motors
 
-The delay (j + f) T is the clock's plus an unknown one, the same in all motors; robot and lagging motors are
-exact for a torque that changes at f T. All loops of a walker are computed together.
+u_k is the torque that is computed at tick k, and u_m the one that lagging motors produce. The delay (j + f) T,
+0 <= f < 1, is the clock's plus an unknown one, the same in all motors; robot and lagging motors are exact for a
+torque that changes at f T. A mode is exp(s t) with lambda = exp(s T) an eigenvalue over one period; modes with
+|s| <= `slow` are the gait's own, for a robot falls over its foot, and do not count. All loops of a walker are
+computed together.
 """
 
 from __future__ import annotations
@@ -33,11 +36,11 @@ FREQUENCIES = 100
 
 
 def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Array, Array, Array]:
-    """Phi (.., s, s), Gamma_1 and Gamma_2 (.., s, p) of robot and motors over a period T [s]
-    whose torque changes at f T.
+    """Phi (.., s, s), Gamma_1 and Gamma_2 (.., s, p) of robot and motors over a period T [s] whose torque
+    changes at f T, f a share of the period: Gamma_1 belongs to the torque before, Gamma_2 to the one after.
 
-    A (.., m, m), B (.., m, p): of (q, q'). lag [s]: time constant of the motors, 0 for none, else
-    their torque is among the s states.
+    A (.., m, m), B (.., m, p): of (q, q')' = A (q, q') + B u. lag [s]: time constant of the motors, 0 for none;
+    else their p torques are the last of the s states.
     """
     *axes, m, p = B.shape
     rows = m + (p if lag > 0.0 else 0)
@@ -45,6 +48,7 @@ def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Arra
     whole[..., :m, :m], whole[..., :m, m : m + p] = A, B
     if lag > 0.0:
         whole[..., m:rows, m:rows], whole[..., m:rows, rows:] = -np.eye(p) / lag, np.eye(p) / lag
+    # the exponential of [[A, B], [0, 0]] has Phi and Gamma in its upper rows, for a constant torque
     after = expm(whole * ((1.0 - f) * T))
     on = after[..., :rows, :rows]
     if f == 0.0:
@@ -83,13 +87,16 @@ class WalkerLoops:
     def _each(self, f: Callable[[Array], Array]) -> WalkerLoops:
         """The loops whose matrices are f of these."""
         axes = self.B.shape[:-2]
+        # the tick has one entry along the axis of robots, which is repeated for each
         tick = (f(np.broadcast_to(x, (*axes, *x.shape[-2:]))) for x in self.tick)
         return replace(self, tick=TickMatrices(*tick), A=f(self.A), B=f(self.B))
 
     def matrices(self, unknown: float = 0.0) -> StepMatrices:
-        """Matrices of one period with an unknown delay [s] in all motors.
+        """Matrices of one period, X+ = M X + B w and u = C X + D w, with an unknown delay [s] in all motors.
 
-        w (2 n + p,) is an error of the sensors in (q, q'), then one of u; C X + D w is u, so D ends with 1.
+        X is (q, q'), u_m of lagging motors, z, and the torques u_(k-1), u_(k-2), .. that still wait. w (2 n +
+        p,) is an error of the sensors in (q, q'), then an error that is added to u, so D ends with a unit
+        matrix.
         """
         j, f = whole_and_part(self.delay + unknown, self.period)
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
@@ -102,6 +109,7 @@ class WalkerLoops:
         C[..., :m], C[..., r:line], D[..., :m], D[..., m:] = E, C_z, E, np.eye(p)
         M, B = (np.zeros((*G_2.shape[:-2], size, x)) for x in (size, m + p))
         M[..., :r, :r] = Phi
+        # i: age in periods of the torque that acts through G; i = 0 is the one of this tick, C X + D w
         for i, G in ((j, G_2), (j + 1, G_1)) if f > 0.0 else ((j, G_2),):
             if i == 0:
                 M[..., :r, :] += G @ C
@@ -116,13 +124,14 @@ class WalkerLoops:
 
     @cached_property
     def rates(self) -> ComplexArray:
-        """s [1/s] of the modes (.., s) without an unknown delay; see `modes`."""
+        """s = log(lambda) / T [1/s] of all modes, without an unknown delay; see `modes`."""
         return self.modes(0.0)
 
     def modes(self, unknown: float) -> ComplexArray:
-        """s = log(lambda) / T [1/s] of the modes (.., s) with an unknown delay [s] in all motors.
+        """s = log(lambda) / T [1/s] of all modes, as many as entries of X, with an unknown delay [s] in all
+        motors.
 
-        Very negative for modes that vanish within a period.
+        Real parts are very negative for modes that vanish within a period.
         """
         values = np.linalg.eigvals(self.matrices(unknown).M).astype(complex)
         return np.asarray(self._rates(values))
@@ -132,10 +141,9 @@ class WalkerLoops:
         return np.asarray(np.log(np.where(np.abs(values) > TINY, values, TINY)) / self.period)
 
     def growth(self, unknown: float = 0.0) -> Array:
-        """Growth rate of the fastest growing mode that is not the gait's own (..) [1/s],
-        below 0 for a stable loop.
+        """Growth rate of the fastest growing mode that is not the gait's own, for each loop (..) [1/s].
 
-        unknown [s]: delay in all motors.
+        Below 0 for a stable loop, -inf where all modes are the gait's own. unknown [s]: delay in all motors.
         """
         rates = self.modes(unknown) if unknown else self.rates
         own = np.abs(rates) <= self.slow
@@ -153,6 +161,7 @@ class WalkerLoops:
         count = math.prod(self.B.shape[:-2])
         left = self._each(lambda x: x.reshape(count, *x.shape[-2:]))
         growth, least = np.linalg.norm(left.B, axis=(-2, -1)), most
+        # `growth` is at first the order in which loops are searched, then their growth with the delay `least`
         while np.any(growth >= 0.0):
             worst = int(np.argmax(growth))
             least = left[worst]._first_unstable(least, upwards=least == most)
@@ -181,9 +190,9 @@ class WalkerLoops:
 
     def sensitivity(self) -> ComplexArray:
         """S (.., F, p, p) at F frequencies: the total torque (controller's plus error) per error that is added
-        to the controller's torque.
+        to the controller's torque, S = (1 - K P)^-1 with P the robot with its delay, K the controller.
 
-        They are FREQUENCIES in geometric order and those of the loop's modes, between `slow` and
+        The frequencies are FREQUENCIES in geometric order and those of the loop's modes, between `slow` and
         half the sampling frequency.
         """
         nyquist, own = np.pi / self.period, self.rates.imag
@@ -196,11 +205,13 @@ class WalkerLoops:
         (j, f), p = whole_and_part(self.delay, self.period), self.B.shape[-1]
         Z, Y, C, E = self.tick
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
+        # of_plant picks (q, q') out of the states of robot and motors
         G, of_plant = np.concatenate((G_2, G_1), axis=-1), np.eye(Y.shape[-1], Phi.shape[-1])
         result = []
         for angles in (grid * self.period, own * self.period):
             z = np.exp(1j * angles)[..., np.newaxis, np.newaxis]
             K, P = response(z, Z, Y, C) + E[..., np.newaxis, :, :], response(z, Phi, G, of_plant)
+            # Gamma_2 acts j periods late, Gamma_1 one period more
             P = (P[..., :p] + P[..., p:] / z) / z**j
             result.append(np.linalg.inv(np.eye(p) - K @ P))
         return np.concatenate(result, axis=-3)
@@ -209,12 +220,13 @@ class WalkerLoops:
         """Covariance (p, p) [N^2 m^2] of the torques of one loop under independent errors of
         the sensors at every tick.
 
-        errors (2 n,): standard deviations of the errors of (q, q') [rad, rad/s]. The gait's own modes are
-        removed. For a stable loop only.
+        errors (2 n,): standard deviations of the errors of (q, q') [rad, rad/s]. The gait's own modes, which
+        may grow, are removed by their projections. For a stable loop only.
         """
         M, B, C, D = self.matrices()
         m = len(errors)
         values, left, right = eig(M, left=True)
+        # `one` projects on mode i along all others: after this its eigenvalue is 0, and no error reaches it
         for i in np.flatnonzero(np.abs(self._rates(values)) <= self.slow):
             one = np.outer(right[:, i], left[:, i].conj()) / (left[:, i].conj() @ right[:, i])
             M, B = M - values[i] * one, B - one @ B
@@ -224,7 +236,10 @@ class WalkerLoops:
 
 
 def response(z: ComplexArray, M: Array, B: Array, C: Array) -> ComplexArray:
-    """Frequency response C (z - M)^-1 B (.., F, p, m) of many sampled systems at z (.., F, 1, 1)."""
+    """Frequency response C (z - M)^-1 B (.., F, p, m) of many sampled systems at z = exp(i w T) (.., F, 1, 1).
+
+    M (.., s, s), B (.., s, m), C (p, s) or (.., p, s), for s states, m inputs and p outputs.
+    """
     M, B = M[..., np.newaxis, :, :], B[..., np.newaxis, :, :]
     states = np.linalg.solve(z * np.eye(M.shape[-1]) - M, B + 0.0 * z)
     return np.asarray(C[..., np.newaxis, :, :] @ states)

@@ -1,13 +1,14 @@
 """The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order m.
 
-An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2
-pi / N)^2 / 12, independent from one sample instant to the next while the joint moves by counts.
-In joint i it makes a torque of
+An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi / N)^2 / 12,
+independent from one sample instant to the next while the joint moves by counts. Through observer and gains it
+makes a commanded acceleration with the standard deviation sigma_a [rad/s^2] in each joint, and in joint i a
+torque of
 
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
-with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the reference,
-which no observer filters, is not included; `analysis.loops` has it.
+with sigma_a from the sampled loop; kappa is the robot's input gain, q_b'' = kappa u + xi. The encoders' part in
+Theta and in the rates of the reference, which no observer filters, is not included; `analysis.loops` has it.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if the
 torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report` calls
@@ -115,36 +116,39 @@ class OnHardware:
 
     @cached_property
     def weakest(self) -> tuple[float, float]:
-        """The ratio among KAPPA_RATIOS with the largest spectral radius of the sampled loop, and that
-        radius.
-        """
+        """The ratio among KAPPA_RATIOS with the largest spectral radius of the sampled loop; that radius."""
         radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
         return max(radii.items(), key=lambda found: found[1])
 
     @cached_property
     def obstacle(self) -> str:
-        """The criterion that excludes this observer: "stability", "ripple", or "" where it is allowed."""
+        """The criterion that excludes this observer: "stability", "ripple", or "" where it is allowed.
+
+        See the module; "ripple" also where it is NaN.
+        """
         if not self.weakest[1] < 1.0:
             return "stability"
         return "" if self.ripple <= SHARE * self.hardware.torque_limit else "ripple"
 
     @cached_property
     def rejection(self) -> float:
-        """|e / xi| at REJECTED [s^2], in continuous time."""
+        """|e / xi| at the frequency REJECTED [s^2], in continuous time: tracking error per disturbance."""
         return float(np.abs(self.loop.tracking_error(np.array([REJECTED])))[0])
 
 
 def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     """Find the largest bandwidth of m + 2 equal poles within the lowest range of bandwidths that are allowed.
 
-    Only the lowest range counts: a loop that is unstable at some bandwidth and stable again above it
-    would be a bad recommendation.
+    gains: K_p and K_d, of which those of the first joint count. m: order of the disturbance model. Only the
+    lowest range counts: a loop that is unstable at some bandwidth and stable again above it would be a bad
+    recommendation.
     """
 
     def candidate(w: float) -> OnHardware:
         return OnHardware(hardware, GPIObserver.from_bandwidth(float(w), m), gains)
 
     bands = np.geomspace(LEAST, MOST, BANDS)
+    # from the first allowed bandwidth on, so that last_true begins with one that holds
     allowed = dropwhile(lambda w: candidate(w).obstacle, bands)
     w = last_true(lambda w: not candidate(w).obstacle, allowed)
     if math.isinf(w):  # none of the bands is allowed, or all above the first

@@ -56,7 +56,7 @@ class ImpactPeak(NamedTuple):
 
 class ImpactStates(NamedTuple):
     """True states of the observer's chain at an impact in physical units: q_b [rad], q_b' [rad/s], xi
-    [rad/s^2], xi', ...; one row per state, one column per joint.
+    [rad/s^2], xi', ...; one row per state, one column per joint; order = m + 2 rows.
     """
 
     before: Array
@@ -64,7 +64,7 @@ class ImpactStates(NamedTuple):
     after: Array
     """True states just after impact, in the coordinates of the next step (order, p)."""
     swap: NDArray[np.int_]
-    """Permutation (p,), ints: the legs swap at impact, so joint i after it was joint swap[i] before."""
+    """Relabelling (p,): joint i after impact has entry swap[i] of (x, -x), x (p,) of the joints before it."""
     inertia: Array
     """kappa^-1 (p, p) just after impact [kg m^2]."""
 
@@ -78,6 +78,7 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     zero = ZeroDynamics.of(biped, gait.constraint)
     orbit = zero.cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
+    # dt = dTheta / Theta'
     t = zero.cumulative @ (1.0 / (orbit.v @ gait.constraint.phase))  # of the nodes [s]
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
@@ -94,7 +95,10 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
 
 
 def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy) -> Array:
-    """The error e(0+) (order, p) in scaled states under a reset policy: true states minus estimates."""
+    """The error e(0+) (order, p) in scaled states under a reset policy: true states minus estimates.
+
+    Before the impact the estimates are the true states.
+    """
     units = observer.scale ** np.arange(observer.order)[:, np.newaxis]
     before, after = impact.before / units, impact.after / units
     y, dy, *xi = impact.after
@@ -109,7 +113,8 @@ def impact_peak(
     """Peaks of the estimation errors and of the torque deviation after an impact, from the response to e(0+).
 
     Over LONG time constants of the slowest pole, in scaled states, by a matrix exponential at each instant.
-    For m = 0 the observer has no estimate of xi, and e_3 counts as 0.
+    gains: K_p [1/s^2] and K_d [1/s] of the torque. For m = 0 the observer has no estimate of xi, and e_3 counts
+    as 0.
     """
     w, k = observer.scale, observer.order
     E = reset_error(observer, impact, policy)

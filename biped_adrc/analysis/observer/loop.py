@@ -1,6 +1,7 @@
 """The linear loop of one joint under ADRC whose torque acts after a delay: loop gain and delay margin.
 
-Numbers such as (19) are equations of the paper. With chi(s) the observer's polynomial (19), a = kappa u - q_d''
+Numbers such as (19) are equations of the paper. q_b is the joint's angle, q_d its reference, d the delay, xi
+the total disturbance, and ^ marks an estimate. With chi(s) the observer's polynomial (19), a = kappa u - q_d''
 and e = q_b - q_d, the robot and (20) are
 
     e'' = a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
@@ -98,27 +99,30 @@ class ObserverLoop:
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
-        """Coefficients (3,) of the polynomial Q of the loop gain, highest power first;
-        corrected, or as the paper prints it.
+        """Coefficients (3,) of the polynomial Q of the loop gain, highest power first, dimensionless.
 
-        s is counted in units of the observer's scale, so they are dimensionless.
+        printed: without the factor K_d of l_(m+1), as the paper prints it; else corrected. s is counted in
+        units of w, the observer's scale.
         """
         (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
+        # the printed factor 1 of l_(m+1) [1/s] is 1 / w in units of w
         factor = 1.0 / self.observer.scale if printed else k_d
         return np.array([1.0, l_1 + k_d, l_2 + k_p + factor * l_1])
 
     @cached_property
     def _P(self) -> Array:
-        """Coefficients (m + 2,) of the polynomial P of the loop gain, dimensionless: the last ones of the
-        product of chi and the feedback.
+        """Coefficients (m + 2,) of the polynomial P of the loop gain, highest power first, dimensionless: those
+        of the product of chi and the feedback below s^(m+2).
         """
         return np.asarray(np.polymul(self._feedback, self._chi)[3:], dtype=float)
 
     # -- frequency responses -------------------------------------------------------------------------
     def _response(self, numerator: Array, frequency: Array, feedback: bool = True) -> ComplexArray:
-        """numerator / (chi (s^2 + K_d s + K_p)), or numerator / chi without `feedback`, at s = i w.
+        """numerator / (chi (s^2 + K_d s + K_p)), or numerator / chi without `feedback`, (K,), at s = i
+        frequency.
 
-        frequency [rad/s]; chi is evaluated as a product over the poles, which loses no digits.
+        numerator: coefficients of a polynomial in s / w, highest power first. frequency (K,) [rad/s]. chi is
+        evaluated as a product over the poles, which loses no digits.
         """
         s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
         value: ComplexArray = np.asarray(np.polyval(numerator, s), dtype=complex)
@@ -127,7 +131,7 @@ class ObserverLoop:
         return value / np.polyval(self._feedback, s) if feedback else value
 
     def tracking_error(self, frequency: Array, printed: bool = False) -> ComplexArray:
-        """e / xi (K,) [s^2] by (23), corrected or as printed, at frequencies (K,) [rad/s]."""
+        """e / xi (K,) [s^2] at frequencies (K,) [rad/s] by (23), corrected, or `printed` as in the paper."""
         numerator = np.concatenate((self._Q(printed), np.zeros(self.observer.m)))
         return self._response(numerator, frequency) / self.observer.scale**2
 
@@ -137,7 +141,7 @@ class ObserverLoop:
         return self._response(rest, frequency, feedback=False)
 
     def noise(self, frequency: Array) -> ComplexArray:
-        """a / n (K,) [1/s^2] at frequencies (K,) [rad/s]: acceleration per error of the measured angle."""
+        """a / n (K,) [1/s^2] at frequencies (K,) [rad/s]: commanded acceleration per error of the angle."""
         numerator = np.concatenate((self._P, [0.0, 0.0]))
         return -self._response(numerator, frequency) * self.observer.scale**2
 
@@ -155,7 +159,8 @@ class ObserverLoop:
     def delay_margin(self, known: bool = False) -> DelayMargin:
         """The smallest delay [s] that destabilises the loop, and the frequency of the root on the axis.
 
-        known: the observer is fed with a(t - d). Roots are searched where |L| crosses 1.
+        known: the observer is fed with a(t - d). A root exp(i w d) = -L(i w) needs |L| = 1, so w is searched
+        where |L| crosses 1; d [s] is then the angle of -L, from 0 to 2 pi, over w.
         """
 
         def level(log_w: Array) -> Array:
@@ -187,7 +192,10 @@ _HIGHEST = 14
 
 
 class StepMatrices(NamedTuple):
-    """Matrices of one period with an input w: M X + B w of the state X, C X + D w of the output."""
+    """Matrices of one period for a state X (s,) with an input w (w,), and an output C X + D w.
+
+    M X + B w is the change of X over the period in a `SampledLoop`, and X+ itself in `loops.walker_loop`.
+    """
 
     M: Array
     """(.., s, s)."""
@@ -203,7 +211,7 @@ class StepMatrices(NamedTuple):
 class SampledLoop:
     """The loop of the first joint under ADRC in sampled time.
 
-    Raises InputError for a period or delay that `SampledTime` refuses, and an m above HIGHEST.
+    Raises InputError for a period or delay that `SampledTime` refuses, and an m above 14 (_HIGHEST).
     """
 
     observer: GPIObserver
@@ -230,9 +238,11 @@ class SampledLoop:
     def step(self) -> StepMatrices:
         """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n).
 
-        Each variable is a row of coefficients of (X, T^2 xi, n), so the lines below read as the equations do.
+        a in X is scaled by T^2 too. Each variable is a row of coefficients of (X, T^2 xi, n), so the lines
+        below read as the equations do.
         """
         k, T, g = self.observer.order, self.period, self.kappa_ratio
+        # queue is j; late: 1 if a part f of a period remains, so that one more torque is on its way
         queue, f = whole_and_part(self.delay, T)
         late = int(f > 0.0)
         size = 2 + k + queue + late
@@ -250,6 +260,7 @@ class SampledLoop:
         a = -F @ Z_k
         sent = np.vstack((line, a))  # in the order in which they act; the first until t_k + f T
         before, after = sent[0], sent[late]
+        # what the two torques of the period and xi add to e and to T e', beside T e' itself
         push = g * (before * (f - 0.5 * f**2) + after * 0.5 * (1.0 - f) ** 2) + 0.5 * xi
         kick = g * (before * f + after * (1.0 - f)) + xi
         u = f * before + (1.0 - f) * after if self.known else a
@@ -259,7 +270,7 @@ class SampledLoop:
 
     @property
     def matrix(self) -> Array:
-        """The matrix (s, s) of X_(k+1) = matrix X_k, dimensionless."""
+        """The matrix 1 + M (s, s) of X_(k+1) = (1 + M) X_k, in the scaled variables of `step`."""
         return self.step.M + np.eye(len(self.step.M))
 
     @cached_property
@@ -273,8 +284,8 @@ class SampledLoop:
         return self.spectral_radius < 1.0
 
     def rms(self, sigma: float) -> float:
-        """Standard deviation of a [rad/s^2] under independent errors of the measured angles,
-        of deviation sigma [rad].
+        """Standard deviation of the commanded acceleration a [rad/s^2] under errors n of the measured angle,
+        which are independent from tick to tick, with the standard deviation sigma [rad].
 
         Exact, by the discrete Lyapunov equation; NaN for an unstable loop, which has none.
         """
@@ -286,7 +297,9 @@ class SampledLoop:
 
 
 def covariance(A: Array, Q: Array) -> Array:
-    """Solve P = A P A' + Q for P (s, s), with a stable A (s, s), as the sum of A^i Q A'^i, doubling its terms.
+    """Solve P = A P A' + Q for P (s, s), with a stable A (s, s), as the sum of A^i Q A'^i, i = 0, 1, ..
+
+    Each pass of the loop doubles the number of its terms, until they no longer change it.
 
     For a matrix Q that is positive semidefinite all terms add up, so nothing is lost where the equation itself
     is badly conditioned. P has the units of Q, such as [rad^2] for angles.
@@ -300,9 +313,10 @@ def covariance(A: Array, Q: Array) -> Array:
 
 
 def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
-    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
+    """The largest T [s] below which the loop is stable at every period, with a delay of `delay_periods` T.
 
-    NaN when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
+    loop: its own period and delay do not count. NaN when SHORTEST is unstable already, infinite when all up to
+    LONGEST are stable.
     """
     count = math.ceil(math.log(LONGEST / SHORTEST) / math.log(RATIO))
     periods = SHORTEST * RATIO ** np.arange(count + 1)
@@ -312,7 +326,8 @@ def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
 def largest_delay(loop: SampledLoop) -> float:
     """The largest delay [s] below which the loop is stable with every delay.
 
-    NaN when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
+    loop: its own delay does not count. NaN when the loop is unstable without one, infinite when all up to
+    MOST_PERIODS are stable.
     """
     delays = loop.period / PARTS * np.arange(MOST_PERIODS * PARTS + 1)
     return last_true(lambda delay: replace(loop, delay=delay).stable, delays)
@@ -322,7 +337,8 @@ def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
     """The number up to which `holds` is true, by bisection to 1e-6 of it.
 
     tried: increasing numbers; bisection goes on between the first at which it does not hold and the one before.
-    NaN when it does not hold at the first, infinite when it holds at all of them.
+    Where it does not hold at the first, `low` stays NaN and the bisection ends at once. NaN when it does not
+    hold at the first, infinite when it holds at all of them.
     """
     low = math.nan
     for x in tried:

@@ -4,7 +4,8 @@
 margins, the largest stable period, the torque noise of one encoder count, the peak after an impact, and the
 largest bandwidth of each order that the robot allows. Each number is computed at its first use. `verdict` and
 `sections` present them in words and tables. A delay is "unknown" where the observer is fed with the command,
-"known" where it is fed with the torque that acts.
+"known" where it is fed with the torque that acts. In names of responses e is the tracking error, xi the total
+disturbance, xi^ its estimate, n the error of the measured angle and u the torque.
 """
 
 from __future__ import annotations
@@ -70,7 +71,10 @@ class ObserverReport(OnHardware):
     # -- numbers -------------------------------------------------------------------------------------
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
-        """The largest stable delay [s] at this period: unknown to the observer, and known to it."""
+        """The largest stable delays [s] at this period: one that is unknown to the observer, and a known one.
+
+        NaN where the loop is unstable without a delay, infinite where none is found.
+        """
         unknown, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
         return unknown, known
 
@@ -89,7 +93,9 @@ class ObserverReport(OnHardware):
 
     @cached_property
     def against_none(self) -> float:
-        """Tracking error that a 5 Hz disturbance leaves, relative to that with K_p and K_d alone."""
+        """Tracking error that a 5 Hz disturbance leaves, over the error with K_p and K_d alone [1]; above 1 the
+        observer does harm.
+        """
         return self.rejection / without_observer(self.gains)
 
     @property
@@ -97,6 +103,7 @@ class ObserverReport(OnHardware):
         """Frequency responses by name: e / xi [s^2], xi^ / xi [1] and u / n [N m/rad], functions
         of frequencies (K,) [rad/s].
         """
+        # the loop's response to n is an acceleration; `inertia` makes it a torque
         return {
             "e / xi": self.loop.tracking_error,
             "xi^ / xi": self.loop.estimate,
@@ -249,8 +256,8 @@ class ObserverReport(OnHardware):
 
 
 def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
-    """The first frequency [rad/s] above `low` at which |response| is 3 dB below its value at
-    low; `high` if there is none.
+    """The first frequency [rad/s] from `low` to `high` at which |response| is 3 dB below its value at `low`;
+    `high` if there is none.
     """
     grid = np.geomspace(low, high, GRID)
     level = np.abs(response(grid))
@@ -264,7 +271,7 @@ def microseconds(seconds: float) -> str:
 
 
 def of_stable(number: float, unit: str) -> str:
-    """Text of a margin, period or frequency with its unit: "no limit found" if infinite, "unstable" for NaN."""
+    """Text of a margin, period or frequency with its unit: "no limit found" if infinite, "unstable" if NaN."""
     if math.isnan(number):
         return "unstable"
     return f"{number:.4g} {unit}" if math.isfinite(number) else "no limit found"
@@ -292,7 +299,8 @@ def observer_report(
     gains.check(robot.p)
     limit, inertia = robot.description.peak_torque, worst_inertia(robot, gait)
     hardware = Hardware(period, delay, known, float(counts), limit, inertia)
-    OnHardware(hardware, observer, gains).sampled()  # refuses what has no sampled form
+    # raises InputError at once for what has no sampled form
+    OnHardware(hardware, observer, gains).sampled()
     name = f"{robot.description.name} ({robot.preset})"
     impact = orbit_impact(robot, gait, observer.order)
     return ObserverReport(hardware, observer, gains, robot=name, impact=impact)
@@ -301,7 +309,8 @@ def observer_report(
 def worst_inertia(biped: Biped, gait: Gait) -> float:
     """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and along the gait [kg m^2].
 
-    It converts independent errors of the commanded accelerations into the torque of the worst joint.
+    Independent errors of the commanded accelerations, all of one standard deviation [rad/s^2], make a torque of
+    this times that deviation [N m] in the worst joint.
     """
     still = np.zeros(biped.n)
     along = ZeroDynamics.of(biped, gait.constraint).q

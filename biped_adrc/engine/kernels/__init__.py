@@ -1,1 +1,1 @@
-"""Integrators, event location and the hybrid walk in compiled loops that call functions by their addresses."""
+"""Compiled loops: integrators, location of events, and the walk; a walker's functions are called by address."""

@@ -1,5 +1,8 @@
 """The compiled functions that are called from outside: by Python, and by the page that walks in a browser.
 
+An arc is the flow between two impacts. Codes are those of `hybrid.constants`: a place in `Status`, with 0 for
+COMPLETED, or STRUCK for an arc that ended at a touchdown.
+
 `stride` runs one walk over arcs and impacts until it has made as many impacts as asked for, its time is over,
 or it ends in another way. `samples` moves each of many walks from its sample instant to the next one, with
 torques and forces that the caller may choose anew each time; impacts in between are made on the way. A clock
@@ -23,14 +26,14 @@ from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.march import arm, keep, travel
 
 MOST_ARCS = 100
-"""In one sample (EVENT_LIMIT)."""
+"""Most arcs in one sample; with more of them the walk ends as EVENT_LIMIT."""
 
 
 @unit
 def go_on(r: Run) -> int:
-    """Move the run from x0 at t to the first event or to t_end; returns a code.
+    """Move the run from x0 at t to the first event or to t_end; returns a code, COMPLETED at t_end.
 
-    An arc that ends before its first step leaves one node, so that no arc is empty.
+    An arc that ends before its first step leaves one node with the slope 0, so that no arc is empty.
     """
     count, r.lost = r.count, 0
     lower(r)
@@ -46,14 +49,14 @@ def go_on(r: Run) -> int:
 
 @unit
 def land(r: Run) -> int:
-    """Put x+ in place of x- in x0, and begin the next arc; returns a status, and changes nothing where it is
-    not 0.
+    """Compute the impact at t: x+ takes the place of x- in x0, and the next arc begins.
 
-    step, t_start and t_arc become those of the single support that begins.
+    step, t_start and t_arc become those of the single support that begins. Returns 0, or the code of a failure,
+    which leaves the run as it was.
     """
     r.inp[0], r.inp[1] = r.t, r.step + 1.0
     copy(r.x0, shift(r.inp, 2), r.nx)
-    r.x_e[0] = math.nan
+    r.x_e[0] = math.nan  # what stays where Python is interrupted
     call(r.impact, r.K, r.inp, r.x_e)
     if r.x_e[r.nx] == 0.0:
         return SINGULAR
@@ -68,13 +71,15 @@ def land(r: Run) -> int:
 
 @unit
 def stride(r: Run, impacts: int, strikes: Array) -> int:
-    """Move the run over `impacts` impacts, or until t_end (TIME_OUT); returns a status.
+    """Move the run over `impacts` impacts (COMPLETED), or until t_end (TIME_OUT) or a failure; returns its
+    code.
 
-    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each.
+    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each impact made.
     """
     nx = r.nx
     for count in range(impacts):
         code = go_on(r)
+        # rows of `look` are kept at the starts of steps, so the end of the run needs one more
         if code == COMPLETED and r.look != 0:
             node(r, r.t, r.x0, r.dx0)
         if code != STRUCK:
@@ -91,8 +96,9 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
 
 @unit
 def sample(r: Run) -> int:
-    """Move the run from a sample instant to the next one, or to the end of the walk; returns a code, 0 for
-    COMPLETED.
+    """Move the run from a sample instant to the next one (COMPLETED), or to the end of the walk (another code).
+
+    Impacts in between are made. Returns the code.
     """
     for _ in range(MOST_ARCS):
         r.t_end = after_tick(r.t, clock_start(r), r.period)
@@ -101,6 +107,7 @@ def sample(r: Run) -> int:
             code = land(r)
         if code != COMPLETED:
             return code
+        # with a clock that restarts at the impact this is true right after it
         if at_tick(r.t, clock_start(r), r.period):
             return COMPLETED
     return EVENT_LIMIT
@@ -108,8 +115,8 @@ def sample(r: Run) -> int:
 
 @unit
 def look(r: Run, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, force) at the time and state of the run, with the inputs that a
-    sample instant there would get.
+    """Compute out = law(t, step, t_start, x, zeta, force) at the time and state of the run, with the inputs
+    that a sample instant there would get; law: address of the function.
     """
     lower(r)
     r.limit = math.inf
@@ -119,8 +126,11 @@ def look(r: Run, law: int, out: Array) -> None:
 
 @unit
 def push(r: Run, x: float, z: float) -> None:
-    """Set `force` to (x, z) [N]. Where it jumps, a row just before is kept; while it is zero, the last term of
-    the disturbance is left out of the sum."""
+    """Set `force`, the force from outside on the trunk, to (x, z) [N].
+
+    Where it jumps, a row of `nodes` just before is kept. `force` is the last term of the disturbance: n_parts
+    counts it only while it is not zero.
+    """
     F = r.force
     if x != F[0] or z != F[1]:
         if r.look != 0:
@@ -140,12 +150,13 @@ def samples(
     codes: Ints,
     impacts: Ints,
 ) -> int:
-    """One sample of each of `count` walks whose code is 0; how many of them end a single support, by an impact
-    or with the walk.
+    """Move each of `count` walks whose code is COMPLETED by one sample. Returns how many of them ended a single
+    support, by an impact or with the walk.
 
-    walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N].
-    codes (count,) become those of `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it,
-    as they were where a walk has ended. impacts (count,) are those made, -1 for a walk that is not moved.
+    walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N] of
+    each. The others are written: codes (count,), those of `sample`; states (count, width = 2 + nx), rows (t,
+    step, x) after it, unchanged for a walk that is not moved; impacts (count,), how many were made, -1 for a
+    walk that is not moved.
     """
     over = 0
     for i in range(count):
@@ -167,8 +178,10 @@ def samples(
 
 @unit
 def looks(walks: Ints, count: int, width: int, laws: Ints, views: Array) -> None:
-    """Rows of views (count, width): what the functions at the addresses laws (count,) say of the walks where
-    they are.
+    """Write the rows of views (count, width): the output of function laws[i] at the present state of walk i.
+
+    walks (count,): addresses of runs, 0 for none, whose row is left as it is; laws (count,): addresses of
+    functions as in `look`.
     """
     for i in range(count):
         if walks[i] != 0:

@@ -4,9 +4,12 @@ The loops work on pointers, written and read as arrays are; a vector is a pointe
 number. A run r is a pointer to its cells, and r.name the field of that name (`record`). Generated functions are
 called by an address that is data of the run, so the loops are compiled once for all walkers.
 
-`inner` functions are compiled into each of their callers, those of `unit` once each and called by their name,
-which keeps the compile time down. The annotations of units are read as their signatures (int, float, Run, Ints,
-Array), so nothing is compiled for types seen at run time.
+Functions with the decorator `inner` are compiled into each of their callers; those with `unit` are compiled
+once and called by their name, which keeps the compile time down. The annotations of units are read as their
+signatures (int, float, Run, Ints, Array), so numba compiles none of them for the types of a call.
+
+An intrinsic is a function whose instructions are written here, in place of numba: numba calls it with the types
+of the arguments, and it returns its signature and a function `codegen` that writes LLVM's instructions.
 """
 
 from __future__ import annotations
@@ -28,7 +31,7 @@ _Function = TypeVar("_Function", bound=Callable[..., object])
 
 
 Generated = tuple[Signature, Callable[..., ir.Value]]
-"""What an intrinsic gives numba: its signature, and the function that writes its instructions."""
+"""The result of an intrinsic: its signature, and the function that writes its instructions."""
 
 
 Context = Any
@@ -38,7 +41,8 @@ intrinsic: Callable[[Callable[..., Generated]], Callable[..., Any]] = extending.
 types: Any = numba.types
 
 UNITS: dict[str, tuple[str, Signature, Callable[..., object]]] = {}
-"""By name: symbol, signature and function, in the order in which they need each other."""
+"""Name of each unit -> its symbol in the machine code, signature and function, in an order in which each one
+comes after those that it calls."""
 _CELLS = types.CPointer(types.int64)
 _TYPES = {
     "int": types.int64,
@@ -52,14 +56,14 @@ _TYPES = {
 
 
 def inner(function: _Function) -> _Function:
-    """Compiled into the units that call it; for small functions."""
+    """Decorator for a small function, which is compiled into the units that call it."""
     return njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def unit(function: _Function) -> _Function:
-    """A C function of its own (`kernels.load`); its annotations are its signature.
+    """Decorator for a C function of its own, which `kernels.load` compiles; its annotations are its signature.
 
-    The result stands for its name, so callers do not compile it again.
+    The name in Python becomes numba's reference to that C function, so callers do not compile it again.
     """
     # strings, by `from __future__ import annotations`; without it Run would be the class of Python, no pointer
     *arguments, result = (_TYPES[hint] for hint in function.__annotations__.values())
@@ -70,7 +74,7 @@ def unit(function: _Function) -> _Function:
 
 @intrinsic
 def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Generated:
-    """Call `void f(double* K, double* inp, double* out)` at `address`."""
+    """Intrinsic that calls the function `void f(double* K, double* inp, double* out)` at `address`."""
 
     def codegen(
         context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
@@ -85,14 +89,14 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
 
 @intrinsic
 def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
-    """Pointer to entry i of what `pointer` points to."""
+    """Intrinsic: the pointer to entry i of the vector at `pointer`, as `&pointer[i]` in C."""
     signature = pointer(pointer, types.int64)
     return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 
 
 @intrinsic
 def run_at(typingctx: object, address: Type) -> Generated:
-    """The run at an address."""
+    """Intrinsic: an address, a whole number, as a pointer to a run."""
     pointer = ir.IntType(64).as_pointer()
     signature = _CELLS(types.int64)
     return signature, lambda context, builder, signature, x: builder.inttoptr(x[0], pointer)
@@ -100,17 +104,19 @@ def run_at(typingctx: object, address: Type) -> Generated:
 
 # -- fields of a run -------------------------------------------------------------------------------
 class _Fields(AttributeTemplate):
-    """Types of r.name, for a run r."""
+    """Tells numba the type of r.name, for a run r."""
 
     key = types.CPointer
 
     def generic_resolve(self, run: Type, name: str) -> Any:  # type: ignore[override]
-        """numba's type of a field; None for a pointer to something else, or another name."""
+        """numba's type of the field `name` of a value of the type `run`; None where that is no run or has no
+        such field.
+        """
         return _TYPES[KINDS[name]] if run == _CELLS and name in KINDS else None
 
 
 def _cell(builder: ir.IRBuilder, run: ir.Value, name: str) -> ir.Value:
-    """Pointer to the cell of a field, of the field's own kind."""
+    """Write the instructions for a pointer to a field's cell: to a double for a float, else to an int64."""
     cell = builder.gep(run, [ir.Constant(ir.IntType(64), PLACES[name])])
     return builder.bitcast(cell, ir.DoubleType().as_pointer()) if KINDS[name] == "float" else cell
 
@@ -118,7 +124,7 @@ def _cell(builder: ir.IRBuilder, run: ir.Value, name: str) -> ir.Value:
 def _read(
     context: Context, builder: ir.IRBuilder, kind: Type, run: ir.Value, name: str
 ) -> ir.Value:
-    """r.name"""
+    """Write the instructions for reading r.name: a number, or for a vector the pointer to its first number."""
     value = builder.load(_cell(builder, run, name))
     if KINDS[name] in ("int", "float"):
         return value
@@ -127,7 +133,7 @@ def _read(
 
 
 def _write(context: Context, builder: ir.IRBuilder, signature: Any, x: Any, name: str) -> None:
-    """r.name = value"""
+    """Write the instructions for r.name = value, where x is (r, value)."""
     builder.store(x[1], _cell(builder, x[0], name))
 
 

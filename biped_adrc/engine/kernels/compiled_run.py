@@ -1,6 +1,6 @@
-"""A compiled run in memory: its block of cells by name, and what the codes that it ends with mean.
+"""A compiled run in memory: its block of cells of 8 bytes by name, and the status for each code of its end.
 
-`engine.program` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
+`engine.program` gives addresses, tables (vectors) and fields by name; `plan` lays them out as `record` says. A
 plan is a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of the
 block.
 
@@ -27,13 +27,16 @@ from biped_adrc.hybrid.status import Status
 STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK has none."""
 NO_ROWS = np.zeros((0, 0))
+"""The array of nodes of a run that keeps none."""
 
 
 class CompiledRun:
-    """One run, by name: run["t"], run["x0"]. Runs at the same time must not share it."""
+    """One run, whose fields are read and set by name: run["t"]. Runs at the same time must not share it."""
 
     def __init__(self, block: Ints, pointers: Ints):
-        """block: becomes its memory; pointers: which of its cells point into it, from its start [bytes]."""
+        """block: its cells, which become the run's own memory. pointers: indices of the cells that hold the
+        address of a vector in the block; in `block` they are distances from its start [bytes].
+        """
         self.cells, self.pointers = block, pointers
         self.address = int(self.cells.ctypes.data)
         self.cells[pointers] += self.address
@@ -46,34 +49,37 @@ class CompiledRun:
 
     @property
     def block(self) -> Ints:
-        """The cells, pointers as distances from its start [bytes] again."""
+        """A copy of the cells that does not depend on where they lie: addresses are distances from the start of
+        the block [bytes], as `__init__` takes them.
+        """
         block = self.cells.copy()
         block[self.pointers] -= self.address
         return block
 
     def place(self, name: str) -> int:
-        """Cell of the first number of a vector."""
+        """Index of the cell with the first number of the vector `name`."""
         return (int(self.cells[PLACES[name]]) - self.address) // 8
 
     def __getitem__(self, name: str) -> float:
-        """A number, or the address of a vector."""
+        """The field `name` of `record.Run`: a number, or the address of a vector."""
         where: Any = self.numbers if KINDS[name] == "float" else self.cells
         return where[PLACES[name]].item()
 
     def __setitem__(self, name: str, value: float) -> None:
-        """A number, or the address of a vector outside the block."""
+        """Set the field `name`: a number, or the address of a vector."""
         where = self.numbers if KINDS[name] == "float" else self.cells
         where[PLACES[name]] = value
 
     def copy(self) -> CompiledRun:
-        """A copy of the run, with its nodes, that shares no memory with it."""
+        """A copy of the run as it is now, with its nodes, that shares no memory with it."""
         run, count = CompiledRun(self.block, self.pointers), int(self["count"])
         run._keep_in(np.empty_like(self.nodes))
         run.nodes[:count] = self.nodes[:count]
         return run
 
     def filled(self, tables: Mapping[str, Array]) -> CompiledRun:
-        """A copy of a plan with other numbers in these tables, each of the size that it has there."""
+        """A copy of a plan with other numbers in these vectors, by name, each of the size that it has in the
+        plan."""
         run = CompiledRun(self.block, self.pointers)
         for name, table in tables.items():
             at = run.place(name)
@@ -81,8 +87,8 @@ class CompiledRun:
         return run
 
     def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
-        """A run of this plan from x (nx,) at t [s] to t_end [s] at the latest, in the single support `step`
-        from t_start on.
+        """A run of this plan, not moved yet, from x (nx,) at t [s] to t_end [s] at the latest; it begins in the
+        single support with the number `step`, which began at t_start [s].
         """
         run = CompiledRun(self.block, self.pointers)
         run["t"] = run["t_arc"] = t
@@ -91,13 +97,13 @@ class CompiledRun:
         return run
 
     def keep(self, longest: float, arcs: int = 1, look: int = 0) -> None:
-        """Keep nodes, with room for so many arcs, none of them longer than `longest` [s].
+        """Take memory for nodes, so that the run keeps them: for so many arcs, none longer than `longest` [s].
 
-        look: address of the function of a `StepReading`; rows are a `NodeRow` each then, in place of states. An
-        arc has stretches between sample instants, switching times and its ends; the last step of each may be
-        short, and a step longer than RESOLUTION has nodes inside. Memory is taken by the rows that are written
-        alone.
+        look: address of a function that computes a `StepReading`; each row is a `NodeRow` then. 0: rows are (t,
+        x, x'). Rows that are never written cost no memory, so their number is estimated from above.
         """
+        # an arc has stretches between sample instants, switching times and its ends; the last step of each may
+        # be short, and a step longer than RESOLUTION has nodes inside; with `part` each period has two breaks
         h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
         time = longest + T + h
         stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
@@ -109,16 +115,18 @@ class CompiledRun:
         self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
 
     def _keep_in(self, nodes: Array) -> None:
+        """Set the array to which the run writes its nodes."""
         self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
 
     def rows(self) -> Array:
-        """The nodes kept since they were asked for last, to be copied before the run goes on."""
+        """The nodes kept since the last call, rows as in `keep`: a view, to be copied before the run goes
+        on."""
         count, self["count"] = int(self["count"]), 0
         return self.nodes[:count]
 
     def stride(self, impacts: int) -> tuple[Status, Array]:
-        """Run over so many impacts, or until t_end (TIME_OUT); returns the status, and a row (t, x-, x+) of
-        each impact.
+        """Run over so many impacts, or until t_end (TIME_OUT) or a failure. Returns the status, and a row (t,
+        x-, x+) of each impact that was made.
         """
         strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
         code = kernels().stride(self.address, impacts, strikes.ctypes.data)
@@ -126,7 +134,10 @@ class CompiledRun:
 
 
 def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRun:
-    """Lay out a run: tables and fields by their names in `record.Run`; fields left out are 0."""
+    """Lay out a plan, a run that has not begun, in memory. tables, fields: vectors and numbers by their names
+    in `record.Run`; fields left out are 0.
+    """
+    # width: of all work vectors, as long as the longest list of inputs; slow: numbers in w of (w, E)
     n, nx, p, k = (int(fields[name]) for name in ("n", "nx", "p", "k"))
     width, slow = 3 + nx + max(n, 2) + OUTSIDE, nx - k * p
     values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
@@ -135,6 +146,7 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     parts += [np.zeros(width) for _ in ROWS]
     ends = np.cumsum([len(part) for part in parts]).tolist()
     places = dict(zip((*TABLES, *ROWS), ends[:-1], strict=True))
+    # without inputs from outside these two are never written
     places |= {"torque": places["K"], "force": places["push"]}
     cells = np.concatenate(parts).view(np.int64)
     for name, value in values.items():

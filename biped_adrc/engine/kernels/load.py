@@ -1,8 +1,9 @@
 """The march of a walk through time (`hybrid.march`) and what is around it, as compiled functions to call.
 
-Their text for LLVM lies beside this file, as `kernels.write` has it from numba, and is compiled for the
-processor once. It says from which sources it was written. Where these have changed it is written anew by numba,
-and kept on disk. The page that walks in a browser is made from the same text (`extras.play.webassembly`).
+They are called units (`kernels.call.unit`). Their text for LLVM lies beside this file, as numba has written it
+(`kernels.write`), and is compiled for the processor once. Its first line has the checksum of the sources from
+which it was written. Where these have changed, numba writes it anew, and it is kept in the user's cache. The
+page that walks in a browser is made from the same text (`extras.play.webassembly`).
 """
 
 from __future__ import annotations
@@ -32,9 +33,9 @@ FILES = (
     "biped_adrc.hybrid.march",
     f"{_HERE}.arc",
 )
-"""The modules of the march, in the order in which they need each other."""
+"""The modules of the march, in an order in which each one comes after those that it needs."""
 WRITER = f"{_HERE}.write"
-"""The module that writes their text."""
+"""The module that writes their text, which depends on it, too."""
 
 
 def kernels() -> Any:
@@ -43,10 +44,10 @@ def kernels() -> Any:
 
 
 def compiled(files: tuple[str, ...], **arguments: int) -> Any:
-    """The units of modules, by name. Other threads of Python run while one is called. The first call loads
-    them, or compiles them where they are not on disk.
+    """The units of these modules that Python calls, as attributes; the first call loads or compiles them.
 
-    arguments: of each unit that Python calls, how many whole numbers and addresses it takes.
+    arguments: name of each of these units -> how many arguments it takes, whole numbers and addresses alone.
+    While a unit runs, other threads of Python run too.
     """
     if files not in _PROGRAMS:  # `functools.cache` would let two threads load at once
         with LOCK:
@@ -55,11 +56,12 @@ def compiled(files: tuple[str, ...], **arguments: int) -> Any:
 
 
 _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
-"""Units in memory, by the modules that have them."""
+"""Names of modules -> their units in memory, as `compiled` returns them."""
 
 
 def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """Load the units of modules as functions that Python can call; `arguments` as in `compiled`."""
+    """Load the units of these modules, compiled if need be, as functions of ctypes; `arguments` as in
+    `compiled`."""
     at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
@@ -67,8 +69,8 @@ def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNames
 
 @cache
 def loops(files: tuple[str, ...] = FILES) -> str:
-    """The text for LLVM of all units, each under its own name: that of the package, or written anew where it
-    does not fit the sources. Raises ModelError where numba is needed for that and is not there.
+    """The text for LLVM of all units of these modules: the file of the package, or, where that does not fit the
+    sources, one that numba has written for them. Raises ModelError where numba is needed and is not installed.
     """
     with suppress(OSError, UnicodeError):
         first, _, text = text_file(files).read_text(encoding="utf-8").partition("\n")
@@ -88,11 +90,11 @@ def loops(files: tuple[str, ...] = FILES) -> str:
 
 
 def text_file(files: tuple[str, ...]) -> Path:
-    """The file with the text of these modules."""
+    """The package's file with the text for LLVM of these modules: it has the name of the last one."""
     return Path(__file__).with_name(f"{files[-1].rpartition('.')[2]}.ll")
 
 
 def head(files: tuple[str, ...], text: str) -> str:
-    """First line of that file: the checksums of the sources and of the text below it."""
+    """The first line of that file: checksums of the sources of these modules and of the text below the line."""
     each = (hashlib.sha256(x.encode()).hexdigest()[:32] for x in (sources((*files, WRITER)), text))
     return f"; sources {next(each)}, text {next(each)}"

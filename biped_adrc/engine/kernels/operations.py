@@ -1,10 +1,14 @@
-"""What the march does with a run in memory: the operations of `hybrid.on_arrays`, around the functions of a
-walker.
+"""The operations by which the march (`hybrid.march`) moves a compiled run r, the twins of those of
+`hybrid.on_arrays`, around the functions of a walker.
 
-A function is called by its address, with its inputs in `inp` in the order that `record.Run` has. An
-output ends with the least pivot of the matrices inverted; where that is exactly zero, or below it for a
-torque beyond the bound, the run is noted as singular or run away and the output made NaN, even where a torque
-limit has made a finite number of it.
+A function of the walker is called by its address, with its inputs in `inp` in the order that `record.Run` has.
+Its output ends with the least pivot of the matrices that the controller inverts; where that is exactly zero
+(singular) or below zero (a torque beyond the bound), the status is noted in r.lost and the output made NaN,
+even where a torque limit has made a finite number of it.
+
+y = (w, E) are the coordinates of the exponential method, ETD-RK4: w the slow states, E (k, p) the stiff ones.
+`values` are the event functions at the start of an integration step, `after` those at its end, `tried` those at
+a time in between; x0 and x1 the states at both ends, with the slopes dx0 and dx1. A guard is an event function.
 """
 
 from __future__ import annotations
@@ -53,22 +57,27 @@ def finite(x: Array, size: int) -> bool:
 
 @inner
 def matrix(r: Run, level: int, which: int) -> Array:
-    """One of the six matrices (k, k) of a level; `which` is HALF, HALF_PHI, ..."""
+    """One of the six matrices (k, k) of ETD-RK4 for a step of length h 2^-level; `which`: HALF, HALF_PHI, .. of
+    `hybrid.constants`.
+    """
     return shift(r.phi, (MATRICES * level + which) * r.k * r.k)
 
 
 @inner
 def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
-    """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
+    """Compute E of `out` as M times E of y, both vectors (w, E), M (k, k), E (k, p); w of `out` is left as it
+    is.
 
-    By generated code: k and p are constants in it.
+    By generated code, in which k and p are constants.
     """
     call(r.matvec, M, shift(y, r.n_slow), shift(out, r.n_slow))
 
 
 @inner
 def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
-    """E (k, p) of out += factor M N_E, where only row 1 of N_E is stored."""
+    """Add factor * M N_E to E (k, p) of `out`. The remainder N = (N_w, row 1 of N_E) has that row alone, as the
+    others are zero.
+    """
     for i in range(r.k):
         weight = factor * M[i * r.k + 1]
         for c in range(r.p):
@@ -78,14 +87,15 @@ def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
 # -- the walker ------------------------------------------------------------------------------------
 @inner
 def broken(r: Run) -> int:
-    """The status of a run whose state or slope is not finite: what a function has asked for, else
+    """The status of a run whose state or slope is not finite: that in r.lost, which explains it, else
     NOT_FINITE."""
     return NOT_FINITE if r.lost == 0 else r.lost
 
 
 @inner
 def note(r: Run, out: Array, pivot: float) -> None:
-    """Make a function's result NaN where its last output, `pivot`, is not positive, and note the status."""
+    """Make a function's result `out` NaN where its least pivot is not positive, and note the status in
+    r.lost."""
     if pivot <= 0.0:
         r.lost = SINGULAR if pivot == 0.0 else RAN_AWAY
         out[0] = math.nan
@@ -93,7 +103,8 @@ def note(r: Run, out: Array, pivot: float) -> None:
 
 @inner
 def slow(r: Run, t: float, x: Array) -> bool:
-    """Whether no angle and no rate in x (nx,) is beyond its bound."""
+    """Whether no angle and no rate in x (nx,) is beyond its bound; t is for the twin in Python, which names
+    it."""
     n, fits = r.n, True
     for i in range(n):
         fits = fits and abs(x[n + i]) <= r.fastest[i] and abs(x[i]) <= r.farthest
@@ -102,13 +113,17 @@ def slow(r: Run, t: float, x: Array) -> bool:
 
 @inner
 def set_time(r: Run, t: float) -> None:
-    """The first of the inputs: t [s], single support, its start [s]."""
+    """Write the first three inputs of a function to `inp`: t [s], number of the single support, its start
+    [s]."""
     r.inp[0], r.inp[1], r.inp[2] = t, r.step, r.t_start
 
 
 @unit
 def load_of(r: Run) -> None:
-    """load = sum over the disturbance's terms of (zeta, force), at the time and (q, v) in `inp`."""
+    """Set r.load (n + 2,) to the sum over the disturbance's terms of zeta (n,) [N m] and force (2,) [N].
+
+    They are evaluated at the time, single support, q and v that stand in `inp`.
+    """
     size, K = r.n + 2, r.push
     for i in range(size):
         r.load[i] = 0.0
@@ -120,8 +135,8 @@ def load_of(r: Run) -> None:
 
 @inner
 def disturb(r: Run, t: float) -> None:
-    """load = sum over the disturbance's terms of zeta (n,) [N m] and force (2,) [N], at t [s]; (q, v) are in
-    `inp`.
+    """Write t [s] and the single support to `inp`, and set r.load to the disturbance there; (q, v) stand in
+    `inp` already. Without terms r.load stays zero.
     """
     set_time(r, t)
     if r.n_parts > 0:
@@ -130,10 +145,10 @@ def disturb(r: Run, t: float) -> None:
 
 @unit
 def flow(r: Run, t: float, x: Array, dx: Array) -> None:
-    """dx (nx,) = x'(t, x); dx (nx + 1,) or longer.
+    """Compute dx (nx,) = x'(t, x). The vector dx has to have room for nx + 1 numbers, the last one the pivot.
 
     t [s] is taken no later than r.limit, so that a step that ends at a break sees the limit from the left. Of
-    what is held only the last p numbers are passed on, the torques on the joints.
+    the held numbers behind the first r.moving only the last p are passed on, the torques on the joints.
     """
     nx, inp, moving = r.nx, r.inp, r.moving
     copy(x, shift(inp, 3), moving)
@@ -166,9 +181,10 @@ def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
 
 @unit
 def remainder(r: Run, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, row 1 of N_E) at (t, y), t [s], y = (w, E).
+    """Compute the remainder N = (N_w, row 1 of N_E) at (t, y), t [s], y = (w, E), where w' = N_w, E' = A E +
+    N_E.
 
-    The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
+    The disturbance depends on (q, v), so where there is one, x is computed from y for it first.
     """
     inp = r.inp
     if r.n_parts > 0:
@@ -183,21 +199,21 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
 
 @inner
 def split(r: Run, x: Array, y: Array) -> None:
-    """y = (w, E) of x (nx,)."""
+    """Compute y = (w, E) from x (nx,)."""
     call(r.to, r.K, x, y)
 
 
 @inner
 def join(r: Run, y: Array, x: Array) -> None:
-    """x (nx,) of y = (w, E)."""
+    """Compute x (nx,) from y = (w, E)."""
     call(r.back, r.K, y, x)
 
 
 # -- events ----------------------------------------------------------------------------------------
 @unit
 def watch(r: Run, t: float, q: Array, out: Array) -> None:
-    """out (4,): the event functions at (t, q), t [s], q (n,) [rad]: clearance [m], hip margin [m], time left
-    [s]; then x of the swing foot [m].
+    """Compute out (4,), the event functions at t [s], q (n,) [rad]: clearance of the swing foot [m], height of
+    the hip over its limit [m], time left for the single support [s]; then x of the swing foot [m].
     """
     r.inp[0], r.inp[1], r.inp[2] = t, r.t_start, r.drop
     copy(q, shift(r.inp, 3), r.n)
@@ -206,20 +222,25 @@ def watch(r: Run, t: float, q: Array, out: Array) -> None:
 
 @inner
 def passed(r: Run, guard: int, fall: float) -> bool:
-    """False: of a walk's event functions the touchdown alone may be below zero, and `accepts` asks of it."""
+    """Whether a guard that is below zero at the start of an arc was so before the last event too, and is no
+    event.
+
+    False for a walk: its clearance alone may be below zero without an event, and of that `accepts` decides.
+    """
     return False
 
 
 @inner
 def accepts(r: Run, guard: int, te: float) -> bool:
-    """Whether the crossing found is an event: a touchdown less than least_step ahead of the stance foot is
-    none."""
+    """Whether the zero that was found at te [s] is an event: a touchdown less than r.least_step ahead of the
+    stance foot is none, as of a leg without knees in mid-swing. `tried` has the values there.
+    """
     return guard != FOOT_STRIKE or r.tried[FOOT_X] > r.least_step
 
 
 @inner
 def code_of(r: Run, guard: int) -> int:
-    """How an arc ends at the event of a guard."""
+    """The code with which an arc ends at the event of a guard: STRUCK, FELL or STALLED."""
     if guard == FOOT_STRIKE:
         return STRUCK
     return FELL if guard == HIP_TOO_LOW else STALLED
@@ -227,9 +248,9 @@ def code_of(r: Run, guard: int) -> int:
 
 @inner
 def hermite(r: Run, h: float, s: float, out: Array) -> None:
-    """out (n,) [rad] = q at the fraction s of the step of length h [s] from x0 to x1.
+    """Compute out (n,) [rad], the angles q at the fraction s [1] of the step of length h [s] from x0 to x1.
 
-    The cubic through both states with their rates as slopes; q alone, since event functions need no more.
+    They lie on the cubic through both states with their rates as slopes; event functions need no more than q.
     """
     for i in range(r.n):
         rise = r.x1[i] - r.x0[i]
@@ -239,9 +260,10 @@ def hermite(r: Run, h: float, s: float, out: Array) -> None:
 
 @inner
 def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
-    """Whether an event function falls through zero between `count` points of the Hermite polynomial.
+    """Whether an event function falls through zero in the step from t0 to t1 [s], by its values at `count`
+    equal parts of the step on the cubic of `hermite`.
 
-    A cheap first look at a long step: no flow is evaluated. `after` has the values at t1 [s] already.
+    A cheap first look at a long step, without evaluating the flow. `after` has the values at t1 already.
     """
     v0, v1, v2 = r.values[0], r.values[1], r.values[2]
     for j in range(1, count + 1):
@@ -259,7 +281,8 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
 @inner
 def lower(r: Run) -> None:
-    """drop: how far the steps of the ground lower the ground [m] on which this single support ends."""
+    """Set r.drop, how much lower [m] the ground is where this single support ends, by the steps of the
+    ground."""
     r.drop = 0.0
     for i in range(r.n_drops):
         if r.drops[2 * i] == r.step:
@@ -268,7 +291,9 @@ def lower(r: Run) -> None:
 
 @unit
 def node(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Write the next row of `nodes` at t [s]: x and dx (nx,), or the result of the function `look`."""
+    """Write the next row of `nodes` at t [s]: (t, x, dx), x and dx (nx,); or, where r.look is a function, (t,
+    step, force from outside (2,), its output).
+    """
     nx, row = r.nx, shift(r.nodes, r.count * r.width)
     row[0] = t
     if r.look == 0:
@@ -281,7 +306,7 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
         set_time(r, t)
         row[1], row[2], row[3] = r.step, r.load[r.n], r.load[r.n + 1]
         call(r.look, r.K, r.inp, shift(row, 4))
-    r.count = min(r.count + 1, r.room - 1)
+    r.count = min(r.count + 1, r.room - 1)  # never past the end of the memory
 
 
 # -- breaks ----------------------------------------------------------------------------------------
@@ -292,15 +317,18 @@ at_tick, after_tick = inner(is_tick), inner(next_tick)
 
 @inner
 def clock_start(r: Run) -> float:
-    """Time [s] at which the clock of the sample instants began that counts in this arc."""
+    """Time [s] from which sample instants are counted in this arc: its start for a clock that restarts at
+    impacts, else the start of the run.
+    """
     return r.t_arc if r.restart == 1 else r.t_first
 
 
 @inner
 def next_switch(r: Run, t: float, last: float) -> float:
-    """The first switching time of the disturbance after t [s], at most `last` [s].
+    """The first time after t [s] at which the disturbance switches, at most `last` [s].
 
-    A switch with step 0 counts from the start of the run, any other from the start of that single support.
+    A row of `switches` with step 0 counts from the start of the run, any other from the start of that single
+    support.
     """
     first = last
     for i in range(r.n_switches):
@@ -314,7 +342,9 @@ def next_switch(r: Run, t: float, last: float) -> float:
 
 @inner
 def next_break(r: Run) -> float:
-    """The first switching time or sample instant after t [s], at most t_end."""
+    """The first time after r.t [s] across which no step may go, at most r.t_end: the disturbance switches, a
+    sample instant, or the instant from which a torque acts that waited for a part of the period.
+    """
     first = next_switch(r, r.t, r.t_end)
     if r.period > 0.0:
         first = min(first, after_tick(r.t, clock_start(r), r.period))
@@ -325,11 +355,11 @@ def next_break(r: Run) -> float:
 
 @unit
 def due(r: Run) -> int:
-    """x0 (nx,) after what is due at t: a sample instant, with dx0 its slope; the torque that waited for a
-    part of the period. A status, x0 unchanged where it is not 0.
+    """Change x0 (nx,) by what is due at r.t: a sample instant, and a torque that has waited for a part of the
+    period. Returns 0, or the code of a failure, which leaves x0 as it was.
 
-    The slope comes with the same call; unless motors lag it is complete, and the first step needs no
-    evaluation of the flow.
+    The function `tick` also gives q'', and so the slope dx0. Unless motors lag, that is complete (r.sloped),
+    and the first step needs no evaluation of the flow.
     """
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
     if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
@@ -357,7 +387,7 @@ def due(r: Run) -> int:
 
 @inner
 def measure(r: Run, x: Array) -> None:
-    """The inputs of a function at a sample instant at t in x (nx,): (t, step, t_start, x, zeta, force)."""
+    """Write the inputs of a sample instant at r.t in x (nx,) to `inp`: (t, step, t_start, x, zeta, force)."""
     copy(x, shift(r.inp, 3), r.nx)
     disturb(r, min(r.t, r.limit))
     copy(r.load, shift(r.inp, 3 + r.nx), r.n + OUTSIDE)
@@ -367,10 +397,10 @@ def measure(r: Run, x: Array) -> None:
 # The march names both, so the compiled text needs them; runs with SciPy's solvers never come here.
 @inner
 def solve(r: Run, t_next: float) -> float:
-    """No step: the march then ends as STEP_FAILED."""
+    """Returns r.t, a step of no length, by which the march would end as STEP_FAILED."""
     return r.t
 
 
 @inner
 def dense(r: Run, s: float) -> None:
-    """No solver runs here."""
+    """Does nothing, since no solver runs here."""

@@ -19,11 +19,12 @@ from biped_adrc.hybrid.constants import X_ROWS, Y_ROWS
 
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
-"""Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
+"""Indices in the output of a walker's function `events`: two event functions; x of the swing foot [m]."""
 PART = 2
-"""Numbers in `parts` for one."""
+"""How many numbers `parts` has for each term of a disturbance."""
 OUTSIDE = 2
-"""Numbers behind the inputs of a sample instant: force from outside, or those on both feet."""
+"""How many numbers the inputs of a sample instant have at their end: the force from outside (2,), or the
+vertical forces on both feet."""
 
 
 class Run:
@@ -58,7 +59,8 @@ class Run:
     matvec: int
     """E -> M E, with a matrix M (k, k) in the argument K."""
     look: int
-    """Address of what rows of `nodes` hold in place of states; 0 for none."""
+    """Address of a function with the inputs of `tick`, whose output the rows of `nodes` hold in place of
+    states; 0 for none."""
     n: int
     """Coordinates."""
     nx: int
@@ -74,59 +76,64 @@ class Run:
     nN: int
     """Numbers in the remainder (N_w, row 1 of N_E)."""
     levels: int
-    """Halvings of h for which there are matrices, h included."""
+    """Number of lengths of step h, h / 2, h / 4, .. for which there are matrices."""
     guards: int
-    """Event functions."""
+    """Number of event functions."""
     kind: int
-    """RK4 or ETD."""
+    """Method of integration, RK4 or ETD of `hybrid.constants`."""
     restart: int
     """1 where the clock restarts with each arc."""
     lags: int
-    """Where in x the torques of lagging motors are; 0 without."""
+    """Index in x of the first torque of lagging motors; 0 without."""
     n_drops: int
+    """Rows of `drops`."""
     n_switches: int
+    """Rows of `switches`."""
     n_parts: int
-    """Terms of the disturbance."""
+    """Number of the disturbance's terms."""
     pulled: int
     """1 where one of them, other than `force`, is a force from outside."""
     period: float
-    """Of sample instants [s]; 0 for continuous time."""
+    """Time between sample instants [s]; 0 for continuous time."""
     part: float
-    """Time after a sample instant at which the waiting torque acts [s]; 0 for none."""
+    """Time after a sample instant [s] from which the waiting torque acts, for a delay that is no whole number
+    of periods; else 0."""
     t_first: float
     """Start of the run [s]."""
     least_step: float
-    """Minimum step length [m]."""
+    """Shortest walking step [m]: a touchdown less far ahead of the stance foot is ignored."""
     h: float
     """Step of integration [s]."""
     lag_speed: float
     """1 / tau of lagging motors [1/s]."""
     farthest: float
-    """Bound of the angles [rad]."""
+    """Bound of |angles| [rad], beyond which the run ends as RAN_AWAY."""
     K: Array
     """Numbers that the walker's functions read."""
     drops: Array
-    """Rows (single support, how much lower the ground is at its end [m])."""
+    """Rows (number of the single support, how much lower the ground is at its end [m])."""
     switches: Array
-    """Rows (single support, time in it [s]), or (0, time of the run [s])."""
+    """Times at which the disturbance is not smooth: rows (number of the single support, time since its start
+    [s]), or (0, time of the run [s])."""
     fastest: Array
-    """Bounds of the rates (n,) [rad/s]."""
+    """Bounds of |rates| (n,) [rad/s], as `farthest`."""
     phi: Array
     """Matrices of ETD-RK4 (levels, 6, k, k)."""
     push: Array
     """Numbers of the disturbance, term after term."""
     parts: Ints
-    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers it
-    has."""
+    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers of
+    `push` it has."""
     torque: Array
-    """In K, what is added to the torques of the motors (p,) [N m]; set for `samples` alone, as `force` is."""
+    """Place in K of the torque from outside (p,) [N m], which is added to the motors'; only `arc.samples` uses
+    it and `force`."""
     force: Array
-    """In `push`, the force on the trunk (2,) [N]."""
+    """Place in `push` of the force from outside on the trunk (2,) [N]."""
     # -- what changes
     t: float
-    """[s]"""
+    """Time that the run has reached [s]."""
     step: float
-    """Single support."""
+    """Number of the single support."""
     t_start: float
     """Start of the single support [s]."""
     t_end: float
@@ -134,52 +141,55 @@ class Run:
     t_arc: float
     """Start of the arc [s]."""
     fired: int
-    """The guard that ended the last arc; -1 for none."""
+    """Index of the guard, that is the event function, that ended the last arc; -1 for none."""
     armed: int
-    """Whether `values` are those of this arc."""
+    """1 where `values` are those of this arc, 0 before its first step."""
     every: int
-    """Every how many steps a node is kept; 0 for never."""
+    """A node is kept every so many integration steps; 0 for never."""
     count: int
-    """Nodes kept."""
+    """Number of nodes kept so far."""
     room: int
-    """Rows of `nodes`, more than an arc can have."""
+    """Rows of `nodes`, more than the arcs can have."""
     width: int
-    """Numbers in one of them."""
+    """Numbers in a row of `nodes`."""
     sloped: int
     """1 where dx0 is the slope at x0 already."""
     lost: int
-    """The status that a function's last output asks for; 0 for none."""
+    """Status for which a pivot of 0 or below stands, SINGULAR or RAN_AWAY; 0 for none."""
     drop: float
-    """Of the ground at the end of this single support [m]."""
+    """How much lower the ground is at the end of this single support [m]."""
     limit: float
-    """Functions are asked for no later time than this [s]."""
+    """Time of the next break [s] but for the last bit: functions of time are evaluated no later, so that they
+    give limits from the left there."""
     t_event: float
-    """Time of the event [s]."""
+    """Time of the event that was found [s]."""
     t_b: float
-    """Time of x_b [s]."""
+    """Time of the state x_b, at which the sub-steps towards an event end [s]."""
     t_far: float
-    """End of the bracket of an event [s], and the event function there."""
+    """End of the bracket of an event [s]."""
     f_far: float
+    """The event function at t_far."""
     nodes: Array
-    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), what it says) at each step and the end,
-    at a break just after it, where a force from outside may jump just before it too."""
+    """Rows (t, x, x'); with `look` (t, step, force from outside (2,), output of `look`) at each integration
+    step and at the end, at a break after what happens there; where a force from outside may jump, before it
+    too."""
 
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of ROWS."""
+            """One of the vectors in ROWS."""
 
 
 FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "matvec")
-"""Addresses of the walker's functions."""
+"""Fields that are addresses of the walker's functions."""
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
-"""Vectors of the plan."""
+"""Fields that are vectors of numbers, written before the run."""
 ROWS = (*("inp", "out", "load", "one"), *("values", "after", "tried"), *(*X_ROWS, *Y_ROWS))
 """Work vectors: inputs and outputs of a function; zeta with the force, and those of one term; event functions
 at the start of a step, at its end, and at a time tried in it; those of `hybrid.constants`."""
 # The annotations are strings ("int", "Array"), which `call` turns into numba's types. The order of the fields
 # is the layout of the memory: nothing else says where r.t is.
 KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
-"""int, float, Array or Ints, by the name of a field."""
+"""Kind of each field, by name: int, float, Array or Ints."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}
-"""Cell of a field."""
+"""Cell of each field, by name."""

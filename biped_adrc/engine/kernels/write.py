@@ -1,9 +1,11 @@
 """The text for LLVM of the march's loops, as numba writes it.
 
-The sources are joined into one text of Python, without their imports of each other. The reason is
-`hybrid.march`: it calls operations such as `flow` and `add` by name. In Python they are those of
-`hybrid.on_arrays`, which it imports; in the joined text the same names are those of `kernels.operations`, which
-`load.FILES` has in place of it. In the editor and for type checks the files are ordinary modules.
+The march is the loop of a walk through time (`hybrid.march`), a unit one of its functions that becomes a
+function of the text (`kernels.call.unit`). The sources are joined into one text of Python, without their
+imports of each other. The reason is `hybrid.march`: it calls operations such as `flow` and `add` by name. In
+Python they are those of `hybrid.on_arrays`, which it imports; in the joined text the same names are those of
+`kernels.operations`, which `load.FILES` has in place of it. In the editor and for type checks the files are
+ordinary modules.
 
 Whoever changes one of these files runs `python -m validation.texts`; a test compares.
 """
@@ -22,7 +24,8 @@ from llvmlite import binding
 from biped_adrc.core.errors import ModelError
 
 _ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
-"""What numba calls where Python would raise an error, which the loops never do."""
+"""Declarations of the functions that numba calls where Python would raise an error, which the loops never
+do."""
 
 HINTS = re.compile(r" ?\bcaptures\(none\)| ?\bnoundef\b| ?\brange\([^)]*\)")
 """Attributes that LLVM finds again, and whose words change from version to version: a text without them is read
@@ -30,15 +33,15 @@ by each LLVM from 20 to 22."""
 
 
 def sources(files: tuple[str, ...]) -> str:
-    """The texts of modules, one after the other."""
+    """The texts of the modules with these names, one after the other."""
     root = Path(__file__).parents[3]
     paths = [root / f"{name.replace('.', '/')}.py" for name in files]
     return "\n".join(path.read_text(encoding="utf-8") for path in paths)
 
 
 def _joined(files: tuple[str, ...]) -> str:
-    """The text of files, one after the other, without their imports of each other and of the march's operations
-    of Python.
+    """One text of Python of these modules, one after the other, without their imports of each other and of the
+    march's operations for Python (`hybrid.on_arrays`).
     """
     # `from hybrid.on_arrays import *`, if it stayed, would put Python's operations in place of the compiled
     # ones of the same names. `__future__` has to stand first, where it is put back.
@@ -52,7 +55,11 @@ def _joined(files: tuple[str, ...]) -> str:
 
 
 def written(files: tuple[str, ...]) -> str:
-    """LLVM's text of all units of these modules; errors of Python end the process."""
+    """LLVM's text of all units of these modules, of which each module names those before it.
+
+    In it a call that would raise an error in Python ends the process. Raises ModelError where numba is switched
+    off.
+    """
     from numba import cfunc, config
 
     if getattr(config, "DISABLE_JIT", 0):

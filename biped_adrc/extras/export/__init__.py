@@ -1,1 +1,1 @@
-"""Export of a controller: C99 without dependencies, with all that it needs, and as an FMU."""
+"""Export of a controller, with its model, gait and observer: as C99 without dependencies, and as an FMU."""

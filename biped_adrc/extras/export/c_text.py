@@ -2,12 +2,13 @@
 
 `engine.ir` goes through the same instructions for LLVM; here only the text of an operation differs.
 
-Values are of the type `real`, double or float. The operations that decide the digits of a small difference are
-in double whatever `real` is: differences of measured angles or times, such as q - q_d, and all operands they
-are made of (`in_double`). So a robot with floats alone loses no digits where the errors are formed.
+Values are of the type `real`, which is double or float. Differences of measured angles or times, such as
+an error of tracking, and all values from which they are computed, are in double in either case (`in_double`),
+as floats would lose the digits of a small difference.
 
-The text needs `real`, F(f) for the C library's function f of that type, LEAST and GREATEST, which pass
-NaN on, and the table k of doubles.
+A function is a list of CasADi's operations (`Operation`); an operation is known by its place in the list, and
+so is its value. The text needs from the C file around it: `real`, F(f) for the C library's function f of that
+type, LEAST and GREATEST, which pass NaN on, and the table k of constants in double.
 """
 
 from __future__ import annotations
@@ -53,14 +54,14 @@ _PATTERNS: Patterns = {
 
 @dataclass(frozen=True)
 class Entry:
-    """A number in a C function: its name in C, and whether it is a double whatever `real` is."""
+    """A number in a C function: its name or constant in C, and whether it is a double even if `real` is not."""
 
     name: str
     double: bool = False
 
     @property
     def real(self) -> str:
-        """The number as an operand of type `real`."""
+        """Text of the number as an operand of type `real`, with a cast where it is a double."""
         return f"(real){self.name}" if self.double else self.name
 
 
@@ -75,28 +76,30 @@ class CFunction:
 
 @dataclass(frozen=True)
 class Written:
-    """The lines of a function in C, and how many operations they have."""
+    """The lines of C in the body of a function, and how many operations they have."""
 
     lines: tuple[str, ...]
     operations: int
     """Number of arithmetic operations and calls, one for each line that is no copy."""
     doubles: int
-    """Number of these operations that are in double whatever `real` is."""
+    """Number of these operations that are in double also if `real` is float."""
 
 
 def read_by(function: SymbolicFunction, which: int) -> set[int]:
-    """Indices of the parameters K (which = 0) or of the inputs (1) that a function reads."""
+    """Indices of the parameters K (which = 0) or of the inputs (which = 1) that a function reads."""
     line = straight_line(function)
     return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == which}
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
-    """Write a function in C; its parameters K are read from the table k, which holds
-    the entries `numbers` of K.
+    """Write the body of a function in C. Its parameters K are read from the table k in C, whose entry i is
+    entry numbers[i] of K.
 
     Values in double are called w1, w2, .., others v1, v2, ..; values that nothing reads are left out. Raises
     InputError for an operation that has no line here.
     """
+    # of: places of an operation's operands; of an input (0, index in K) or (1, index among the inputs); of an
+    # output (place of its value, index among the outputs)
     line, places = straight_line(each.function), {k: i for i, k in enumerate(numbers)}
     doubles = in_double(line, [entry.double for entry in each.inputs])
     values, stores, texts = list[Entry](), list[str](), dict[int, str]()
@@ -123,7 +126,7 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
 
 
 def ancestors(line: Sequence[Operation], places: set[int]) -> set[int]:
-    """The indices of these values, and of all values from which they are computed."""
+    """The places in `line` of these values, and of all values from which they are computed."""
     result = set(places)
     for i in reversed(range(len(line))):
         if i in result and line[i].code != ca.OP_INPUT:
@@ -132,11 +135,11 @@ def ancestors(line: Sequence[Operation], places: set[int]) -> set[int]:
 
 
 def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
-    """Places of the values that have to be computed in double.
+    """Places in `line` of the values that have to be computed in double, without inputs and constants.
 
-    They are the differences one side of which is a linear combination of angles or times, where the other side
-    depends on angles, times and constants alone, with all that they are made of. angles: for each input whether
-    it is an angle or a time.
+    They are differences, and the values from which these are computed: one side is a linear combination of
+    angles and times, and the other side depends on angles, times and constants alone. angles: for each input
+    whether it is an angle or a time.
     """
     degree, differences = list[int](), set[int]()
     for i, (code, of, _) in enumerate(line):
@@ -155,11 +158,12 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
-"""Dependence of a value: on constants; linear in angles and times; any function of these; on other inputs."""
+"""Dependence of a value: on constants alone; linear in angles and times; any function of these; on other inputs
+too. A value has at least the greatest one of its operands."""
 
 
 def _degree(code: int, of: list[int]) -> int:
-    """Dependence (CONSTANT to UNKNOWN) of an operation's value, from those of its operands."""
+    """Dependence (CONSTANT to UNKNOWN) of an operation's value, from those of its operands, `of`."""
     most = max(of)
     if most != LINEAR:
         return most
@@ -169,7 +173,9 @@ def _degree(code: int, of: list[int]) -> int:
 
 
 def decimal(x: float) -> str:
-    """Text in C of a double: the shortest decimals that are read back as the same bits."""
+    """Text in C of a double: the shortest decimals that are read back as the same bits, a negative one in
+    parentheses; HUGE_VAL for infinity.
+    """
     if math.isinf(x):
         return "HUGE_VAL" if x > 0.0 else "(-HUGE_VAL)"
     return repr(float(x)) if math.copysign(1.0, x) > 0.0 else f"({float(x)!r})"

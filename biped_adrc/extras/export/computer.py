@@ -1,4 +1,5 @@
-"""The part of a walker that runs on the robot's computer.
+"""The part of a walker (closed loop of robot, controller, sensors and motors) that runs on the robot's
+computer.
 
 The computer reads the time, the angles and, where they are measured, the rates. It computes differences of
 angles and their filter, the nominal model's terms, the gait, the observer, the reset policy at impact, limits
@@ -40,13 +41,15 @@ class Computer:
     walker: Walker
 
     def __post_init__(self) -> None:
+        """Raise InputError for a walker without sample instants or motors; see the class."""
         timing, p = self.walker.timing, self.walker.plant.p
         if not isinstance(timing, SampledTime) or p == 0:
             raise InputError(
                 f"a computer sends torques to motors at sample instants, found {type(timing).__name__} and {p} "
                 "motors; give the scenario a period, such as period = '1 ms', or hardware"
             )
-        _ = self.walker.law  # raises where the controller has no form for sample instants
+        # raises InputError where the controller has no form for sample instants
+        _ = self.walker.law
 
     @property
     def timing(self) -> SampledTime:
@@ -61,10 +64,10 @@ class Computer:
 
     @cached_property
     def differences(self) -> Sensors | None:
-        """The walker's sensors as far as they run on the computer: differences and their filter;
-        None if rates are measured.
+        """The part of the walker's sensors that runs on the computer: differences of angles and their filter,
+        as `Sensors` without noise and counts; None if rates are measured.
 
-        Raises InputError for a sensor with another part on the computer.
+        Raises InputError for a sensor that has another part on the computer.
         """
         sensor = self.walker.sensors
         result = None if sensor is None else sensor.on_computer(None)
@@ -76,17 +79,17 @@ class Computer:
 
     @cached_property
     def sensors(self) -> Sensor | None:
-        """`differences` as the computer runs them; with detected touchdowns, wrapped for these (`Noticed`)."""
+        """`differences`, wrapped in `Noticed` where touchdowns are detected; None if rates are measured."""
         if self.differences is None or self.walker.touchdown is None:
             return self.differences
         return Noticed(self.differences, self.robot.R, self.robot.offset)
 
     @cached_property
     def alone(self) -> Walker:
-        """A walker whose sample instants do what the computer does: its plant is the nominal model.
+        """A walker whose sample instants do what the computer does: its plant is the controller's model.
 
-        It keeps a queue of torques only where the computer has to know them: with a
-        known delay, or a rate limit.
+        Only where the computer needs the torques on their way, for a known delay or a rate limit, does it have
+        the delay and so their queue.
         """
         time, motors = self.timing, self.walker.motors
         limited = motors is not None and motors.rate_limit is not None
@@ -105,52 +108,55 @@ class Computer:
 
     @property
     def held(self) -> HeldParts:
-        """The parts of the computer that keep numbers between sample instants."""
+        """The parts of `alone` that keep numbers between sample instants: sensors and motors."""
         assert self.alone.held is not None
         return self.alone.held
 
     def growth(self, q: Array, v: Array) -> float:
-        """Growth rate [1/s] of the controller's fastest mode while (q, v), each (n,), stay
-        the same; 0 where none grows.
+        """Growth rate [1/s] of the fastest unstable mode of the computer's state while it measures the same q
+        (n,) [rad] and v (n,) [rad/s] at all sample instants; 0 where none grows.
 
-        A replay runs so: the observer receives the torque of its own controller, and the
-        motion does not respond to it.
+        A replay of measurements is such an open loop: the observer receives the torque of its own controller,
+        and the motion does not respond to it.
         """
         x = self.alone.initial_state(q, v)
+        # J: derivative of the state after a sample instant by the state before
         _, J = tick_derivative(self.alone, self.layout)(0.0, x, Mode())
         held = J[2 * len(q) :, 2 * len(q) :]
         return math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0)) / self.timing.period
 
     @cached_property
     def layout(self) -> Layout:
-        """The layout of the state of `alone`: (q, v), and x_c."""
+        """The layout of the state of `alone`: q and v, then the numbers that the computer keeps."""
         return self.alone.layout_of(np.zeros(2 * self.alone.plant.n))
 
     @cached_property
     def numbers(self) -> WalkerNumbers:
-        """All numbers of the controller by name; the computer knows its model alone, so there
-        are none of plant and ground.
+        """All parameters of the controller and its model by name, without those of the real robot and ground,
+        which the computer does not know.
         """
         return controller_numbers(self.robot, self.alone)
 
 
 class Landing(NamedTuple):
-    """State of `Noticed`."""
+    """State w of the sensors `Noticed`."""
 
     inner: Any
-    """State of the sensors inside."""
+    """State w of the sensor that is wrapped."""
     landed: float
     """1 between a touchdown and the sample instant after it, else 0."""
 
 
 @dataclass(frozen=True)
 class Noticed(Sensor):
-    """Sensors on the computer where touchdowns are detected at sample instants, as in `closed_loop.semantics`.
+    """The sensor `inner` on the computer where touchdowns are detected at sample instants, as in
+    `closed_loop.semantics`.
 
-    A detected touchdown comes with the measurement of that instant. The measurement is first read in the old
-    labels, so that rates are differences within one single support. Angles and rates are then relabelled, and
-    the sample instant that follows at once does not read the same measurement again. Raises InputError for a
-    robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
+    A relabelling q+ = R q- + offset names the joints for the new stance leg. A touchdown is detected with the
+    measurement of that instant. `impact` first reads it with the old names, so that rates are differences
+    within one single support, and then relabels. The sample instant that follows at once (`landed` = 1) does
+    not read the same measurement again. Raises InputError for a robot whose joints do not exchange in pairs, so
+    that R is not its own inverse.
     """
 
     inner: Sensor
@@ -158,6 +164,7 @@ class Noticed(Sensor):
     offset: Array
 
     def __post_init__(self) -> None:
+        """Raise InputError where the relabelling is not its own inverse; see the class."""
         R, offset = self.R, self.offset
         if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
             raise InputError(
@@ -175,7 +182,12 @@ class Noticed(Sensor):
         return Landing(chosen(w.landed, w.inner, self.inner.sense(w.inner, q, v)), 0.0)
 
     def impact(self, w: Landing, q: Array, v: Array, v_model: Array) -> Landing:
+        """State after a detected touchdown at q, v (n,) by the new names.
+
+        Its rates are those measured by the old names, relabelled; v_model is not used.
+        """
         R = self.R
+        # the measurement with the old names, as R is its own inverse
         q_old, v_old = R @ q + self.offset, R @ v
         before = self.inner.sense(w.inner, q_old, v_old)
         rates = self.inner.reading(before, q_old, v_old)[1]

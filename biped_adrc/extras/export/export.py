@@ -2,11 +2,11 @@
 
     source = ba.export_c(ba.Scenario("ADRC", hardware="rabbit"), "onto-robot")
 
-The folder has a header, a source, an example main.c, a Makefile, a README and the licence. What
-cannot be exported is refused with the part that stands in the way.
+The folder has a header, a source, an example main.c, a Makefile, a README and the licence. A controller that
+cannot be exported is an InputError with the name of the part that stands in the way.
 
-*An FMU* is the controller as a functional mock-up unit of FMI 2.0, that other simulators step,
-`controller.fmu`:
+*An FMU* is the controller as a functional mock-up unit of FMI 2.0, `controller.fmu`, whose steps other
+simulators call:
 
     fmu = fmu_of(source)         # of a `Source`
     fmu.data                     # the bytes of the archive
@@ -40,26 +40,26 @@ from biped_adrc.scenario.scenario import Scenario, scenario_lines
 MACHINES = {("Linux", "x86_64"): "linux64"}
 """(Operating system, processor) -> name that FMI 2.0 has for the folder of a binary."""
 AS_READ = {True: "read at every step", False: "read at the first step only"}
-"""Whether `step` reads a rate -> text about it in the FMU's description."""
+"""Text in the FMU's description about a rate, by whether `step`, the C at a sample instant, reads it."""
 
 
 @dataclass(frozen=True)
 class Port:
-    """An input or output of an FMU; its place among all is its value reference."""
+    """An input or output of an FMU; its index in the list of `ports` is its value reference."""
 
     name: str
     """Name as in the header of the C."""
     causality: str
     """ "input" or "output"."""
     kind: str
-    """The XML element with type, unit and start value."""
+    """The XML element of FMI with type, unit and start value."""
     words: str
     """Description of the port."""
 
     @property
     def variability(self) -> str:
-        """ "continuous" for an angle or rate, else "discrete": torques and whole numbers
-        change at sample instants only.
+        """FMI's attribute: "continuous" for an angle or rate, else "discrete": outputs, and the touchdown,
+        change at sample instants alone.
         """
         sampled = self.causality == "output" or not self.kind.startswith("<Real")
         return "discrete" if sampled else "continuous"
@@ -72,24 +72,28 @@ class Fmu:
     name: str
     """Name of the file."""
     files: Mapping[str, bytes]
+    """Path inside the archive -> content."""
 
     def __repr__(self) -> str:
         return f"Fmu({self.name}: {', '.join(self.files)})"
 
     @property
     def data(self) -> bytes:
-        """Bytes of the archive; they contain no date."""
+        """Bytes of the zip archive; they depend on the files alone and contain no date."""
         out = io.BytesIO()
         with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
             for path, data in self.files.items():
-                entry = zipfile.ZipInfo(path)  # of 1980
+                entry = zipfile.ZipInfo(path)  # its date is 1980-01-01
                 entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
                 archive.writestr(entry, data)
         return out.getvalue()
 
 
 def fmu_of(source: Source) -> Fmu:
-    """Make the FMU of an exported controller. Raises InputError and OutputError as `compiled`."""
+    """Make the FMU of an exported controller, with a binary where this machine can compile it.
+
+    Its identifier (GUID) is a hash of its text files. Raises InputError and OutputError as `build_c`.
+    """
     texts = _texts(source, "")
     guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
     texts = _texts(source, f"{{{guid}}}")
@@ -100,7 +104,9 @@ def fmu_of(source: Source) -> Fmu:
 
 
 def ports(source: Source) -> list[Port]:
-    """The ports of an FMU, in the order of their value references: angles, rates, torques, touchdown, flag."""
+    """The ports of an FMU, in the order of their value references: angles q and rates v of the n joints,
+    torques u of the p motors, touchdown, flag.
+    """
     joints, read = source.words["joint_names"], source.words["rates_read"]
     assert isinstance(joints, tuple)
     assert isinstance(read, tuple)
@@ -127,7 +133,7 @@ def ports(source: Source) -> list[Port]:
 
 
 def _texts(source: Source, guid: str) -> dict[str, str]:
-    """The text files of an FMU, by their path in the archive; guid: its identifier in the description."""
+    """The text files of an FMU, by their path in the archive; guid: identifier in its modelDescription.xml."""
     P = source.prefix
     values = {**source.words, "guid": guid, "ports": ports(source)}
     return {
@@ -142,26 +148,26 @@ def _texts(source: Source, guid: str) -> dict[str, str]:
 
 
 def without_binary() -> str:
-    """The reason why an FMU made on this machine has no binary; empty where it has one."""
+    """The reason why an FMU that is made on this machine has no binary; empty where it has one."""
     if not _machine():
         return f"FMI 2.0 has no name for {platform.system()} on {platform.machine()}"
     return NO_COMPILER if compiler() is None else ""
 
 
 def contents() -> str:
-    """Text that says whether an FMU made on this machine holds a binary or sources alone."""
+    """Text that says whether an FMU that is made on this machine has a binary or sources alone."""
     if why := without_binary():
         return f"sources alone, since {why}"
     return f"sources, and a binary for {_machine()}"
 
 
 def _machine() -> str:
-    """FMI 2.0's name of this machine; empty where it has none."""
+    """FMI 2.0's name for a folder of binaries of this machine; empty where it has none."""
     return MACHINES.get((platform.system(), platform.machine()), "")
 
 
 def _binary(source: Source, texts: Mapping[str, str]) -> bytes:
-    """Compile the sources to a shared library; returns its bytes."""
+    """Compile the sources of an FMU to a shared library; returns its bytes. texts: its files, by path."""
     files = {Path(path).name: text for path, text in texts.items() if path.startswith("sources/")}
     names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
     with build_c(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):
@@ -175,7 +181,8 @@ def export_c(
     real: str = "float64",
     fmu: bool = False,
 ) -> Source:
-    """Write the controller of a scenario, or of a walker, as C99 into a folder; returns the files written.
+    """Write the controller of a scenario, or of a walker, as C99 into a folder; returns a `Source` with the
+    files.
 
     scenario: in sampled time. folder: empty, or of an earlier export. prefix: of all names in C. real:
     "float64" or "float32". fmu: with a functional mock-up unit (FMU) for co-simulation by FMI 2.0 beside it,
@@ -205,10 +212,12 @@ def export_c(
 def write_folder(folder: Path, source: Source) -> None:
     """Write the files of a source into a folder.
 
-    The folder is new, empty, or holds the same files and what is built from them. Raises OutputError for any
-    other, so that a `main.c` that was changed by hand stays as it is.
+    The folder has to be new, empty, or have the same files from an earlier export, besides them at most the
+    compiled program and the FMU. Raises OutputError for any other, so that a `main.c` that was changed by hand
+    is not overwritten.
     """
     files = {name: text.encode() for name, text in source.files.items()}
+    # what the Makefile and `export_c` make of the files
     built = ("main", f"{source.prefix}.fmu")
     try:
         result = sorted(folder.iterdir()) if folder.exists() else []

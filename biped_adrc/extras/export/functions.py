@@ -1,16 +1,19 @@
-"""The functions of a robot's computer on symbols, traced from `closed_loop.semantics`, and
-the names of their numbers.
+"""The functions that run on a robot's computer as symbolic expressions, and the names of their numbers in C.
+
+To trace a function of Python is to call it on CasADi's symbols: the result is the expression that it computes.
+What is traced are the functions of `closed_loop.semantics`, which the simulation runs.
 
     init       (t, q, v)        -> x_c              observer, filter and queue at the start
     step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
-    touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
+    touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v named for the new stance leg
 
 x_c = (s, w, queue, waiting, u) is what the computer keeps between sample instants: the states of controller and
-sensors, torques on their way and the one that acts, as in `hardware.sample_hold`. lost is not positive where a
-matrix is singular or a torque beyond the walker's bound.
+sensors, torques on their way and the one that acts, as in `hardware.sample_hold`. `lost` is the least pivot of
+the matrices that are inverted, 0 where one is singular; it is negative where a torque is beyond the walker's
+bound.
 
-In C the numbers x_c are fields of a struct. Numbers that no function reads, such as a torque that
-nothing depends on, have no field.
+In C the numbers x_c are fields of a struct: x holds them before a function, next after it, and m the
+measurement. Numbers of x_c on which no torque depends have no field.
 """
 
 from __future__ import annotations
@@ -33,26 +36,26 @@ from biped_adrc.extras.export.c_text import CFunction, Entry, read_by
 from biped_adrc.extras.export.computer import Computer, Noticed
 
 _FIRST = {"m->t": True, "x->last": True, "next->step": False, "next->start": True}
-"""Names in C of the inputs before q -> whether they are doubles always: t, time of the previous sample instant,
-number and start of the single support."""
+"""Name in C of each input before q -> whether it is always a double. They are t, the time of the previous
+sample instant, and number and start of the single support."""
 _HEAD = len(_FIRST)
 """Number of these inputs."""
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """The inputs of a function as symbols, and the closed loop that reads them."""
+    """The inputs of one of the three functions as symbols, and the closed loop on these symbols."""
 
     computer: Computer
 
     @cached_property
     def equations(self) -> Equations:
-        """Equations of the computer's parts, with a symbol for each of its numbers."""
+        """The closed loop's equations, with a symbol for each parameter of the computer."""
         return Equations(self.computer.layout, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
-        """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
+        """An instant on symbols; its inputs are (t, last, step, start) as in _FIRST, then x = (q, v, x_c)."""
         inp = Vector("inp", _HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.nx)
@@ -60,16 +63,17 @@ class Inputs:
 
     @property
     def parts(self) -> semantics.State:
-        """The state x as a tree."""
+        """The state x of symbols as a tree: q, v, s and the tail, which has the sensors' w and the torques."""
         return semantics.parts(self.at.loop, self.at.x)
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
+        # symbols[0] are the parameters K as one vector
         return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:
-    """Trace x_c at the start of a single support at (t, q, v), with no torque in the queue."""
+    """Trace the function that returns x_c for a start at (t, q, v), with no torque on its way."""
     inputs = Inputs(computer)
     (q, v, _, tail), at = inputs.parts, inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
@@ -82,7 +86,7 @@ def init(computer: Computer) -> SymbolicFunction:
 
 
 def step(computer: Computer) -> SymbolicFunction:
-    """Trace x_c, u (p,) [N m] and lost at a sample instant."""
+    """Trace the function that returns x_c after a sample instant, u (p,) [N m] and lost."""
     inputs = Inputs(computer)
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)  # the lines that a walk runs; no second text of the law for C
@@ -91,7 +95,9 @@ def step(computer: Computer) -> SymbolicFunction:
 
 
 def touchdown(computer: Computer) -> SymbolicFunction:
-    """Trace x_c after a touchdown; step and start are of the support that begins."""
+    """Trace the function that returns x_c after a touchdown; its inputs step and start are those of the single
+    support that begins.
+    """
     inputs = Inputs(computer)
     at, (q, v, _, _) = inputs.at, inputs.parts
     x = at.loop.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
@@ -99,7 +105,9 @@ def touchdown(computer: Computer) -> SymbolicFunction:
 
 
 def _released(inputs: Inputs) -> Array:
-    """x in which a torque that waited for a fraction of the period acts, once that time is over."""
+    """The state x at a sample instant, in which the torque that waited for a fraction of the period acts, if
+    that time is over.
+    """
     # A walk stops at that time, by a clock of its own (`ClosedLoop.clocks`). A robot's computer is called at
     # sample instants alone, so C does it at the next one. `over` is a symbol: both vectors are written, and C
     # chooses.
@@ -114,7 +122,7 @@ def _released(inputs: Inputs) -> Array:
 
 @dataclass(frozen=True)
 class Field:
-    """An array of the struct: name, length, description, and whether it is of doubles always."""
+    """An array in the struct of x_c: its name, length, description, and whether it is always of doubles."""
 
     name: str
     size: int
@@ -135,7 +143,7 @@ class Functions:
     all: tuple[CFunction, ...]
     """init, step and touchdown."""
     rates: tuple[int, ...]
-    """Indices of the rates that `step` or `touchdown` read; `init` reads all."""
+    """Indices of the rates v that `step` or `touchdown` reads; `init` reads all."""
 
 
 def functions(computer: Computer) -> Functions:
@@ -147,12 +155,13 @@ def functions(computer: Computer) -> Functions:
     n, p, every = computer.robot.n, computer.robot.p, fields_of(computer)
     total = computer.layout.size - 2 * n
     live = _live(*traced[1:], n, total)
-    kept, at = list[Field](), 0
+    kept, at = list[Field](), 0  # at: place in x_c where a field begins
     for field in every:
         if any(i in live for i in range(at, at + field.size)):
             kept.append(field)
         at += field.size
     left = {name for field in kept for name in field}
+    # an empty name drops the output
     states = [f"next->{name}" if name in left else "" for field in every for name in field]
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     # all three functions return x_c, and step u and lost behind it
@@ -163,7 +172,7 @@ def functions(computer: Computer) -> Functions:
 
 
 def fields_of(computer: Computer) -> tuple[Field, ...]:
-    """The fields of x_c in its order."""
+    """The fields of x_c in its order; a field of length 0 is left out later."""
     n, p, line = computer.robot.n, computer.robot.p, computer.held.line
     s, sensors = computer.layout.parts[2], computer.sensors
     sensed = (
@@ -187,9 +196,9 @@ def fields_of(computer: Computer) -> tuple[Field, ...]:
 
 
 def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: int) -> set[int]:
-    """Indices in x_c of the numbers on which a torque depends, now or at a later sample.
+    """Indices in x_c of the numbers on which a torque or `lost` depends, at this sample instant or a later one.
 
-    n: coordinates. total: numbers in x_c.
+    n: number of coordinates. total: number of entries of x_c.
     """
     # A number is needed where u or lost reads it, or another number that is needed: the set grows until it
     # stays. What is left are numbers for plots, which would cost memory and time on a small computer.
@@ -208,7 +217,7 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
 def _named(
     function: SymbolicFunction, fields: tuple[Field, ...], n: int, outputs: list[str]
 ) -> CFunction:
-    """A function with the names of its inputs and `outputs` in C; an output with an empty name is dropped."""
+    """Give a function the names in C of its inputs and `outputs`; an output with an empty name is dropped."""
     kept = [i for i, name in enumerate(outputs) if name]
     inputs = [
         *(Entry(name, double) for name, double in _FIRST.items()),

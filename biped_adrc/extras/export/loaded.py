@@ -1,7 +1,8 @@
 """An exported controller, compiled on this machine and called from Python.
 
 `ExportedController` is a controller of a walker whose every sample instant is one call of the C, so that an
-exported controller walks on any plant. `Loaded` gives access to the three functions of the C.
+exported controller walks on any plant. `Loaded` calls the three functions of the C: init at the start, step at
+a sample instant, touchdown after an impact. Each returns a flag, OK or the reason why it has no result.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the environment variable CC goes before them."""
 NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
-"""Return values of the functions of the C."""
+"""Flags, which the functions of the C return; the header of the C explains them."""
 ERRORS: Mapping[int, type[BipedError]] = {
     NOT_MEASURED: NotFiniteError,
     NO_RESULT: NotFiniteError,
@@ -54,7 +55,7 @@ _Record = NDArray[np.void]
 
 
 def compiler() -> str | None:
-    """Path of a C compiler; None where there is none."""
+    """Path of a C compiler on this machine; None where there is none."""
     names = (*filter(None, [os.environ.get("CC")]), *COMPILERS)
     return next(filter(None, map(shutil.which, names)), None)
 
@@ -63,11 +64,12 @@ def compiler() -> str | None:
 def build_c(
     files: Mapping[str, str], names: Sequence[str], *flags: str
 ) -> Iterator[tuple[Path, str]]:
-    """Context with the result of compiling C files: the path of the binary, and the compiler's messages.
+    """Compile C files in a temporary folder; the context gives the path of the binary, which is deleted at its
+    end, and the compiler's messages.
 
-    files: name -> text, all written to a temporary folder. names: those to compile. flags: beside
-    `FLAGS`. Raises InputError where there is no compiler, or it refuses, and OutputError where there
-    is no room for temporary files.
+    files: name -> text, headers included. names: files to compile. flags: options besides `FLAGS`. Raises
+    InputError where there is no compiler or it reports an error, and OutputError where there is no room for
+    temporary files.
     """
     program = compiler()
     if program is None:
@@ -91,7 +93,9 @@ def build_c(
 
 
 def tried(source: Source) -> str:
-    """Compile a source; returns a sentence with the compiler's messages, or that there is no compiler."""
+    """Compile a source as a trial; returns a sentence with the compiler's messages, or that there is no
+    compiler.
+    """
     if (program := compiler()) is None:
         return f"not compiled: {NO_COMPILER}"
     with build_c(source.files, ["main.c", f"{source.prefix}.c"]) as (_, message):
@@ -106,14 +110,16 @@ class Loaded:
 
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
-        """NumPy's type of the C struct of a measurement."""
+        """NumPy's type of the C struct of a measurement: t, q (n,), v (n,), in its layout in memory."""
         n = self.source.n
         fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.source.real, (n,))]
         return np.dtype(fields, align=True)
 
     @cached_property
     def state(self) -> np.dtype[np.void]:
-        """NumPy's type of the C struct of the state."""
+        """NumPy's type of the C struct of the state, x_c of `export.functions` with start, last, sent, step and
+        without.
+        """
         real, p = self.source.real, self.source.p
         own = [(f.name, "f8" if f.double else real, (f.size,)) for f in self.source.fields]
         head = [("start", "f8"), ("last", "f8")]
@@ -130,7 +136,7 @@ class Loaded:
         return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
 
     def measured(self, t: float, q: Array, v: Array) -> _Record:
-        """Struct of a measurement: t [s], q [rad] and v [rad/s], each (n,)."""
+        """The struct of a measurement, from t [s], q (n,) [rad] and v (n,) [rad/s]."""
         m = np.zeros((), self.measurement)
         m["t"], m["q"], m["v"] = t, q, v
         return m
@@ -141,8 +147,9 @@ class Loaded:
         return self.functions["init"](_at(x), _at(m)), x
 
     def step(self, x: _Record, m: _Record) -> tuple[int, Array]:
-        """Call step with state and measurement; returns its flag and the torque (p,)
-        [N m]. x changes in place.
+        """Call step with state and measurement; returns its flag and the torque (p,) [N m] for the motors.
+
+        x changes in place.
         """
         u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
@@ -153,7 +160,7 @@ class Loaded:
 
 
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
-    """Address of an array, as C takes it."""
+    """Address of the first number of an array, as an argument of C."""
     return ctypes.c_void_p(array.ctypes.data)
 
 
@@ -161,8 +168,10 @@ def _at(array: NDArray[Any]) -> ctypes.c_void_p:
 class ExportedController(Controller):
     """The exported controller, in place of the one that it was made from; source: the result of `export_c`.
 
-    Its state s is the struct of the C and the torque, as floats. A sample without a result ends the walk with
-    the status that the controller in Python would give it; on a robot the last torque goes on.
+    Its state s (size,) is the struct of the C, then the torque u (p,) [N m], all as floats. `initial_state`
+    calls init of the C, `correct` step and `jump` touchdown; `output` reads u from s. A sample without a result
+    ends the walk with the status that the controller in Python would give it; on a robot the last torque goes
+    on.
     """
 
     source: Source
@@ -198,12 +207,13 @@ class ExportedController(Controller):
         return self.loaded.measured(m.t, m.q, m.v)
 
     def _state(self, s: Array) -> _Record:
-        """The struct of a state s (size,) of floats."""
+        """The struct of the C in a state s (size,) of floats."""
         return np.array(unstructured_to_structured(s[: len(s) - self.source.p], self.loaded.state))
 
     def _kept(self, flag: int, x: _Record, u: Array) -> Array:
-        """The struct x and the torque u (p,) as one array of floats. Raises the error of
-        `ERRORS` for another flag than OK.
+        """The state s (size,): the struct x and the torque u (p,) [N m] as one array of floats.
+
+        Raises the error of `ERRORS` for another flag than OK.
         """
         if flag != OK:
             raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")

@@ -1,4 +1,5 @@
-"""The text of a controller in C: header and source, from the traced functions of `export.functions`.
+"""The text of a controller in C: header and source, from the traced functions of `export.functions`, which are
+init (start), step (a sample instant) and touchdown. Templates of Jinja give the text around them.
 
 The same scenario gives the same bytes: the text contains no date, machine or path.
 """
@@ -30,29 +31,29 @@ TAKEN = {
     "main": "main.c is the example",
     **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
 }
-"""Prefix that would clash with other names of C -> the reason."""
+"""Prefix that is refused, since it would clash with other names of C -> the reason."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
 """Name of a function -> its arguments in C besides x, m and next."""
 ON_THE_LINE = ("queue", "waiting", "acting")
-"""Fields of the state that hold torques."""
+"""Fields of the state's struct that hold torques on their way to the motors."""
 
 
 @dataclass(frozen=True)
 class Source:
-    """A controller in C: its files, and how many operations they take."""
+    """A controller in C: its files, and what the programs that use them need to know."""
 
     prefix: str
     """Prefix of all names in C."""
     real: str
-    """Type of numbers, a key of `REALS`."""
+    """Type of numbers in C, a key of `REALS`."""
     files: Mapping[str, str]
     """Name of file -> text."""
     fields: tuple[Field, ...]
-    """Fields of the state's struct, beside its head."""
+    """Fields of the state's struct, without start, last, sent, step and without, which it always has."""
     written: Mapping[str, Written]
     """Lines of the functions init, step and touchdown, by name."""
     numbers: int
-    """Length of the table of constants."""
+    """Length of the table of constants in the C."""
     n: int
     """Number of coordinates."""
     p: int
@@ -70,13 +71,13 @@ def source_of(
     real: str = "float64",
     scenario: Sequence[str] = (),
 ) -> Source:
-    """Write header, source, main.c, Makefile and README of a computer's functions.
+    """Make header, source, main.c, Makefile, README and LICENSE of a computer's functions, as texts in memory.
 
-    prefix: of all names, a word of small letters. real: "float64" or "float32", which -DCONTROLLER_REAL=float
-    overrides. scenario: lines for the comment.
+    prefix: of all names in C, of small letters, digits and _. real: type of numbers, "float64" or "float32";
+    the compiler's option -DCONTROLLER_REAL=float overrides it. scenario: lines for the comment at the top.
 
-    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a
-    method that cannot be traced.
+    Raises InputError for an invalid prefix or type, NaN among the numbers that the functions read, or a method
+    that cannot be traced.
     """
     if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix) or prefix in TAKEN:
         why = TAKEN.get(prefix, "it has to be of small letters, digits and _, such as 'controller'")
@@ -87,6 +88,7 @@ def source_of(
         functions_, k = functions(computer), computer.robot
     except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
+    # indices of the parameters K that a function reads: the C has these alone
     used = sorted(set().union(*(read_by(f.function, 0) for f in functions_.all)))
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
     bad = [names[i] for i in used if values[i] != values[i]]
@@ -99,6 +101,7 @@ def source_of(
         "prefix": prefix,
         "P": prefix.upper(),
         "real": REALS[real],
+        # the computer's plant is the model that the controller knows
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
         "scenario": scenario,
@@ -112,7 +115,7 @@ def source_of(
 
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
-    """Values for the templates about robot, controller, clock and fields."""
+    """Values for the templates, by name: robot, controller, clock, and fields of the state's struct."""
     walker, k = computer.walker, computer.robot
     joints = walker.plant.description.joints
     units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
@@ -135,6 +138,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
         "rates_read": functions_.rates,
         "rates": _rates(functions_.rates, k.n),
+        # C text of a test: x - x is 0 for a finite x alone
         "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
         "limits": "".join(f", {x}" for x in limits),
         "clock": (
@@ -149,7 +153,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
 
 
 def _about(computer: Computer) -> list[str]:
-    """Lines for the head of the header: what the controller computes, and what its caller has to do."""
+    """Lines for the comment at the top of the header: what the controller computes, and the caller's part."""
     walker, k = computer.walker, computer.held
     lines = [
         f"Controller in sampled time, every {1e3 * computer.timing.period:g} ms: laws, gait and the nominal",
@@ -165,7 +169,9 @@ def _about(computer: Computer) -> list[str]:
 
 
 def _rates(rates: tuple[int, ...], n: int) -> str:
-    """Sentence that says which rates v (n,) have to be measured; rates: indices of those that `step` reads."""
+    """Sentence for the header on which of the n rates v have to be measured; rates: indices of those that
+    `step` reads.
+    """
     if len(rates) == n:
         return "v are their rates."
     read = ", ".join(f"v[{i}]" for i in rates) or "none"
@@ -179,7 +185,10 @@ def rendered_c(template: str, words: Mapping[str, object]) -> str:
 
 @cache
 def _environment(suffix: str) -> Environment:
-    """Jinja's environment for files with this suffix, made once; it escapes every value for the language."""
+    """Jinja's environment for files with this suffix, made once.
+
+    It escapes every value that it inserts: as markup of XML and HTML, for a comment of C, else as one line.
+    """
     markup = suffix in (".xml", ".html")
     safe = c_comment if suffix in (".c", ".h") else one_line
     return Environment(

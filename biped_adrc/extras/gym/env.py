@@ -13,8 +13,8 @@ The vector environment moves all walks by one call of machine code; each walk is
 A walk that has ended begins anew at the next step (`AutoresetMode.NEXT_STEP`): its action of that step has no
 effect, and its reward is 0.
 
-The pictures are the lines of `view.from_the_side`, drawn with Pillow, which takes a millisecond or two where a
-figure takes thirty.
+The pictures are the lines of `view.from_the_side`, drawn with Pillow, which takes 1 or 2 ms for a picture where
+Matplotlib takes 30.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ PICTURES: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}
 
 
 def spaces_of(stage: Stage) -> tuple[Box, Box]:
-    """Gymnasium's spaces of an observation (in SI units) and of an action (p,), shares
-    of the torque limit [1].
+    """Gymnasium's spaces of an observation, in SI units and within `stage.highest`, and of an action (p,):
+    shares of the torque limit from -1 to 1.
     """
     observations = Box(-stage.highest, stage.highest, dtype=np.float64)
     return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 
 
 def check_options(options: dict[str, Any] | None) -> None:
-    """Raise InputError if `reset` is called with options, as this environment has none."""
+    """Raise InputError if Gymnasium's `reset` is called with options, as this environment has none."""
     if options:
         raise InputError(f"reset has the options {sorted(options)}, expected none")
 
@@ -64,10 +64,12 @@ def check_options(options: dict[str, Any] | None) -> None:
 class WalkEnv(gymnasium.Env[Any, Any]):
     """A walk as an environment.
 
-    - scenario: `biped_adrc.Scenario`, or condition: one by name ("nothing" if None), on the base of all
-      conditions. values: fields of the scenario by name, such as plant, gait, push, amplitude.
-    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each
-      motor a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
+    - scenario: a `biped_adrc.Scenario`; or condition: the name of a kind of disturbance in conditions.toml
+      ("nothing" if both are None). values: further fields of the scenario by name, such as plant, gait, push,
+      amplitude, and of the task, which follow.
+    - action: "torques", where the action is the whole torque, or "added", where it is added to the torque of
+      the scenario's controller. An action is a share of the torque limit [1] for each motor, the robot's limit
+      or the scenario's if that is lower; the motors give no more than that.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
     - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
@@ -84,6 +86,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         render_mode: str | None = None,
         **values: Any,
     ):
+        """Make the walk, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
         task, self.render_mode = LearnerTask.of(scenario, condition, **values), render_mode
         self.stage = Stage(task, 1, render_mode is not None)
         self.observation_space, self.action_space = spaces_of(self.stage)
@@ -92,7 +95,8 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Array, dict[str, Any]]:
-        """Begin the walk anew with this seed; returns the first observation and the info.
+        """Begin the walk anew with this seed, or one that is drawn; returns the first observation and the info
+        (`Stage.infos`).
 
         Raises InputError for options, and for a seed out of its range.
         """
@@ -104,9 +108,11 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Walk one sample under an action (p,), shares of the torque limit from -1 to 1.
 
-        Returns observation, reward [1], whether the walk has fallen, whether its time or impacts are over, and
-        the info. Raises InputError for an action that is none, and when the walk has already ended.
+        Returns observation, reward [1], whether the walk has fallen, whether it has reached its time or number
+        of impacts, and the info. Raises InputError for another shape, for numbers that are not finite, and when
+        the walk has already ended.
         """
+        # codes: 0 for a walk that goes on
         stage = self.stage
         if stage.stepper.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
@@ -116,19 +122,21 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         return stage.observations()[0], reward, fallen, late, self._info()
 
     def _info(self) -> dict[str, Any]:
-        """The entries of `Stage.infos` of this walk, as plain numbers."""
+        """The entries of `Stage.infos` of the only walk, as plain numbers and text."""
         infos = self.stage.infos().items()
         return {name: x[0] if name == "status" else x.item() for name, x in infos}
 
     def render(self) -> Any:
-        """Draw the robot as pixels (height, width, 3), uint8; None without a render_mode."""
+        """Draw the robot as pixels (HEIGHT, WIDTH, 3), uint8; None without a render_mode."""
         return self.picture.drawn(0) if self.picture else None
 
 
 class WalkVectorEnv(VectorEnv[Array, Array, Any]):
-    """num_envs walks; the other arguments are those of `WalkEnv`.
+    """Gymnasium's vector environment of num_envs walks; the other arguments are those of `WalkEnv`.
 
-    `reset(seed=k)` gives walk i the seed k + i, as Gymnasium's own vectors do; a list has one for each.
+    `reset(seed=k)` gives walk i the seed k + i, as Gymnasium's own vectors do; a list has one seed for each
+    walk. generators: random numbers of each walk, from which its seeds are drawn. over (N,): whether a walk
+    ended at the last step.
     """
 
     metadata = PICTURES | {"autoreset_mode": AutoresetMode.NEXT_STEP}
@@ -141,6 +149,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         render_mode: str | None = None,
         **values: Any,
     ):
+        """Make the walks, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
         check_count(num_envs, f"num_envs is {num_envs}")
         self.num_envs, self.render_mode = num_envs, render_mode
         task = LearnerTask.of(scenario, condition, **values)
@@ -150,6 +159,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.generators = [np.random.default_rng() for _ in range(num_envs)]
         self.over: Flags = np.ones(num_envs, dtype=bool)
+        # Gymnasium's mask of the walks that have an entry of the infos: all
         self.there = frozen(np.ones(num_envs, dtype=bool))
         self.picture = Picture(self.stage) if render_mode else None
 
@@ -159,9 +169,10 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Array, dict[str, Any]]:
-        """Begin all walks anew; returns the first observations, a row for each walk, and the infos.
+        """Begin all walks anew; returns the first observations (N, ..), a row for each walk, and the infos.
 
-        Raises InputError for options, and for a list of seeds whose length is not num_envs.
+        seed: as in the class; None, also in a list, draws one. Raises InputError for options, and for a list of
+        seeds whose length is not num_envs.
         """
         check_options(options)
         N = self.num_envs
@@ -175,9 +186,10 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         return self.stage.observations(), self._infos()
 
     def _begin(self, i: int, seed: int | None) -> None:
-        """Begin walk i anew with this seed; without a seed, draw one from the walk's own generator.
+        """Begin walk i anew with this seed; for None draw one from the walk's own generator.
 
-        The generator is seeded as that of `WalkEnv`, so that a walk among many draws the same seeds as alone.
+        A seed also restarts the generator, as Gymnasium does it in `WalkEnv`, so that a walk among many later
+        draws the same seeds as alone.
         """
         if seed is not None:
             self.generators[i], _ = seeding.np_random(seed)
@@ -185,12 +197,14 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.stage.begin(i, drawn)
 
     def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
-        """Walk one sample of each walk under actions (N, p) [1]; walks that have ended begin anew.
+        """Walk one sample of each walk under actions (N, p), shares of the torque limit from -1 to 1; a walk
+        that ended at the last step begins anew instead.
 
-        Returns observations (N, ..), rewards (N,), whether each has fallen (N,), whether its time or impacts
-        are over (N,), and the infos. Raises InputError for actions of another shape or not finite.
+        Returns observations (N, ..), rewards (N,) [1], whether each walk has fallen (N,), whether it has
+        reached its time or number of impacts (N,), and the infos. Raises InputError for actions of another
+        shape or not finite.
         """
-        # `again`: walks that ended at the last step; in place of this step they begin anew, with the reward 0
+        # again: walks that ended at the last step; they begin anew after `move`, with the reward 0
         stage, again = self.stage, self.over
         stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         for i in np.flatnonzero(again):
@@ -202,29 +216,32 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         return stage.observations(), rewards, fallen, late, self._infos()
 
     def _infos(self) -> dict[str, Any]:
-        """The arrays (N,) of `Stage.infos`, each with Gymnasium's mask `_name` of the walks that have
-        it: all.
+        """The arrays (N,) of `Stage.infos` by name, and for each Gymnasium's mask `_name` of the walks that
+        have this entry: all.
         """
         result = self.stage.infos()
         return result | dict.fromkeys([f"_{name}" for name in result], self.there)
 
     def render(self) -> tuple[Any, ...] | None:
-        """Draw each walk as pixels (height, width, 3), uint8; None without a render_mode."""
+        """Draw each walk as pixels (HEIGHT, WIDTH, 3), uint8; None without a render_mode."""
         return tuple(map(self.picture.drawn, range(self.num_envs))) if self.picture else None
 
 
 WIDTH, HEIGHT = 480, 360
 """Size of a picture [pixels]."""
 LINE, MARGIN = 6, 40
-"""Width of a link, and height of the ground in the picture [pixels]."""
+"""Width of a link's line, and distance of the ground from the lower edge of the picture [pixels]."""
 
 
 class Picture:
-    """Draws the walks of a stage as they are measured; the height of the robot on the orbit decides
-    the scale.
+    """Draws the walks of a `Stage` in the angles that are measured.
+
+    scale [pixels/m]: such that the robot on the orbit, just after an impact, fills the picture. fall [1]: tan
+    of the slope, positive downhill.
     """
 
     def __init__(self, stage: Stage):
+        """Choose the scale for the walks of a stage that was made with `drawn`, so that it follows the feet."""
         self.stage, self.biped, self.bones = stage, stage.plant, bones(stage.plant)
         self.fall = math.tan(stage.scene.slope(stage.task.scenario))
         lines = self._lines(stage.scene.on_orbit[0], 1, np.zeros(2))
@@ -232,9 +249,9 @@ class Picture:
         self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)
 
     def _lines(self, q: Array, step: int, foot: Array) -> list[tuple[Array, str]]:
-        """Ends (2, 2) [m] of every link in the world, and its leg: "stance", "swing" or "".
+        """Line of every link: its ends (x, z) (2, 2) [m] in the world, and its leg: "stance", "swing" or "".
 
-        q (n,) [rad]: posture in single support `step`. foot (2,) [m]: place of the stance foot.
+        q (n,) [rad]: posture in single support number `step`. foot (x, z) (2,) [m]: place of the stance foot.
         """
         values = joint_values(self.biped, q, step, float(foot[0]), float(foot[1]))
         ends = placed_lines(self.bones, link_placements(self.biped.tree, values))
@@ -242,6 +259,7 @@ class Picture:
 
     def drawn(self, i: int) -> NDArray[np.uint8]:
         """Draw walk i as pixels (HEIGHT, WIDTH, 3), with the hip in the middle and tiles along the ground."""
+        # row: numbers of the walk's `LearnerView`; t and step stand from index `first` on
         row, foot, first = self.stage.view[i], self.stage.feet[i], self.stage.first
         q, t, step = row[: self.biped.n], float(row[first]), int(row[first + 1])
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")

@@ -1,22 +1,24 @@
-"""The task of a learner, and N walks of it side by side, stepped together: observations, rewards, ends.
+"""The task of a learner, and N walks of it that are moved together, sample by sample: observations, rewards,
+ends.
 
-A task is a scenario, the meaning of its action, when a walk is over, and the reward.
+A sample goes from one sample instant of the controller to the next, or to an impact. A task is a scenario, the
+meaning of the action, the end of a walk, and the reward.
 
     reward of a sample = alive + tracking / (1 + |e|^2 / e_1^2) - effort |u|^2 / u_1^2
 
-with the true error e = q_b - h(Theta) [rad] and the torque u [N m] that acts, both at the end of the sample,
-e_1 = 0.1 rad, and u_1^2 the square of all motors at their limit. The sample in which the walk falls has the
-reward 0. No reward is negative, as effort is at most alive: to walk on pays more than to fall, and to track
-well most.
+with the true error e = q_b - h(Theta) [rad] of the joints q_b from the gait h at the phase Theta, and the
+torque u [N m] that acts, both at the end of the sample, e_1 = 0.1 rad, and u_1^2 = |u|^2 of all motors at their
+limit. The sample in which the walk falls has the reward 0. No reward is negative, as effort is at most alive:
+to walk on pays more than to fall, and to track well most.
 
     observation  (q, q', e, e', u, Theta)       n + n + p + p + p + 1 numbers
 
-q, q' are those that the walk's own controller would measure at this sample instant: behind the scenario's
-sensors and, where touchdowns are detected, in the labels of the detection. e = q_b - h(Theta), e' and Theta
-follow from them; u [N m] is the torque that has acted. The reward uses the true e and u.
+q, q' are those that the walk's own controller would measure at this sample instant: by the scenario's sensors
+and, where touchdowns are detected, named by the leg that the detector takes for the stance leg. The error e, e'
+and Theta follow from them; u [N m] is the torque that has acted. The reward uses the true e and u.
 
-`env.WalkEnv` has one walk, `env.WalkVectorEnv` N; both are this class around a `Stepper`, so that a walk among
-many is the same as alone, bit for bit.
+`env.WalkEnv` has one walk, `env.WalkVectorEnv` N; both use a `Stage`, around a `Stepper` that moves the walks,
+so that a walk among many is the same as alone, bit for bit.
 """
 
 from __future__ import annotations
@@ -54,13 +56,13 @@ CONDITIONS: dict[str, dict[str, object]] = {
 }
 """Name of a condition -> fields of the scenario, on top of `BASE`."""
 OF_RIGID = "errors.impact_width"
-"""A field of the scenario that only walks on the rigid plant have."""
+"""A field of the scenario that only walks on the rigid plant can have; so can conditions with it."""
 TORQUES, ADDED = "torques", "added"
 """Meaning of an action: all of the torque, or an addition to the torque of the scenario's controller."""
 _NEAR = 0.1
 """e_1 of the reward [rad]."""
 FALLEN_FROM = 1e-9
-"""Tolerance of the time limit [s]: a sample that ends less than this before it is the last one."""
+"""Tolerance of the time limit of a walk [s]: a sample that ends less than this before the limit is the last."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,7 @@ class LearnerTask(Checked, Shown):
     """Cost of a sample with all motors at their limit [1], at most `alive`."""
 
     def __post_init__(self) -> None:
+        """Raise InputError for values that do not fit together; see the class."""
         if self.effort > self.alive:
             raise InputError(
                 f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"
@@ -98,11 +101,14 @@ class LearnerTask(Checked, Shown):
 
     @classmethod
     def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> LearnerTask:
-        """Make the task of a scenario, or of a condition by name on the base of all conditions.
+        """Make the task of a scenario, or of a condition by name, "nothing" if both are None.
 
-        values: fields of the task, and of the scenario, by name. Raises InputError for a condition that does
-        not exist on this plant, and for values that are no scenario.
+        A condition has the fields of `BASE` and of its own in conditions.toml. values: further fields of task
+        and scenario, by name. Raises InputError for a condition that this plant does not have, for a scenario
+        and a condition together, and for values that a scenario does not take.
         """
+        # how: fields of the task; record: those of the scenario
+
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
         how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
@@ -120,7 +126,7 @@ class LearnerTask(Checked, Shown):
         return cls(Scenario(**merged(tables({**BASE, **CONDITIONS[name]}), record)), **how)
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
-        """Limits of ground and motors; the torque limit is the scenario's where that is lower."""
+        """Limits of ground and motors on the robot of `scene`; the torque limit is the scenario's if lower."""
         known = limits(self.scenario).of(scene.biped.description)
         limit = self.scenario.hardware.torque_limit
         return known if limit is None else known._replace(torque=min(limit, known.torque))
@@ -138,16 +144,21 @@ Flags = NDArray[np.bool_]
 class Stage:
     """N walks of one task. Raises InputError for a task that cannot be walked.
 
-    count: N. drawn: whether to follow the places of the stance feet, for pictures. Attributes: needs (N, 4),
-    over the finished single supports of each walk: 1 where all are feasible, else 0; largest |F_T| / F_N and
-    least F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m], if
-    `drawn`.
+    count: N. drawn: whether to follow the places of the stance feet, for pictures. Attributes:
+
+    - first: index in a row of `view` of (t, step), which stand behind (q, q', e, e', u).
+    - highest, lowest (first + 1,): bounds of an observation. cost: effort / u_1^2 [1/(N m)^2].
+    - needs (N, 4), over the finished single supports of each walk: 1 where all are feasible, else 0; largest
+      |F_T| / F_N and least F_N [N] of the ground force's mean over a window; largest torque [N m].
+    - feet (N, 2): places (x, z) of the stance feet [m], and steps (N,) their single supports, if `drawn`.
     """
 
     def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
+        """Build the stepper, and the bounds of an observation; see the class."""
         self.task, self.limits = task, task.limits(RobotAndGait.of(task.scenario))
         values: dict[str, object] = {"hardware.torque_limit": self.limits.torque}
         if task.action == TORQUES:
+            # a controller without torque, to which the action is added
             values["controller"] = f"{Passive.__module__}:{Passive.__name__}"
         self.stepper = Stepper(task.scenario.replace(values), count, limits(task.scenario))
         self.scene = self.stepper.scene
@@ -156,6 +167,7 @@ class Stage:
         self.first = 2 * n + 3 * p
         self.cost = task.effort / (p * self.limits.torque**2)
         v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
+        # bounds of q, q', e and e'; e is a difference of two angles
         measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
         self.highest = np.concatenate((*measured, np.full(p, self.limits.torque), [2.0 * TURNS]))
         self.lowest, self.needs = -self.highest, np.zeros((count, 4))
@@ -166,18 +178,22 @@ class Stage:
         self.stepper.codes[:] = -1
 
     def begin(self, i: int, seed: int) -> None:
-        """Begin walk i anew with this seed of its scenario."""
+        """Begin walk i anew with this seed of its scenario, with the stance foot at the origin."""
+        # an empty `_seen` lets `view` be computed anew
         self.stepper.reset(i, seed)
         self.seeds[i], self._seen = seed, np.zeros(0)
         self.needs[i] = 1.0, 0.0, np.inf, 0.0
         self.feet[i], self.steps[i] = 0.0, 0.0
 
     def move(self, actions: Array) -> None:
-        """Walk one sample of all walks under actions (N, p), shares of the motors' limit [1]."""
+        """Walk one sample of all walks that have not fallen, under actions (N, p), shares of the torque limit
+        [1].
+        """
+        # the last two inputs are a force from outside, which stays zero
         np.multiply(actions, self.limits.torque, out=self.stepper.inputs[:, :-2])
         self.stepper.move()
         self._seen = np.zeros(0)
-        for i, support in self.stepper.over:
+        for i, support in self.stepper.over:  # single supports that have ended in this sample
             feasible, friction, normal, torque = self.needs[i]
             self.needs[i] = (
                 feasible * (not support.infeasible()),
@@ -189,44 +205,49 @@ class Stage:
     # -- where they are ----------------------------------------------------------------------------
     @property
     def view(self) -> Array:
-        """The numbers of `LearnerView` of each walk, N rows, computed once after each sample.
+        """The numbers of `LearnerView` of each walk, one after the other in N rows, computed once per sample.
 
-        At a touchdown the new stance foot is where the swing foot was, from which its place follows.
+        At a touchdown the place of the new stance foot follows: the old one is now the swing foot, whose place
+        relative to the new one is known.
         """
         if not self._seen.size:
             self._seen = self.stepper.read(learner_view)
             step = self._seen[:, self.first + 1]
             if self.drawn and (changed := self.steps != step).any():
+                # steps is 0 for a walk that has just begun, whose foot is at the origin
                 for i in np.flatnonzero(changed & (self.steps > 0.0)):
                     self.feet[i] -= self.plant.swing_foot(self._seen[i, : self.plant.n])
                 self.steps = step.copy()
         return self._seen
 
     def observations(self) -> Array:
-        """Observations (N, first + 1), limited to their bounds."""
+        """Observations (N, first + 1) = (q, q', e, e', u, Theta) of each walk, limited to their bounds."""
         view = self.view
         result = view[:, : self.first + 1].copy()
+        # Theta = phase' q replaces the time, the last column that was copied
         result[:, -1] = np.vecdot(view[:, : self.plant.n], self.phase)
         return np.minimum(np.maximum(result, self.lowest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
-        """Rewards (N,) [1] of the last sample; 0 for a walk that has ended."""
+        """Rewards (N,) [1] of the last sample; 0 for a walk that has fallen."""
         # the last columns of the view: 1 at no tracking error and falling with it; the sum of squared torques
         close, u = self.view[:, self.first + 2 :].T
         paid = self.task.alive + self.task.tracking * close - self.cost * u
         return np.where(self.stepper.codes == 0, paid, 0.0)
 
     def ended(self) -> tuple[Flags, Flags]:
-        """Whether each walk has fallen or diverged (N,), and whether its time or its impacts are over (N,)."""
+        """Whether each walk has fallen or diverged (N,), and whether it has reached its time or number of
+        impacts without that (N,).
+        """
         run, view = self.task.scenario.run, self.view
         fallen = self.stepper.codes != 0
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= view[:, self.first + 1] >= run.first_step + run.impacts
-        return fallen, late > fallen
+        return fallen, late > fallen  # of truth values: late and not fallen
 
     def infos(self) -> dict[str, Any]:
-        """Further numbers by name, (N,) each: time, step, seed, feasibility with its extremes so far,
-        status.
+        """Further numbers of each walk by name, (N,) each: time t [s], number of the single support, seed,
+        `needs` (feasible, friction [1], normal_force [N], peak_torque [N m]), and text of the status.
         """
         at, rows = self.view[:, self.first :], self.needs.T.copy()
         return {
@@ -242,18 +263,20 @@ class Stage:
 
 
 class LearnerView(NamedTuple):
-    """Numbers at one sample instant from which observation and reward follow; n coordinates, p motors."""
+    """Numbers of a walk at one sample instant from which observation and reward follow; n coordinates, p
+    motors.
+    """
 
     q: Array
     """Angles (n,) as measured [rad]."""
     v: Array
     """Rates (n,) as measured [rad/s]."""
     e: Array
-    """q_b - q_d (p,) of the measurement [rad]."""
+    """Error q_b - q_d (p,) of the measured joints q_b from the gait's reference q_d [rad]."""
     de: Array
     """Its rate (p,) [rad/s]."""
     u: Array
-    """Torque (p,) that has acted [N m]."""
+    """Torque (p,) that has acted until this instant [N m]."""
     at: Array
     """Time [s], and number of the single support, (2,)."""
     paid: Array
@@ -263,8 +286,9 @@ class LearnerView(NamedTuple):
 def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> LearnerView:
     """Compute the `LearnerView` of a state x (nx,) at a sample instant t [s], before the controller has acted.
 
-    The same lines run in Python and compiled. reference(s, m): the point of the reference at a
-    measurement, s the controller's state.
+    The same lines run in Python and compiled. reference(s, m): the point (q_d, dq_d) of the gait at a
+    measurement m, s the controller's state. Where touchdowns are detected, `noticed` decides what is measured,
+    and the torques u are named by the legs as the detector takes them.
     """
     (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
     assert k is not None

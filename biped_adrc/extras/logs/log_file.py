@@ -2,13 +2,14 @@
 
     t [s], contact, q1 [rad] .. qN [rad], v1 [rad/s] .., u1 [N m] .. up [N m]
 
-contact is 1 or 2, the leg that stands. The columns are then of the robot's own joints, which keep their names
-while it walks: with contact 1 they are those of the package, in which q1 is of the stance leg; with contact 2
-the legs are exchanged when the file is read. A file that has `step` in place of `contact`, the number of the
-single support, has the labels of stance and swing leg already.
+There are N = n angles and rates and p torques. contact is 1 or 2, the number of the leg that stands. The
+columns are then of the robot's own joints, which keep their names while it walks. The package names joints by
+stance and swing leg: with contact 1 the names agree; with contact 2 the legs are exchanged when the file is
+read. A file that has `step` in place of `contact`, the number of the single support, has the package's names
+already.
 
 Rates may be left out, all or some. Units are those of studies ("deg", "ms", "mN m"). Other columns are
-ignored, and the remarks name them.
+ignored, and the log's remarks name them.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from biped_adrc.scenario.units import quantity
 _UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 """First letter of a column -> its unit in the package."""
 CONTACT, STEP = "contact", "step"
+"""Names of the two columns of which a file has one."""
 LEGS = (1.0, 2.0)
 """Values that `contact` may have."""
 
@@ -43,7 +45,8 @@ step."""
 LEAST_MOTION = 0.002
 """Least rms change of an angle in an interval [rad]; with less motion its rate is not checked."""
 RATIOS = 0.5, 2.0
-"""Range of the ratios r_i with which a rate is accepted."""
+"""Range of the ratio r_i of a change of angle to the integral of its rate [1] (`check_plausible`), in which the
+rate is accepted."""
 
 _COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
 """The name of a column, and its unit in brackets."""
@@ -52,7 +55,7 @@ _COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
 def read_log(file: str | Path, biped: Biped) -> RobotLog:
     """Read the log of a robot from a CSV file.
 
-    file: its path. biped: the robot, whose joints name the columns.
+    file: its path. biped: the robot, with whose numbers of joints and motors the columns must agree.
 
     Raises InputError for a file that cannot be read, with the line or the column, what was found
     there and what was expected.
@@ -66,6 +69,7 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
     """
     with reading("log", file, InputError):
         table = CsvTable.read(file)
+        # name of a column -> its index in the file, and the factor to SI units
         wanted = _wanted(table.head, biped)
         columns = {name: factor * table.numbers(at) for name, (at, factor) in wanted.items()}
         names = [f"line {line}" for line, _ in table.rows]
@@ -73,10 +77,10 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
 
 
 def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
-    """Write a log as CSV with the labels of the robot's own legs; returns the path. Raises
-    InputError and OutputError.
+    """Write a log as CSV with the column `contact`, the joints named by the robot's own legs; returns the path.
 
-    The leg that stands in single supports 1, 3, .. is called 1.
+    The leg that stands in single supports 1, 3, .. is called 1. Raises InputError where a rate was measured on
+    one leg alone, and OutputError.
     """
     _check_pairs(log.has_rate, biped)
     legs = 2.0 - log.step % 2.0
@@ -93,10 +97,10 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
 def relabel_legs(
     legs: Array, q: Array, v: Array, u: Array, biped: Biped
 ) -> tuple[Array, Array, Array]:
-    """Exchange the legs in the rows in which leg 2 stands; returns q, v (K, n) and u (K, p).
+    """Exchange the names of the legs in the rows in which leg 2 stands; returns q, v (K, n) and u (K, p).
 
-    legs (K,): 1 or 2, the leg that stands. It is its own inverse, as two touchdowns
-    leave the labels as they were.
+    legs (K,): 1 or 2, the leg that stands. From the robot's own legs to stance and swing leg, and back: the
+    function is its own inverse.
     """
     other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
@@ -105,7 +109,8 @@ def relabel_legs(
 
 
 def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
-    """Raise InputError where the rate of a joint (n,) is measured on one leg and not on the other."""
+    """Raise InputError where the rate of a joint is measured on one leg and not on the other; measured (n,)."""
+    # R has an entry i, j where v_j becomes v_i when the legs are exchanged
     alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1
     if len(alone):
         raise InputError(
@@ -115,13 +120,17 @@ def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
 
 
 def _numbered(biped: Biped) -> list[str]:
-    """Names of the columns of q, v and u, without units."""
+    """Names of the columns of q, v and u without units, such as q1."""
     sizes = {"q": biped.n, "v": biped.n, "u": biped.p}
     return [f"{letter}{i}" for letter, size in sizes.items() for i in range(1, size + 1)]
 
 
 def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
-    """Index in the file of each column of the log, and the factor to the package's unit. Raises InputError."""
+    """For each column of the log, by its name without unit: its index in the file, and the factor to its SI
+    unit.
+
+    head: headings of the file. Raises InputError for a column that is missing, or there twice, and for units.
+    """
     known, result = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
     for at, text in enumerate(head):
         match = _COLUMN.fullmatch(text)
@@ -143,8 +152,10 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
 
 
 def _factor(column: str, name: str, unit: str | None) -> float:
-    """Factor from the unit of a column to the package's. Raises InputError without a
-    unit, or for another dimension.
+    """Factor from `unit` to the SI unit of column `name`. Raises InputError without a unit, or for another
+    dimension.
+
+    column: its heading in the file, for messages.
     """
     expected = _UNITS[name[0]]
     if not unit:
@@ -158,7 +169,9 @@ def _factor(column: str, name: str, unit: str | None) -> float:
 
 
 def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:
-    """Sentences that name the columns which were converted or ignored."""
+    """Sentences that name the columns which were converted or ignored, for the log's remarks; arguments as in
+    `_wanted`, and its result.
+    """
     used = {at for at, _ in wanted.values()}
     scaled = [head[at] for at, factor in wanted.values() if factor != 1.0]
     rest = [text for at, text in enumerate(head) if at not in used]
@@ -169,7 +182,10 @@ def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, .
 def _log(
     table: dict[str, Array], biped: Biped, names: list[str], remarks: tuple[str, ...]
 ) -> RobotLog:
-    """Make the log of columns by name, (K,) each; names: of the rows, for messages. Raises InputError."""
+    """Make the log of K rows, from a table of columns (K,) in SI units by name, such as q1.
+
+    names: what each row is called in messages. Raises InputError for rows that are no log of this robot.
+    """
     rows = len(names)
     none = np.zeros(rows)
     q, v, u = (
@@ -184,6 +200,7 @@ def _log(
             raise InputError(
                 f"{names[k]}, column '{CONTACT}': found {legs[k]:g}, expected 1 or 2, the leg that stands"
             )
+        # single supports are counted from 1; the stance leg changes at each touchdown
         step = 1.0 + np.cumsum(np.diff(legs, prepend=legs[:1]) != 0.0)
     log = table["t"], step, q, u, v
     check_rows(*log, names)
@@ -195,14 +212,17 @@ def _log(
 
 
 def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: list[str]) -> None:
-    """Raise InputError for angles, rates or torques that the robot cannot have had: other units or columns.
+    """Raise InputError for angles, rates or torques that the robot cannot have had, since units or columns are
+    wrong.
 
         r_i = sum over intervals of Delta q_i D_i / sum of D_i^2,     D_i = integral of v_i over the interval
 
     is 1 where v_i is the rate of q_i, 1/57 where one of both is in degrees, -1 where it has the other
-    sign. log: t, step, q, u, v as in `RobotLog`, in the labels of the file. has (n,): whether a rate was
-    measured; names (K,): of the rows.
+    sign. log: t, step, q, u, v as in `RobotLog`, but with the joints named as in the file. has (n,): whether a
+    rate was measured; names (K,): what each row is called in messages.
     """
+    # `[:1]` in the loops below: the first wrong number is reported
+
     t, step, q, u, v = log
     for k, i in np.argwhere(np.abs(q) > MOST_ANGLE)[:1]:
         raise InputError(
@@ -229,8 +249,10 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
 def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]:
     """Changes of the angles, and integrals of the rates, over M intervals, both (M, n) [rad].
 
-    Each interval lies within one single support. Both are equal in a log whose rates are those of its angles.
+    Each interval, about STRETCH long, lies within one single support. Both results are equal in a log whose
+    rates are those of its angles.
     """
+    # area: integral of the rates from the first row on, by trapezoids
     ways = np.diff(t)[:, np.newaxis]
     area = np.vstack((np.zeros_like(v[:1]), np.cumsum(0.5 * ways * (v[1:] + v[:-1]), axis=0)))
     rows = max(1, round(STRETCH / float(np.median(ways))))
@@ -239,7 +261,7 @@ def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]
 
 
 def _check_rate(turned: Array, integral: Array, i: int) -> None:
-    """Raise InputError where rate i is not that of its angle.
+    """Raise InputError where rate i, counted from 0, is not that of its angle.
 
     turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
     """

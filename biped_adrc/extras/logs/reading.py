@@ -1,10 +1,12 @@
-"""Which reading of a log fits the model: as it stands, with the legs exchanged, other signs, or degrees.
+"""Check of a log's conventions: does it fit the model best as it stands, or read in another way?
 
-On windows of single support the momentum D q' of the pinned robot changes by the impulses that act on it:
+A reading is a way to understand the numbers of a log: as they stand, with the legs exchanged, with other signs,
+or in degrees. On windows of time, each within one single support, the momentum D q' of the pinned robot changes
+by the impulses that act on it:
 
     a = Delta(D q') - integral of (C' q' - G) dt,   b = integral of B u dt,   r = |a - b| / sqrt(|a|^2 + |b|^2)
 
-with q' from differences of the angles, a = b on exact data, and norms over all windows. r is about 0.1 for the
+with q' from differences of the angles and norms over all windows; on exact data a = b. r is about 0.1 for the
 right reading on exact sensors, 0.5 with encoders, friction and masses that are 30 % off, and 0.9 or more for a
 wrong one. The mirror image of a walk, angles and torques with the other sign, fits as well, but its swing foot
 lands behind the stance foot.
@@ -26,15 +28,18 @@ HALF, WINDOW = 0.01, 0.04
 """Half of the interval over which angles are differenced, so long that encoder counts do not matter, and the
 length of a window [s]."""
 FITS, POOR = 1.25, 0.8
-"""Another reading is meant where r of the log is so many times as large as its r; above the second number no
-reading is trusted."""
+"""Another reading is right where r of the log as it stands is more than FITS times its r; above POOR no r is
+small enough for a verdict."""
 
 
 def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
-    """A remark where no reading of the log fits the model; a log that is too short has none.
+    """Check that no other reading of the log fits the model better than the log as it stands.
 
-    Raises InputError where another reading fits better than the log as it stands, with its name.
+    Returns a remark if no reading fits, else none, also for a log that is too short to tell. Raises InputError
+    with the better reading where there is one.
     """
+    # behind, ahead: whether the swing foot lands behind the stance foot, in the log as it stands and in the
+    # best reading; that is worse than any r
     fits = list(_fits(log, biped))
     if not fits:
         return ()
@@ -50,11 +55,13 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
 
 
 def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
-    """Iterate over the readings, the log as it stands first; none where no window fits into a support.
+    """Iterate over the readings, the log as it stands first; empty where no window fits into a single support.
 
-    Each has three values: whether the swing foot lands behind the stance foot, r, and words for the reading. In
-    a log without a touchdown a walk and its mirror image are not told apart.
+    Of each: whether the swing foot lands behind the stance foot, r, and text that names the reading. Without a
+    touchdown in the log it is taken to land in front, so that a walk and its mirror image look alike.
     """
+    # `half` rows on each side of a window are needed for differences; all lie in one single support
+
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
     begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]
@@ -79,10 +86,11 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
 def _impulses(
     t: Array, q: Array, u: Array, biped: Biped, begins: Array, half: int, rows: int
 ) -> tuple[Array, Array]:
-    """Delta(D q') - integral of (C' q' - G) dt, and the integral of B u dt, (M, n) each [N m s].
+    """The impulses a = Delta(D q') - integral of (C' q' - G) dt and b = integral of B u dt, each (M, n) [N m
+    s], over M windows.
 
-    begins (M,): index of the first row of each window. rows: number of rows of a window. q' is the difference
-    of q over `half` rows on each side.
+    t (K,) [s], q (K, n) [rad], u (K, p) [N m]: the log. begins (M,): index of the first row of each window.
+    rows: number of rows of a window. q' is the difference of q over `half` rows on each side by its time.
     """
     free, driven = np.zeros((2, len(begins), biped.n))
     for i, k in enumerate(begins):

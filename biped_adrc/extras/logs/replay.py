@@ -1,22 +1,25 @@
-"""Replay of a log through the controller of a scenario: its signals, their table by single support, files and
-figure. Numbers such as (7) are equations of the paper.
+"""Replay of a log: the controller of a scenario, with its observer, gets the measurements of a robot's log.
 
-    found = replay("log.csv", Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}))
-    found.signals     xi^, its parts, residuals and torques over time
-    found.rows        their extremes in each single support
-    found.plot()      the same as a figure
+Results are its signals, a table by single support, files and a figure. Numbers such as (7) are equations of the
+paper.
+
+    result = replay("log.csv", Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}))
+    result.signals     xi^, its parts, residuals and torques over time
+    result.rows        their rms and extreme values in each single support
+    result.plot()      the signals as a figure
 
 Of the scenario these values are used: robot, gait, controller, observer, period, torque limit, filter_time.
 Pushes, errors of the model and ground are ignored, as the log was measured on the real robot. xi^ is the
 estimate of the total disturbance xi = q_b'' - kappa u, and kappa the input matrix of the nominal model.
 
-At row k, with measurement m_k, in the order of `closed_loop.semantics.tick`; the log's torque u_k [N m] acts in
-place of the controller's own:
+At row k, with measurement m_k, the steps are those of every sample instant (`closed_loop.semantics.tick`), but
+the log's torque u_k [N m] acts in place of the controller's own. s is the controller's state, observer
+included:
 
     a touchdown:   s <- jump(s, m+), m+ with the angles of row k and the rates just after the nominal impact (7)
-    y_k - y^_k     the observer's error [rad], before its state s is corrected by row k
-    s <- correct(s, m_k),   xi^_k = estimate(s),   output(s, m_k) is what it would have asked for
-    s <- predict(s, m_k, u_k)                      u_k is what acted
+    y_k - y^_k     the observer's error [rad], before s is corrected by row k
+    s <- correct(s, m_k),   xi^_k = estimate(s),   output(s, m_k) is the torque that it would have commanded
+    s <- predict(s, m_k, u_k)                      u_k is the torque that acted
 
 xi^ - xi_nominal [rad/s^2] is the part of the estimate that the nominal model does not explain; kappa^-1 times
 it is a torque on the joints [N m]. Less than `window` [s] after a touchdown it counts as contact, at other
@@ -58,8 +61,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ReplaySignals(Shown):
-    """Signals of a replay: K rows as in the log, n coordinates, p joints, in the
-    labels of stance and swing leg.
+    """Signals of a replay: K rows as in the log, n coordinates, p joints, named by stance and swing leg.
 
     Without an observer the signals that come from estimates are NaN.
     """
@@ -73,15 +75,16 @@ class ReplaySignals(Shown):
     q: Array
     """(K, n) [rad], from the log."""
     v: Array
-    """(K, n) [rad/s], from the log or from differences."""
+    """(K, n) [rad/s], from the log or, where it has none, from differences of its angles."""
     u: Array
     """(K, p) [N m], from the log."""
     torque: Array
     """(K, p) torque of the replayed controller, within the torque limit [N m]."""
     residual: Array
-    """(K, p) q_b - x1^ [rad] before the correction by the sample; 0 for observers without angles."""
+    """(K, p) q_b - x1^ [rad], measured minus estimated joint angles, before the correction by this row; 0 for
+    observers that estimate no angles."""
     xi_estimate: Array
-    """(K, p) xi^ [rad/s^2] after the correction by the sample."""
+    """(K, p) xi^ [rad/s^2] after the correction by this row."""
     xi_nominal: Array
     """(K, p) xi of the nominal model (14) [rad/s^2]."""
     zeta_estimate: Array
@@ -94,21 +97,26 @@ class ReplaySignals(Shown):
 
     @property
     def xi_contact(self) -> Array:
-        """(K, p) the part of xi^ - xi_nominal within the window after a touchdown [rad/s^2]."""
+        """(K, p) xi^ - xi_nominal [rad/s^2] within the window after a touchdown, else 0."""
         return (self.xi_estimate - self.xi_nominal) * self.in_contact[:, np.newaxis]
 
     @property
     def xi_model_error(self) -> Array:
-        """(K, p) the part of xi^ - xi_nominal outside the window [rad/s^2], torques from outside among it."""
+        """(K, p) xi^ - xi_nominal [rad/s^2] outside of the window after a touchdown, in it 0.
+
+        Besides errors of the model it has the torques from outside.
+        """
         return self.xi_estimate - self.xi_nominal - self.xi_contact
 
 
 def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -> ReplaySignals:
     """Replay a log through the walker's controller, whose sample instants are the log's rows.
 
-    filter_time [s]: of the low-pass of rates from differences. window [s]: time after a touchdown that counts
-    as contact. Raises NotFiniteError for a controller or an observer that diverges on the log.
+    filter_time [s]: time constant of the low-pass of rates from differences. window [s]: time after a touchdown
+    that counts as contact. Raises NotFiniteError for a controller or an observer that diverges on the log.
     """
+    # law: the controller; calls: its methods for sample instants, with checks; estimate gives None without an
+    # observer
     law, calls, rows = walker.law, walker.calls, []
     s = np.zeros(0)
     for k, (m, after) in enumerate(measurements(walker, log, filter_time)):
@@ -136,11 +144,12 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
 def measurements(
     walker: Walker, log: RobotLog, filter_time: float
 ) -> Iterator[tuple[Measurement, Measurement | None]]:
-    """Iterate over the controller's measurements, one for each row; at a touchdown also
-    the one its state jumps to.
+    """Iterate over the rows of a log: the controller's measurement, and at a touchdown also the one with which
+    its state jumps, else None.
 
-    At all other rows the second is None.
+    filter_time [s]: time constant of the low-pass of rates that the log does not have.
     """
+    # w: state of the sensors, which compute the missing rates; at the start they are the first difference
     n, p, period = walker.plant.n, walker.plant.p, log.period
     sensors = Sensors(velocity="differences", filter_time=filter_time).sampled(n, p, period)
     sensors = replace(sensors, differences=(~log.has_rate).astype(int))
@@ -174,12 +183,14 @@ _COLUMNS = {
 
 
 class ReplayRow(NamedTuple):
-    """Numbers of one single support, each of the joint where it is largest; NaN without an observer."""
+    """Numbers of one single support; each is that of the joint for which it is largest. Numbers from estimates
+    are NaN without an observer.
+    """
 
     step: int
     """Number of the single support."""
     samples: int
-    """Rows of the log."""
+    """Number of rows of the log."""
     beyond: float
     """rms of the estimated torque beyond the nominal model outside the window of contact [N m]."""
     contact: float
@@ -187,9 +198,9 @@ class ReplayRow(NamedTuple):
     residual: float
     """rms of q_b - x1^ [rad]."""
     apart: float
-    """rms of the controller's torque minus the log's [N m]."""
+    """rms of the torque of the replayed controller minus that of the log [N m]."""
     most_apart: float
-    """Largest difference of the controller's torque and the log's [N m]."""
+    """Largest |difference| of these torques [N m]."""
 
 
 _NUMBERS = "beyond model [N m]", "in contact [N m]", "residual [rad]", "u apart [N m]", "peak [N m]"
@@ -199,7 +210,7 @@ HEADER = ("step", "samples", *_NUMBERS)
 
 @dataclass(frozen=True)
 class Replay(Shown):
-    """The signals of a controller and its observer that were given the measurements of a log."""
+    """The result of `replay`: the signals of a controller and its observer on the measurements of a log."""
 
     scenario: Scenario
     log: RobotLog
@@ -210,14 +221,14 @@ class Replay(Shown):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences on columns that were converted or ignored, on a log that fits badly, and on resampling."""
+        """Sentences on columns that were converted or ignored, on a log that does not fit the model, and on
+        resampling.
+        """
         return self.log.remarks
 
     @cached_property
     def rows(self) -> tuple[ReplayRow, ...]:
-        """Rows of the replay's table, one for each single support: torques, residual and
-        estimate, see `ReplayRow`.
-        """
+        """Rows of the replay's table, a `ReplayRow` for each single support."""
         x = self.signals
         return tuple(_row(x, x.step == step) for step in np.unique(x.step))
 
@@ -260,8 +271,9 @@ class Replay(Shown):
             return figure
 
     def to_csv(self, path: Path | str) -> Path:
-        """Write the signals as a table (.csv), a row for each sample; returns the path. Raises
-        InputError and OutputError.
+        """Write the signals as a table (.csv), a row for each sample; returns the path.
+
+        Raises InputError for another suffix, and OutputError.
         """
         x = self.signals
         table = {"t [s]": x.t, "step": x.step.astype(int), "in contact": x.in_contact.astype(int)}
@@ -269,7 +281,7 @@ class Replay(Shown):
 
 
 def cells(row: ReplayRow) -> tuple[str, ...]:
-    """Texts of a row, in the columns of HEADER; a dash where there is no observer."""
+    """Texts of a row for the columns of HEADER; a dash for NaN, where there is no observer."""
     numbers = ("-" if np.isnan(x) else f"{x:.3g}" for x in row[2:])
     return (f"{row.step}", f"{row.samples}", *numbers)
 
@@ -285,8 +297,9 @@ def replay(
     log: itself, or the path of its file. scenario: with the controller and its period. The period is that of
     the scenario, or the log's where the scenario has none; a log with another period, or an uneven one, is
     resampled, and the remarks say so. window [s]: time after a touchdown that counts as contact.
-    filter_time [s]: of rates that the log does not have; the scenario's if None. Raises InputError for a log or
-    a scenario that cannot be used, and for a log that fits the model in another reading.
+    filter_time [s]: time constant of the low-pass of rates that the log does not have; the scenario's if None.
+    Raises InputError for a log or a scenario that cannot be used, and for a log that fits the model better with
+    other signs, units or legs (`check_reading`).
 
     >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
@@ -320,7 +333,7 @@ def replay(
 
 
 def _row(x: ReplaySignals, rows: NDArray[np.bool_]) -> ReplayRow:
-    """Numbers of the single support whose samples are `rows` (K,)."""
+    """The `ReplayRow` of the single support whose samples are `rows` (K,), a mask."""
     contact = rows & (x.in_contact > 0.5)
     outside, apart = x.zeta_estimate[rows & ~contact], (x.torque - x.u)[rows]
     return ReplayRow(

@@ -1,11 +1,12 @@
-"""The log of a robot's computer during a walk: t, q, u, and which leg stood, at its sample instants.
+"""The log of a robot's computer during a walk: t, q, u, and the number of the single support, at its sample
+instants.
 
     row k      q_k, and where there are rates v_k, as the sensors measured them at t_k
                u_k, the mean torque of the motors from t_k until t_(k+1)
 
-Angles and torques have the labels of the package: they are of stance and swing leg, and change at a touchdown.
-Rows of one single support are one period apart; the first row of the next may come earlier. `log_file` reads
-and writes logs, in labels of the robot's legs too; `logged` makes the log that the computer of a simulated
+The joints have the names (labels) of the package, by stance and swing leg, which exchange at a touchdown. Rows
+of one single support are one period apart; the first row of the next may come earlier. `log_file` reads and
+writes logs, also with names by the robot's own legs; `logged` makes the log that the computer of a simulated
 robot would have written, so that estimates can be compared with the true values.
 """
 
@@ -31,7 +32,8 @@ from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.recording import Walk
 
 GAP = 0.5
-"""Share of the period by which two rows may come too early or too late; beyond it a row is missing."""
+"""Share of the period by which a row may come too early or too late after the one before; beyond it rows are
+missing or too many."""
 SHORTEST_PERIOD = 1e-5
 """Shortest plausible period [s]; with rows closer together the times are in another unit."""
 EVEN = 1e-3
@@ -56,12 +58,12 @@ class RobotLog(Shown):
     v: Array | None = None
     """(K, n) [rad/s]; None where no rate was measured."""
     measured: Array | None = None
-    """(n,), 1 where v has a measured rate, 0 where none was; None: all of v."""
+    """(n,), 1 where v has a measured rate, 0 where it has none; None: all of v, none without v."""
     remarks: tuple[str, ...] = ()
     """Sentences on what was converted, ignored or resampled."""
 
     def __post_init__(self) -> None:
-        """Copy the arrays, and check them; see the class."""
+        """Replace the arrays by read-only copies, None by arrays, and check them; see the class."""
         n = np.shape(self.q)[-1:]
         given: dict[str, Any] = dict(vars(self))
         if self.measured is None:
@@ -95,17 +97,18 @@ class RobotLog(Shown):
 
     @property
     def _ways(self) -> Array:
-        """Times between two rows of the same single support [s]."""
+        """Times between neighbouring rows of the same single support [s]."""
         return np.diff(self.t)[np.diff(self.step) == 0.0]
 
     def even(self, period: float) -> bool:
-        """Whether the rows of every single support are `period` [s] apart."""
+        """Whether the rows of every single support are `period` [s] apart, to the share EVEN of it."""
         return bool(np.all(np.abs(self._ways - period) <= EVEN * period))
 
     def resampled(self, period: float) -> RobotLog:
         """The log on an even clock that starts anew with every single support, rows `period` [s] apart.
 
-        Angles and rates are interpolated linearly between rows, torques are means of those that were held.
+        Angles and rates are interpolated linearly between rows; the torque of a new row is the mean, over its
+        period, of the torques that were held. A remark says so.
         """
         begins = np.flatnonzero(np.diff(self.step)) + 1
         supports = np.split(np.arange(len(self.t)), begins)
@@ -115,11 +118,13 @@ class RobotLog(Shown):
         return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, remark))
 
     def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
-        """t, step, q, u, v of one single support on the even clock.
+        """t, step, q, u, v of one single support on the even clock, M rows of each.
 
-        rows (K,): indices of its rows. The mean torque of a new row is its impulse over the period by this
-        time.
+        rows (K,): indices of its rows in the log. The mean torque of a new row is the impulse (integral of the
+        torque) over its period, divided by the period.
         """
+        # impulse (K + 1, p) [N m s] from the first row until each edge of a row; at: the new times; the last
+        # period may end early
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
         edges = np.append(t, t[-1] + self.period)
@@ -137,10 +142,10 @@ def _between(at: Array, t: Array, x: Array) -> Array:
 
 
 def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[str]) -> None:
-    """Raise InputError for arrays of different length, numbers that are not finite,
-    and times that are no clock.
+    """Raise InputError for arrays of different length, numbers that are not finite, and numbers of single
+    supports or times that are not those of a sampled walk.
 
-    Shapes as in `RobotLog`; names (K,): what each row is called, such as "line 7".
+    Shapes as in `RobotLog`; names (K,): what each row is called in messages, such as "line 7".
     """
     K = (len(names),)
     fits = t.shape == step.shape == q.shape[:1] == u.shape[:1] == K and q.ndim == u.ndim == 2
@@ -158,7 +163,7 @@ def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[
 
 
 def _check_steps(step: Array, names: list[str]) -> None:
-    """Raise InputError for numbers of single supports (K,) that are not whole, or do not grow one by one."""
+    """Raise InputError for numbers of single supports (K,) that are not whole, below 1, or do not grow by 1."""
     change = np.diff(step, prepend=step[:1])
     bad = np.flatnonzero((step != np.round(step)) | (step < 1.0) | ~np.isin(change, (0.0, 1.0)))
     if len(bad):
@@ -169,7 +174,10 @@ def _check_steps(step: Array, names: list[str]) -> None:
 
 
 def _check_times(t: Array, step: Array, names: list[str]) -> None:
-    """Raise InputError for times (K,) [s] that do not grow, are in another unit, or have a gap."""
+    """Raise InputError for times (K,) [s] that do not grow, are in another unit, or have a gap.
+
+    names (K,): what each row is called in messages; of several wrong rows the first is named.
+    """
     ways, same = np.diff(t), np.diff(step) == 0.0
     for k in np.flatnonzero(ways <= 0.0)[:1]:
         result = "the same time as" if ways[k] == 0.0 else f"{-ways[k]:g} s before"
@@ -184,6 +192,7 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             f"more, {SHORTEST_PERIOD} to {LONGEST_PERIOD} s apart; if its times are in another unit, say so in "
             "the name of the column, as 't [ms]'"
         )
+    # a row after a touchdown may come early, since the clock may restart there
     late = ways > (1.0 + GAP) * period
     for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:
         raise InputError(
@@ -193,11 +202,11 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
 
 
 def logged(walk: Walk) -> RobotLog:
-    """Make the log of a walk in sampled time: angles and rates as measured by the
-    sensors, torques as they acted.
+    """Make the log of a simulated walk in sampled time: angles and rates as its sensors measured them, mean
+    torques that acted.
 
-    Single supports and labels are those of the controller, detected or known. Raises InputError for a walk in
-    continuous time, which has no sample instants.
+    Single supports and names of the legs are those of the controller, which may detect touchdowns. Raises
+    InputError for a walk in continuous time, which has no sample instants.
     """
     time = walk.walker.timing
     if not isinstance(time, SampledTime):
@@ -216,8 +225,11 @@ def logged(walk: Walk) -> RobotLog:
 
 
 def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
-    """For each sample instant of an arc: index of the node just after it, and of the
-    node just before the next one.
+    """For each sample instant of an arc (single support): index of the node just after it, and of the node just
+    before the next one, or of the last node.
+
+    start [s]: start of the run, from which a clock without restart counts. At a sample instant a time occurs in
+    two nodes, before and after the jump.
     """
     t, period = arc.t, time.period
     since = t - (t[0] if time.restart else start)
@@ -228,9 +240,11 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
 
 
 def _row(walker: Walker, arc: Arc, k: int, end: int) -> tuple[float, float, Array, Array, Array]:
-    """Measurement at node k, in the labels of the controller, and the mean torque until node `end`.
+    """A row of the log: the measurement at node k of an arc, and the mean torque until node `end`.
 
-    As t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s].
+    Returns t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s], with the legs named
+    as the controller believes. A walk whose controller detects touchdowns has a `belief`: its number of the
+    single support, and other = 1 while its names of the legs are not the true ones.
     """
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held

@@ -1,10 +1,11 @@
-"""MuJoCo's model and data for one floating biped, and where the package's numbers are in them.
+"""MuJoCo's model and data for one floating biped, and the places of the package's numbers in them.
 
     row = (q, q', own),   own = (time of the last touchdown, base (x, z), its velocity, rest)
 
-rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then u_m
-(p,) of motors with lag. A row is the whole state of a `plant.MuJoCoPlant`. `moved` copies it into MuJoCo, takes
-integration steps there and reads the result. Integrators:
+A row is the whole state of a `plant.MuJoCoPlant`. rest has, on ground with steps up and down, the number of the
+single support and the heights [m] of the ground under stance and swing foot; then, for motors with lag, their
+torques u_m (p,). `moved` copies a row into MuJoCo, takes integration steps there and reads the result.
+Integrators, for the acceleration a:
 
     rk4         v, q by the classical method, four evaluations of the forces in a step
     leapfrog    q <- q + h v / 2;  N times (v <- v + h a(q, v), q <- q + h v);  q <- q - h v / 2
@@ -36,12 +37,13 @@ INTEGRATORS = {"rk4": "mjINT_RK4", "leapfrog": "mjINT_EULER"}
 
 
 Move = Callable[[MuJoCoModel, MuJoCoData, int], None]
-"""A function that advances MuJoCo by a number of steps."""
+"""A function that advances MuJoCo's data by a number of integration steps."""
 
 
 def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None = None) -> None:
-    """Advance a model with MuJoCo's Euler method by this many steps of leapfrog; move:
-    used in place of mj_step.
+    """Advance a model, whose method is MuJoCo's Euler, by this many steps of leapfrog (see the module).
+
+    move: function that takes the steps in place of MuJoCo's mj_step; None for that.
     """
     half, q, v = 0.5 * model.opt.timestep, data.qpos, data.qvel
     q += half * v
@@ -52,12 +54,15 @@ def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None
 class MuJoCoEngine:
     """A model of MuJoCo with its data, whose arrays are looked up once. Not to be shared between threads.
 
-    h [s]: longest step. integrator: one of INTEGRATORS, for which the model has to be made. lag [s]: tau.
+    h [s]: longest integration step. integrator: one of INTEGRATORS; the model must have its method. lag [s]:
+    time constant tau of the motors, 0 for none. positions, rates: for each entry of MuJoCo's qpos and qvel its
+    index in a row.
     """
 
     def __init__(
         self, biped: Biped, model: MuJoCoModel, h: float, integrator: str, lag: float = 0.0
     ):
+        """Make the data and look up the indices; arguments as in the class."""
         self.biped, self.model, self.h, self.lag = biped, model, h, lag
         self.data = data = mujoco().MjData(model)
         self.step = leapfrog if integrator == "leapfrog" else mujoco().mj_step
@@ -67,12 +72,14 @@ class MuJoCoEngine:
         self.ctrl, self.applied = data.ctrl, data.qfrc_applied
         d, n = biped.description, biped.n
         self.angles, self.base = self._places(d.joints), self._places(d.base)
+        # own begins at 2 n with the time of the touchdown; the base and its velocity follow
         order = np.argsort(np.concatenate((self.angles, self.base)))
         self.positions = np.array([*range(n), 2 * n + 1, 2 * n + 2])[order]
         self.rates = np.array([*range(n, 2 * n), 2 * n + 3, 2 * n + 4])[order]
         planes = [k for k in range(model.ngeom) if model.geom(k).name in PLANES]
         self.planes = planes if len(planes) > 1 else []
         """Indices of the planes that move, one for each foot; empty on ground without steps."""
+        # turn = sin(slope / 2), of the plane's quaternion, so that 1 - 2 turn^2 = cos(slope)
         turn, radius = model.geom_quat[planes[0], 2], model.geom(d.feet[0]).size[0]
         self.depth = -radius * (1.0 - 2.0 * turn**2)
         """Height of a plane at level 0 [m]. The model's value may be that of an earlier run, so it is
@@ -80,11 +87,11 @@ class MuJoCoEngine:
         self.points_at = [data.xpos[model.body(name).id] for name in (*d.feet, d.hip)]
 
     def _places(self, joints: tuple[str, ...]) -> Indices:
-        """Indices of these joints in MuJoCo's arrays."""
+        """Indices of these joints in qpos and qvel; the same, since each joint has one coordinate."""
         return np.array([self.model.joint(name).dofadr[0] for name in joints])
 
     def place(self, row: Array) -> None:
-        """Copy positions and rates of a row into MuJoCo."""
+        """Copy positions and rates of a row, and the heights of the ground under both feet, into MuJoCo."""
         # `take` into an array with mode="clip" is by far the fastest way to copy
         row.take(self.positions, out=self.qpos, mode="clip")
         row.take(self.rates, out=self.qvel, mode="clip")
@@ -94,7 +101,11 @@ class MuJoCoEngine:
             self.model.geom_pos[self.planes, 2] = self.depth + row[first : first + 2]
 
     def push(self, u: Array, q: Array, load: Load | None) -> None:
-        """Set the motors' torques u (p,) [N m], and an external load at q (n,) [rad]; None for no load."""
+        """Set the motors' torques u (p,) [N m] and MuJoCo's generalised forces of an external load, None for
+        none.
+
+        q (n,) [rad]: angles, at which the load is converted from a pinned to a floating base, as in `plant`.
+        """
         self.ctrl[:] = u
         self.applied[:] = 0.0
         if load is None:
@@ -107,10 +118,11 @@ class MuJoCoEngine:
             self.applied[self.base] = load.force
 
     def moved(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Array:
-        """The row at `until` [s], from a row at t [s], with u (p,) [N m] commanded to the
-        motors and the load constant.
+        """Integrate from a row at t [s] to the row at `until` [s], with the commanded torque u (p,) [N m] and
+        the load constant.
 
-        Raises StepFailed where MuJoCo warns.
+        Of own only base, its velocity and u_m change. Raises StepFailed where MuJoCo warns of a state that is
+        not finite or huge.
         """
         steps = max(1, math.ceil((until - t) / self.h - 1e-6))
         self.options.timestep = (until - t) / steps
@@ -126,10 +138,11 @@ class MuJoCoEngine:
         return self.read(row)
 
     def followed(self, u: Array, u_m: Array, steps: int) -> Array:
-        """Take this many integration steps with lagging motors, whose torque goes from u_m to the command u
-        (p,).
+        """Take this many integration steps with lagging motors, whose torque starts at u_m (p,) and follows the
+        command u (p,) [N m].
 
-        Returns their torque (p,) [N m] at the end. Over each step MuJoCo gets the exact mean of the torque.
+        Returns their torque (p,) [N m] at the end. In each step MuJoCo gets the exact mean of the torque over
+        the step.
         """
         ratio = self.options.timestep / self.lag
         left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio

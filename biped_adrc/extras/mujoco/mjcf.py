@@ -2,9 +2,9 @@
 
     python -m mujoco.viewer --mjcf=FILE
 
-Its dynamics are the text from which `MuJoCoPlant` is compiled. Motors with lag are MuJoCo's `filter`, which
-gives their torque to the accuracy of its integrator. Shapes of the URDF are added, without mass and without
-contact, and the start of a gait as the keyframe `start`.
+Its dynamics are the same XML from which `MuJoCoPlant` makes its model. Motors with lag are MuJoCo's `filter`,
+which computes their torque with the accuracy of its integrator. The visual shapes of the URDF are added,
+without mass and without contact, and the start of a gait as the keyframe `start`.
 """
 
 from __future__ import annotations
@@ -28,10 +28,11 @@ SHARES = {"box": (0.5, 0.5, 0.5), "cylinder": (1.0, 0.5), "sphere": (1.0,)}
 
 
 def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -> Path:
-    """Write a plant as MJCF (.xml); returns the path.
+    """Write a plant as MJCF (.xml); returns the path, to which .xml is added where it has no suffix.
 
-    gait: whose start is the keyframe `start`; without one the robot is shown with all angles zero. Raises
-    InputError for another kind of file, OutputError where it cannot be written.
+    gait: its start, the state just after an impact, becomes the keyframe `start`; without a gait the viewer
+    shows the robot with all angles zero. Raises InputError for another suffix and for ground with steps up and
+    down, OutputError where the file cannot be written.
     """
     path = output_path(path, (".xml",), default=True)
     write_text(path, mjcf(plant, gait))
@@ -41,7 +42,7 @@ def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -
 def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
     """Text of a plant as MJCF, with the start of `gait` as its keyframe; None for no keyframe.
 
-    Raises InputError for ground with steps.
+    Raises InputError for ground with steps up and down.
     """
     check_part(plant, "plant", MuJoCoPlant)
     if plant.ground_steps:
@@ -65,7 +66,7 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
 
 
 def _shape(visual: Visual) -> ET.Element:
-    """A shape of the URDF as MJCF, without mass and contact."""
+    """A visual shape of the URDF as an MJCF element <geom>, without mass and contact."""
     size = np.multiply(visual.size, SHARES[visual.shape])
     place = {"pos": text(visual.origin), "size": text(size), "rgba": text(visual.rgba)}
     alone = {"type": visual.shape, "mass": "0", "group": "1"}
@@ -73,7 +74,7 @@ def _shape(visual: Visual) -> ET.Element:
 
 
 def _start(plant: MuJoCoPlant, gait: Gait) -> dict[str, str]:
-    """MuJoCo's positions and velocities at the start of a gait, as attributes of a keyframe."""
+    """MuJoCo's qpos and qvel at the start of a gait, as text for the attributes of a keyframe."""
     engine = plant.engine
     engine.place(plant.start(0.0, *gait.start(plant.biped)))
     return {"qpos": text(engine.qpos), "qvel": text(engine.qvel)}

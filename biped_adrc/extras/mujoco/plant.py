@@ -1,12 +1,17 @@
-"""A biped on soft ground in MuJoCo, as a plant that integrates itself.
+"""A biped on soft ground in MuJoCo, as a plant that integrates itself (`closed_loop.protocols`).
 
 Its state is row = (q, q', own), with q and q' of stance and swing leg as on the rigid plant, and
 
-    own = (time of the last touchdown, base (x, z), its velocity, steps of the ground, u_m of motors with lag)
+    own[0]      time of the last touchdown [s]
+    own[1:5]    base (x, z) [m], and its velocity [m/s]
+    own[5]      number of the single support             } only on ground with steps
+    own[6:8]    levels under stance and swing foot [m]   } up and down
+    own[-p:]    torques u_m [N m]                          only of motors with lag
 
-At a touchdown the row is relabelled as on the rigid plant. The legs of the robot are alike, so MuJoCo's first
-leg then stands again; a model error of one link follows the leg that stands, on both plants. A touchdown is a
-sample instant at which the swing foot, ahead of the stance foot, carries more than `touchdown_force`.
+At a touchdown the row is relabelled as on the rigid plant: stance and swing leg exchange their names. The legs
+of the robot are alike, so MuJoCo's first leg then stands again; a model error of one link follows the leg that
+stands, on both plants. A touchdown is a sample instant at which the swing foot, ahead of the stance foot,
+carries more than `touchdown_force`.
 
 Between sample instants and switching times of a push MuJoCo integrates alone, under constant torque and the
 external load that acts in the middle of this time. A load has generalised forces zeta of the coordinates q with
@@ -57,16 +62,18 @@ DEEPEST = 1e-4
 class MuJoCoPlant(Checked, Shown):
     """A biped with motors on soft ground; a `SteppingPlant`.
 
-    - h [s]: step of the engine. slope [rad]: of the ground, positive downhill.
-    - touchdown_force [N], ahead [m]: what the swing foot has to carry, and how far in front it has to
-      be. flight_height [m]: the run ends as infeasible where the stance foot is higher above the ground.
-    - integrator: "rk4", or "leapfrog" at a quarter of the price (`engine`).
+    - h [s]: MuJoCo's integration step. slope [rad]: of the ground, positive downhill.
+    - touchdown_force [N], ahead [m]: the vertical force that the swing foot has to carry at a touchdown, and
+      its least distance in front of the stance foot. flight_height [m]: the run ends as INFEASIBLE where the
+      stance foot is higher above the ground.
+    - integrator: "rk4", or "leapfrog" in a quarter of the computing time (`engine`).
     - lag [s]: time constant tau of the motors, tau u_m' = u - u_m; 0 for none.
-    - ground_steps: where the ground falls or rises. first_step: number of the first single support.
-    - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
+    - ground_steps: steps up and down of the ground. first_step: number of the first single support, from 1.
+    - fall_height [1]: the run ends as a fall where the hip is lower than this share of its height at q = 0.
+      max_step_time [s]: it ends as STALLED where a single support lasts longer.
 
-    Raises InputError where MuJoCo is missing, or a value is none. Warns of a step of the engine above a tenth
-    of the ground's time constant.
+    Raises InputError where MuJoCo is missing or a value is out of range. Warns of an h above a tenth of the
+    ground's time constant.
     """
 
     biped: Biped
@@ -85,6 +92,7 @@ class MuJoCoPlant(Checked, Shown):
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        """Check the fields and make MuJoCo's model; see the class."""
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
@@ -96,6 +104,7 @@ class MuJoCoPlant(Checked, Shown):
                 f"{self.ground.time_constant:g} s: contact is not resolved",
                 stacklevel=3,
             )
+        # two planes: on steps up and down each foot has its own
         planes = PLANES if self.ground_steps else PLANES[:1]
         model = model_of(floating_mjcf(self.biped, self.ground, self.slope, self.h, planes))
         model.opt.integrator = getattr(mujoco().mjtIntegrator, INTEGRATORS[self.integrator])
@@ -113,7 +122,7 @@ class MuJoCoPlant(Checked, Shown):
 
     @property
     def swap(self) -> Indices:
-        """Permutation (p,) of the motors at a touchdown."""
+        """Relabelling (p,) of the motors at a touchdown, for `types.relabelled`."""
         return self.biped.swap
 
     @property
@@ -144,8 +153,8 @@ class MuJoCoPlant(Checked, Shown):
 
     @property
     def engine(self) -> MuJoCoEngine:
-        """MuJoCo's data for this plant, one in every thread, since two threads in the same
-        data would end the process.
+        """MuJoCo's model and data for this plant, made once in every thread: two threads in the same data would
+        crash the process.
         """
         engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
         if get_ident() not in engines:
@@ -162,14 +171,14 @@ class MuJoCoPlant(Checked, Shown):
         return replace(self, ground_steps=steps, first_step=first_step)
 
     def levels(self, own: Array) -> Array:
-        """Heights (.., 2) [m] of the ground under the stance foot and under the other one,
-        from the plant's numbers own.
+        """Heights (.., 2) [m] of the ground under stance and swing foot, from the numbers own (.., k); zero on
+        ground without steps.
         """
         return own[..., 6:8] if self.ground_steps else np.zeros((*own.shape[:-1], 2))
 
     def motor_torque(self, own: Array, u: Array) -> Array:
-        """Torque on the joints (p,) or (K, p) [N m] while u is commanded: u itself, or the
-        state of lagging motors.
+        """Torque on the joints (.., p) [N m] while u (.., p) is commanded: u itself, or u_m of motors with lag,
+        which is in own (.., k).
         """
         return own[..., -self.p :] if self.lag > 0.0 else u
 
@@ -184,7 +193,9 @@ class MuJoCoPlant(Checked, Shown):
         return str(mujoco().__version__)
 
     def start(self, t: float, q: Array, v: Array) -> Array:
-        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin.
+        """The row (2 n + k,) at t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin.
+
+        The foot is put TOUCHING deep into the ground, and motors with lag begin without torque.
 
         Raises InputError for a swing foot that is more than DEEPEST inside the ground.
         """
@@ -204,11 +215,13 @@ class MuJoCoPlant(Checked, Shown):
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """Move the plant from its state `row` (2 n + k,) at t [s] to `until` [s], with u (p,) [N m] commanded.
 
-        load: push on the body, or None. Returns the new row; a touchdown or the end of the run at `until`
-        comes as contacts, a touchdown with the row after it.
+        load: constant forces from outside, None for none. Returns `until` and the row there; contacts at
+        `until` are a touchdown, with the relabelled row after it, or an end of the run; it looks for them at
+        `until` alone.
         """
         engine = self.engine
         after = engine.moved(t, row, u, load, until)
+        # own is a view, through which `look_ahead` changes `after`
         own, points = after[2 * self.n :], engine.points()
         result = self.contacts(until, own, points)
         if self.ground_steps and not result:
@@ -220,8 +233,8 @@ class MuJoCoPlant(Checked, Shown):
         """Move the swing foot's plane to the level of its next foothold, once the foot is ahead of the stance
         foot and above that level.
 
-        own: the plant's numbers, of which the last level is changed in place. points [m]: places (x, y, z) of
-        both feet and the hip.
+        own (k,): of it own[7], the level under the swing foot, is changed in place. points (3, 3) [m]:
+        places of stance foot, swing foot and hip.
         """
         (x, z), (stance, swing, _) = self.out, points
         foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
@@ -229,8 +242,8 @@ class MuJoCoPlant(Checked, Shown):
             own[7] = foothold
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
-        """Forces, places and velocities of both feet in a row, under u (p,) [N m] and a
-        load (`closed_loop.feet`).
+        """Forces, places and velocities of both feet, stance foot first, in a row (2 n + k,) under the
+        commanded torque u (p,) [N m] and a load.
         """
         self.engine.place(row)
         self.engine.push(self.motor_torque(row[2 * self.n :], u), row[: self.n], load)
@@ -240,6 +253,7 @@ class MuJoCoPlant(Checked, Shown):
         place, speed = np.zeros((2, 2)), np.zeros((2, 2))
         for i, name in enumerate(self.biped.description.feet):
             moves, body = np.zeros(6), data.body(name)
+            # moves: angular velocity, then velocity, in the axes of the world
             mj.mj_objectVelocity(model, data, mj.mjtObj.mjOBJ_XBODY, body.id, moves, 0)
             spin, centre = moves[1], moves[[3, 5]]
             place[i] = body.xpos[[0, 2]]
@@ -247,7 +261,9 @@ class MuJoCoPlant(Checked, Shown):
         return Feet(force, place, speed, self.levels(row[2 * self.n :]))
 
     def landed(self, t: float, row: Array) -> Array:
-        """The row just after a touchdown at t [s]: coordinates, motors and levels of the ground relabelled."""
+        """The row just after a touchdown at t [s], for the row just before it: coordinates, motors and levels
+        of the ground are relabelled, and no velocity jumps.
+        """
         n = self.n
         own = row[2 * n :].copy()
         own[0] = t
@@ -259,12 +275,12 @@ class MuJoCoPlant(Checked, Shown):
 
     # -- what ends a single support ----------------------------------------------------------------
     def contacts(self, t: float, own: Array, points: list[list[float]]) -> tuple[Contact, ...]:
-        """Find what ends the single support at t [s]: a fall, a stance foot in the air, a
-        step too long, or a touchdown.
+        """Find what ends the single support at t [s]: a fall, a stance foot in the air, a single support that
+        lasts too long, or a touchdown; empty where nothing does.
 
-        Empty where nothing does. own: the plant's numbers there. points [m]: places (x, y, z) of both feet and
-        the hip. A foot above the ground carries nothing, so forces are computed only where the swing foot is in
-        it.
+        own (k,): the plant's numbers there. points [m]: places (x, y, z) of stance foot, swing foot and hip. A
+        foot above the ground carries nothing, so forces are computed only where the swing foot is in the
+        ground.
         """
         (x, z), (stance, swing, hip) = self.out, points
         below, ahead = self.levels(own).tolist() if self.ground_steps else (0.0, 0.0)
@@ -279,23 +295,23 @@ class MuJoCoPlant(Checked, Shown):
         force = self.forces()[1]
         if force[1] <= self.touchdown_force:
             return ()
+        # soft contact has no impulse at one instant: that of one integration step stands for it
         return (Contact(FOOT_STRIKE, force * self.engine.options.timestep),)
 
     def forces(self) -> Array:
-        """Forces of the ground (x, z) (2, 2) [N] on the two feet in MuJoCo's present state,
-        in the order of the record.
-        """
+        """Forces (x, z) of the ground on stance and swing foot (2, 2) [N] in MuJoCo's present state."""
         mj, result, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
         model, data = self.engine.model, self.engine.data
         mj.mj_forward(model, data)  # MuJoCo's step leaves the forces of the state before it
         for k in range(data.ncon):
             mj.mj_contactForce(model, data, k, wrench)
             contact = data.contact[k]
+            # from the axes of the contact to those of the world; it acts on the pair's second shape, the foot
             force = contact.frame.reshape(3, 3).T @ wrench[:3]
             result[self.feet.index(contact.geom2)] += force[[0, 2]]
         return result
 
     @cached_property
     def feet(self) -> list[int]:
-        """MuJoCo's indices of the feet's shapes."""
+        """MuJoCo's indices of the spheres of stance and swing foot."""
         return [self.model.geom(name).id for name in self.biped.description.feet]

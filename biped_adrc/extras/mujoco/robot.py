@@ -1,13 +1,14 @@
-"""The robot as a model of MuJoCo (MJCF), from the same tree, with rotors, joint friction and motors.
+"""The robot as a model of MuJoCo (MJCF, its XML format), from the links and joints of the robot's URDF, with
+rotor inertias, joint friction and motors.
 
     qpos = (x, z of the base, q)      in the order of the model's joints
 
 The robot of `floating_mjcf` stands on a `SoftGround` with spheres for feet; that of `pinned_mjcf` turns about
 its stance foot and has no contact; `model_of` makes a model of either. MuJoCo's bodies that move must have a
-mass, so the joints of the base belong to the trunk. The integrator is RK4: MuJoCo's Euler methods move the
-angles over a sampling period T by (1 + h/T) a T^2 / 2, with the step h, which a fast observer takes for a
-disturbance; the observer of Table I does not walk on them. Static friction is MuJoCo's `frictionloss`, a bound
-on a constraint's force, where the rigid plant has tanh.
+mass, so the joints of the base belong to the trunk. The integrator is RK4. MuJoCo's Euler methods with the step
+h turn a joint of the acceleration a in a sampling period T by (1 + h/T) a T^2 / 2 in place of a T^2 / 2; a fast
+observer takes that for a disturbance, and with the observer of Table I of the paper the robot does not walk.
+Static friction is MuJoCo's `frictionloss`, a bound on a constraint's force, where the rigid plant has tanh.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ _KINDS = {"revolute": "hinge", "prismatic": "slide"}
 PLANES = ("ground", "ground ahead")
 """Names of the planes: one for both feet; on steps, one under the stance foot and one under the other."""
 NO_CONTACT = {"contype": "0", "conaffinity": "0"}
-"""Attributes of a shape that touches nothing except by a <pair>."""
+"""Attributes of a shape that touches nothing, except the shape that an element <pair> names with it."""
 
 
 @cache
@@ -50,7 +51,7 @@ def model_of(root: ET.Element) -> MuJoCoModel:
 
 
 def pinned_mjcf(biped: Biped, h: float) -> ET.Element:
-    """The robot pinned at its stance foot, without contact; h [s]: step of the engine."""
+    """MJCF of the robot pinned at its stance foot, without contact; h [s]: MuJoCo's integration step."""
     tree = biped.pinned_tree
     root, world = _world(biped, h, {}, {"contact": "disable"})
     _add(world, tree, tree.joints_below("ground"), biped)
@@ -60,15 +61,16 @@ def pinned_mjcf(biped: Biped, h: float) -> ET.Element:
 def floating_mjcf(
     biped: Biped, ground: SoftGround, slope: float, h: float, planes: tuple[str, ...] = PLANES[:1]
 ) -> ET.Element:
-    """The robot on soft ground of a slope [rad]; h [s]: step of the engine. planes: one, or one a foot.
+    """MJCF of the robot on soft ground of a slope [rad], positive downhill; h [s]: MuJoCo's integration step.
 
-    A plane lies a foot's radius below the plane of the foot points, so that a foot touches where a point
-    would.
+    planes: names of the ground's planes, one for both feet or one for each. A plane lies a foot's radius below
+    the ground itself, so that the sphere of a foot touches when its centre, the foot point, is on the ground.
     """
     d = biped.description
     contact = {"cone": "elliptic", "impratio": text(ground.impratio)}
     root, world = _world(biped, h, contact, {})
     joints = {joint.name: joint for joint in biped.tree.joints}
+    # place (x, 0, z) of the planes, and the rotation by the slope about y as a quaternion (w, x, y, z)
     below = -ground.foot_radius * np.insert(ground_axes(slope)[1], 1, 0.0)
     tilt = np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0
     for name in planes:
@@ -77,6 +79,8 @@ def floating_mjcf(
     _add(world, biped.tree, [joints[name] for name in (*d.base, d.unactuated)], biped)
     bodies = {body.get("name"): body for body in world.iter("body")}
     radius, pairs = text(ground.foot_radius), ET.SubElement(root, "contact")
+    # solimp: impedance at the surface and deep inside, then width [m], midpoint and power of its rise;
+    # friction: two tangential directions, none of torsion and rolling
     law = {
         "condim": "3",
         "friction": text((ground.friction, ground.friction, 0.0, 0.0, 0.0)),
@@ -91,17 +95,18 @@ def floating_mjcf(
 
 
 def text(numbers: float | Iterable[float]) -> str:
-    """Numbers with all their digits, separated by blanks."""
+    """Text of numbers with all their digits, separated by blanks."""
     return " ".join(repr(float(x)) for x in np.atleast_1d(np.asarray(numbers, dtype=float)))
 
 
 def _world(
     biped: Biped, h: float, options: dict[str, str], flags: dict[str, str]
 ) -> tuple[ET.Element, ET.Element]:
-    """<mujoco> with motors and gravity, and its empty <worldbody>.
+    """The element <mujoco> with motors and gravity, and its empty child <worldbody>.
 
-    Warm starts are off, so that a state alone decides what follows. One robot is one island of constraints, and
-    MuJoCo's search for islands, which costs 7 % of the time, is off too.
+    h [s]: integration step. options, flags: further attributes of <option> and of its child <flag>. Warm starts
+    are off, so that a state alone decides what follows. One robot is one island of constraints, and MuJoCo's
+    search for islands, which costs 7 % of the time, is off too.
     """
     root = ET.Element("mujoco", model=one_line(biped.description.name))
     ET.SubElement(root, "compiler", angle="radian")
@@ -117,8 +122,10 @@ def _world(
 
 
 def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) -> None:
-    """Add a body that moves by `joints`, the last of which carries its link, and below it
-    all links that it carries.
+    """Add to `parent` a body that moves by all of `joints`, with the link that the last of them carries, and
+    below it the links that this one carries.
+
+    joints: one, but for the trunk all joints of the base in their order. biped: with rotors and friction.
     """
     d, link = biped.description, joints[-1].child
     place = np.sum([j.origin for j in joints], axis=0)

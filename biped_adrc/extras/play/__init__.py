@@ -1,1 +1,1 @@
-"""A walk in the browser under one's own hand: a page that needs neither server nor network."""
+"""A page on which a user pushes a walking robot with the mouse; it needs neither server nor network."""

@@ -1,11 +1,12 @@
-"""A walk on a page, to be pushed and pulled by hand: `ba.play`, `biped-adrc play`.
+"""A page on which a user pushes and pulls a walking robot with the mouse: `ba.play`, `biped-adrc play`.
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has controllers, robot and integration as WebAssembly (`extras.play.webassembly`); its scripts compute
-samples, pushes and springs, going back in time, and a ghost (a second walk, for comparison). It can walk the
-scenarios that it was made with, on the rigid plant: the scenario of `play`, OTHERS, and the stations of the
-tour. A walk that is chosen begins anew from the start.
+The page has controllers, robot and integration as WebAssembly (`extras.play.webassembly`). Its scripts move the
+walk sample by sample (from one sample instant to the next), compute the push of the user, which is called the
+hand, go back in time, and show a ghost, which is a second walk for comparison. The user can choose among the
+scenarios with which the page was made, on the rigid plant: the scenario of `play`, OTHERS, and the stations of
+the tour, each a text with values of a scenario. A walk that is chosen begins anew.
 
 The walk has no end and its ground is not known beforehand: the page moves the ground and a
 few footprints along with it.
@@ -35,7 +36,7 @@ from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, WalkScene, placed
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
-"""Scenario of a page that was given none: that of the tour."""
+"""Scenario of a page if the caller gives none: that of the tour."""
 OTHERS: Mapping[str, Mapping[str, object]] = {
     "NPD": {"controller.name": "NPD"},
     "NPID": {"controller.name": "NPID"},
@@ -49,12 +50,12 @@ OTHERS: Mapping[str, Mapping[str, object]] = {
 }
 """Name -> fields by which a walk to choose from differs from the page's scenario."""
 _SAMPLES = 2
-"""Largest delay of the torque on a page [samples]."""
+"""Largest delay of the torque that the page's slider reaches [sampling periods]."""
 _HERE = "biped_adrc.extras.play"
 _AROUND = 4.0
 """Length of the ground before and behind the robot [m]."""
 PRINTS = 12
-"""Number of footprints that are drawn at once."""
+"""Number of footprints that are drawn at the same time."""
 NEARER = -0.15
 """Distance of the hand's arrow from the plane of the walk [m], negative towards the camera."""
 
@@ -64,11 +65,12 @@ def play(
     scenario: Scenario | None = None,
     others: Mapping[str, Mapping[str, object]] | None = None,
 ) -> Path:
-    """Write a page on which a walk is pushed by hand, one file without server or network; returns its path.
+    """Write a page on which a walking robot is pushed with the mouse, one file without server or network;
+    returns its path.
 
     path: of the page, .html. scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to
-    choose from, values of a scenario by a name for each; OTHERS if None. The first of them is the ghost. Raises
-    InputError for what a page cannot walk, and OutputError.
+    choose from, by name the fields in which each differs from `scenario`; OTHERS if None. The first of them is
+    the ghost. Raises InputError for a walk that a page cannot compute, and OutputError.
 
     >>> page = ba.play(folder / "walk.html", ba.Scenario("NPD", hardware="ideal"), others={})
     >>> page.name
@@ -87,11 +89,13 @@ def play(
 def page(
     scenario: Scenario, others: Mapping[str, Mapping[str, object]], samples: int = _SAMPLES
 ) -> str:
-    """Text of the page; samples: the largest delay that its slider reaches [samples].
+    """HTML text of the page.
 
-    others: name -> fields by which a walk to choose from differs. Raises InputError
-    for what a page cannot walk.
+    others: name -> fields in which a walk to choose from differs from `scenario`. samples: the largest delay
+    that the slider reaches [sampling periods], 0 for no such slider. Raises InputError for a walk that a page
+    cannot compute.
     """
+    # first: name of the walk of `scenario` itself, that of an equal one of the others if there is one
     scenarios = {name: revised(scenario, x) for name, x in others.items()}
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
@@ -117,8 +121,8 @@ def page(
 
 
 def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
-    """A scenario with other values by name; with another controller, the observer of
-    the one before is dropped.
+    """A copy of the scenario s with other values by name; with another controller, the values of the observer
+    of s are dropped.
 
     Raises InputError for values that it does not take.
     """
@@ -130,15 +134,18 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
 
 def tour() -> list[dict[str, Any]]:
-    """The stations of tour.toml, each with all values that it sets; "none" stands for no value."""
+    """The stations of tour.toml, each with title, text and all `values` of the scenario that it sets; the value
+    "none" stands for None.
+    """
     table = packaged(_HERE, "tour.toml")
     return [x | {"values": merged(table["base"], x["values"])} for x in table["station"]]
 
 
 def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str, Any]]:
-    """The stations of the tour, each with the name of its walk, which is added to `scenarios`.
+    """The stations of the tour for the page of `scenario`, each with the name of its walk.
 
-    Stations whose values the scenario does not take are left out.
+    A walk that is not yet in `scenarios`, which has those of the page by name, is added there under the title
+    of the station. Stations whose values the scenario does not take are left out.
     """
     stations = []
     for station in tour():
@@ -153,10 +160,11 @@ def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str,
 
 
 def laid_out(walk: PageWalk) -> WalkScene:
-    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once.
+    """Scene of a walk at its start, for the viewer, with as much ground and as many footprints as are visible
+    at the same time.
 
-    Its trajectory is made up: each of its arcs stands for a footprint, which the page moves along with the
-    walk.
+    Its trajectory is artificial: PRINTS arcs with the state of the start, one for each footprint, as the viewer
+    draws one for each single support. The page moves the footprints along with the walk.
     """
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
@@ -169,10 +177,12 @@ def laid_out(walk: PageWalk) -> WalkScene:
 def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     """The settings that the scripts of a page read: those of `scene_settings`, and besides
 
-    links       (path, link): the drawn parts of the walk, and the link that each belongs to
-    hand        paths of the arrow and of the line of the spring
-    robot       coordinates, links and trunk by name, motors p
-    most        largest force [N] and torque [N m] of a hand
+    links       (path, link): the drawn shapes of the walk, by path in the viewer's scene, and the link of each
+    hand        paths of the arrow of the hand's force and of the line of its spring
+    robot       coordinates, links and trunk by name, number p of motors
+    most        largest force [N] and torque [N m] of the hand
+
+    The scene is drawn twice, for the walk and for the ghost.
     """
     biped = walk.walker.plant
     given = scene_settings({"walk": scene, "ghost": scene}, Clip())
@@ -195,7 +205,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
 
 
 def hand_commands() -> list[str]:
-    """Meshcat's commands that draw the arrow of the hand and the line of its spring."""
+    """Commands of the viewer Meshcat that draw the arrow of the hand's force and the line of its spring."""
     window = draw.MemoryWindow("hand")
     window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)

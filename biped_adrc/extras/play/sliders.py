@@ -1,10 +1,14 @@
-"""Sliders of a page: how the numbers in a walk's block of memory change with one value of the scenario.
+"""Sliders of a page: how the numbers of a walk depend on one value of the scenario, so that the page itself can
+compute them while the walk goes on.
+
+The numbers of a walk are all cells of the memory block of its run, (N,), at its start. A form is one of
 
     number = b s^k,  a + b s,  a + b tan s
 
-for every number that changes with the value s. a, b and k come from three values of s, of which the middle one
-only checks. Where the numbers follow no such form, such as the gains of an observer in sampled time with its
-bandwidth, a table has them at round values of s. A slider whose numbers another one moves too is left out.
+for each number that changes with the value s of the slider. a, b and k follow from the numbers at three values
+of s, of which the middle one only checks. Where the numbers follow no such form, as the gains of an observer in
+sampled time over its bandwidth, a table has them at round values of s. Of two sliders that change the same
+number the second is left out.
 """
 
 from __future__ import annotations
@@ -25,22 +29,22 @@ Form = tuple[float, float, int] | list[float]
 """How a number depends on the value s of a slider: (a, b, k) for a + b s^k, with tan(s) in place of s^k for
 k = 0; or a list of its values at the slider's table."""
 _Numbers = Callable[[Mapping[str, object]], Array]
-"""The numbers of a walk with these values of its scenario; raises BipedError where it has none, or another
-structure."""
+"""A function that returns the numbers of a walk (N,) for other values of its scenario, by name. It raises
+BipedError for values that the walk cannot have, or that change the structure of its machine code."""
 ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 """First two digits of the values in tables."""
 CLOSER = 8
-"""Number of places between a slider's end and its value where another end is tried."""
+"""Number of values, from the end of a slider's range to its present value, that are tried as another end."""
 POWERS = (*range(1, 15), -1, -2)
 """Exponents k of b s^k that are tried; gains of an observer of high order are high powers of its bandwidth."""
 _EXACT = 1e-12
-"""Largest relative error with which a form fits."""
+"""Largest relative error with which a form counts as exact."""
 ELSEWHERE = (*CONTEXT, *GAINS, "bandwidth", "order", "poles", "solve_theta", "reset")
 """Parameters of controllers that get no slider of their own."""
 
 
 class Slider(NamedTuple):
-    """One value of a scenario that a slider on the page changes."""
+    """A slider on the page: the value of a scenario that it changes, in SI units, and its range."""
 
     name: str
     """Dotted name of the value in the scenario."""
@@ -50,26 +54,33 @@ class Slider(NamedTuple):
     """Whether the slider is logarithmic."""
     unit: str = ""
     scale: float = 1.0
-    """Displayed number over the value in SI units."""
+    """Displayed number divided by the value in SI units."""
     value: float | None = None
-    """Value with which the walk begins; None for numbers that no value gives, such as poles of a table."""
+    """Value with which the walk begins; None where no value of the slider gives its numbers, such as an
+    observer whose poles are a list."""
     shared: bool = False
-    """Whether the ghost's value changes too: for values of robot and ground."""
+    """Whether it changes the ghost, the second walk of the page, too: for values of robot and ground."""
 
     also: Mapping[str, object] = {}
     """Other values of the scenario that are set with it, such as the order with the bandwidth."""
 
     table: tuple[float, ...] = ()
-    """All values that it takes; any between low and high where empty."""
+    """The values that it can have; empty: any between low and high."""
 
     @property
     def tried(self) -> tuple[float, float, float]:
-        """Three values of the slider: both ends and one between them."""
+        """Three values of the slider at which forms are fitted: both ends, and one between them.
+
+        In a linear range this is not the middle: if the range is symmetric to 0, a + b s and a + b tan s are
+        equal there.
+        """
         middle = np.sqrt(self.low * self.high) if self.log else 0.4 * self.low + 0.6 * self.high
         return self.low, float(middle), self.high
 
     def tabulated(self) -> Slider:
-        """A copy of the slider that offers a table of round values in place of a range."""
+        """A copy of the slider with a table of its values: round ones of a logarithmic range, else 21 even
+        ones.
+        """
         decades = 10.0 ** np.arange(-9, 9)
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
@@ -88,10 +99,12 @@ _USUAL = (
 
 
 def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
-    """Iterate over the sliders that a scenario may have: the usual ones, and the numbers of its controller.
+    """Iterate over the sliders that a scenario s may have: the usual ones, and those of its controller's own
+    parameters.
 
-    order: m of its observer, which a change of the bandwidth leaves as it is.
+    order: m of the observer, None for none; it is kept when the bandwidth changes.
     """
+    # without poles of a list, which would override the bandwidth; gains that s leaves out are those of Table II
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
     c = s.controller
@@ -109,10 +122,12 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
 def sliders(
     s: Scenario, order: int | None, base: Array, numbers: _Numbers
 ) -> dict[str, tuple[Slider, dict[int, Form]]]:
-    """Find the sliders of a walk: name -> the slider, and the forms of the numbers that it changes, by index.
+    """Find the sliders of a walk: name -> (slider, index of each number that it changes -> form).
 
-    order: m of its observer. base: numbers of the walk. numbers: those with other values of its scenario.
+    s: the walk's scenario. order: m of its observer, None for none. base (N,): numbers of the walk. numbers:
+    function that returns them for other values of s.
     """
+    # moved: indices of the numbers that a slider changes already
     result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
     for one in offered(s, order):
         try:
@@ -126,11 +141,11 @@ def sliders(
 
 
 def with_forms(one: Slider, base: Array, numbers: _Numbers) -> tuple[Slider, dict[int, Form]]:
-    """Fit the forms of one slider's numbers, by index; returns the slider, with its
-    range or table, and the forms.
+    """Fit the numbers that one slider changes; returns the slider, with another range or a table where needed,
+    and index -> form.
 
-    The range shrinks where the controller refuses its ends. Raises BipedError where the
-    walk cannot have the slider.
+    base (N,): numbers of the walk. The range shrinks where the walk refuses its ends. Raises BipedError where
+    the walk cannot have the slider. Without a number that changes the forms are empty.
     """
     try:
         rows = numbers_at(one, numbers)
@@ -145,7 +160,10 @@ def with_forms(one: Slider, base: Array, numbers: _Numbers) -> tuple[Slider, dic
 
 
 def end(one: Slider, x: float, numbers: _Numbers) -> float:
-    """The end x of a slider's range, moved towards its present value until the walk accepts it."""
+    """The end x of a slider's range, moved towards its present value until the walk accepts it.
+
+    It is rounded to two digits. A slider without a present value keeps its end.
+    """
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
@@ -157,7 +175,7 @@ def end(one: Slider, x: float, numbers: _Numbers) -> float:
 
 
 def numbers_at(one: Slider, numbers: _Numbers, values: Sequence[float] = ()) -> Array:
-    """Numbers of the walk, as a row for each of these values of a slider, or of `tried` if there are none.
+    """Numbers of the walk as rows (.., N), one for each of these values of a slider, or of `tried` if empty.
 
     Raises BipedError where the walk cannot have a value.
     """
@@ -165,16 +183,19 @@ def numbers_at(one: Slider, numbers: _Numbers, values: Sequence[float] = ()) -> 
 
 
 def changing(base: Array, rows: Array) -> list[int]:
-    """Indices of the numbers that differ between the rows; empty where `base` differs
-    from them in any other number.
+    """Indices of the numbers that differ between the rows (.., N).
+
+    Empty where `base` (N,) differs from the rows in any other number: then the slider alone cannot reach the
+    walk as it begins.
     """
     change = np.any(rows != rows[0], axis=0)
     return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
 
 
 def forms_of(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
-    """Fit a form to each number that changes over the rows (3, N); index -> form, empty where one has
-    no form.
+    """Fit a form (a, b, k) to each number that changes over the rows (3, N), those of the slider's `tried`.
+
+    Returns index -> form; empty where any of them follows no form.
     """
     s = np.array(one.tried)
     result = {k: next(closed(s, rows[:, k]), None) for k in changing(base, rows)}
@@ -182,7 +203,9 @@ def forms_of(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
 
 
 def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
-    """Iterate over the forms (a, b, k) that pass through three values y (3,) at the slider's values s (3,)."""
+    """Iterate over the forms (a, b, k) of `Form` that pass through three numbers y (3,) at the slider's values
+    s (3,): powers first, then a + b s and, with k = 0, a + b tan s.
+    """
     with np.errstate(all="ignore"):
         for k in POWERS if np.all(s > 0.0) else ():
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < _EXACT):
@@ -195,7 +218,12 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
 
 
 def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
-    """The slider with its unit, and with the value that gives the numbers `base` with which the walk begins."""
+    """The slider with its unit, and with the value at which its forms give the numbers `base` (N,) of the walk.
+
+    The range is extended to this value. It is None for a table without it, and stays where the form has no
+    inverse.
+    """
+    # the first form is solved for s: all of them give the same
     unit = Scenario.field_of(one.name).unit.replace("^2", "²")
     one = one._replace(unit="" if unit == "1" else unit)
     place, form = next(iter(forms.items()))

@@ -1,10 +1,17 @@
-"""The walks of the page on which a user pushes the robot by hand, as numbers that machine.js beside it reads.
+"""The walks of the page on which a user pushes the robot, as numbers that the script machine.js reads.
 
-The hand is two terms of the disturbance, a torque on the coordinates and a force on a link. The page writes
-their numbers into the block of the run (`engine.kernels.record`) before each sample.
+The block is the memory of a compiled run, cells of 8 bytes (`engine.kernels.record`); among them are the
+numbers (parameters) of the walker, which sliders of the page change. The structure of a walker is all of it but
+the values of these numbers: it decides the machine code. A delay of the torque changes the structure, so a walk
+has several variants, one for each range of delays.
 
-The force acts on a point of a link. The formula of the point's position has coefficients that are affine in
-the place on the link; for each link that is drawn, those at (0, 0) and their slopes along x and z are here.
+The hand is the push of the user: two terms of the disturbance, a torque on the coordinates and a force on a
+link. The page writes their numbers into the block before each sample.
+
+The force acts on a point of a link, whose place from the stance foot is the real and the imaginary part of
+the sum over k of (re_k + i im_k) exp(i a_k), a = A q. re and im (n,) [m] are affine in the place (x, z) on the
+link: for each link that is drawn, the page gets their values at (0, 0) and their slopes along x and z. turn
+(n,) is the derivative of the link's angle by q.
 """
 
 from __future__ import annotations
@@ -51,19 +58,20 @@ SPRING = {"stiffness": 1500.0, "damping": 40.0}
 """Spring from the mouse (anchor) to the point p: F = k (anchor - p) - d p', at most MOST, k [N/m], d [N s/m]. F
 is constant over a sample T [s], which reduces the damping by k T / 2."""
 DELAY, FRICTION = "hardware.delay", "hardware.friction"
-"""Names of two values of a scenario whose sliders differ from all others."""
+"""Names of two values of a scenario whose sliders are made apart from all others."""
 _SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
 
 
 @dataclass(frozen=True)
 class PageWalk:
-    """One walk of a page with one structure of its machine code, as it begins at 0 s."""
+    """One variant of a walk of a page, with its own machine code, at its start at 0 s."""
 
     scenario: Scenario
     scene: RobotAndGait
     walker: Walker
-    """The walker without the hand; with joint friction, if the robot's record has some."""
+    """The walker without the hand; with joint friction, if the robot's record has some, so that its slider can
+    change it even where the scenario has none."""
     code: CompiledWalker
     """The compiled walker, with the hand as its whole disturbance."""
     x: Array
@@ -71,11 +79,12 @@ class PageWalk:
 
     @classmethod
     def of(cls, name: str, s: Scenario, scene: RobotAndGait | None = None) -> Self:
-        """Build and compile the walk of a scenario; name: for messages. scene: its robot
-        and gait, built if None.
+        """Build and compile the walk of a scenario; name: for messages. scene: its robot and gait, built if
+        None.
 
-        Raises InputError, with the name, for a walk that a page cannot show.
+        Raises InputError, with the name, for a walk that a page cannot compute.
         """
+        # rubbed: the scenario with joint friction, taken if the robot has coefficients of friction
         plant, fine = s.ground.plant, s.run.fine
         if plant != RIGID or fine is not None:
             raise InputError(
@@ -117,24 +126,24 @@ class PageWalk:
 
     @cached_property
     def names(self) -> dict[str, int]:
-        """Name of each of the walker's numbers -> its index in the block."""
+        """Name of each number (parameter) of the walker -> the index of its cell in the block."""
         first = self.code.plan.place("K")
         return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
     @cached_property
     def numbers(self) -> Array:
-        """Numbers of the walk's block (see `names`) at its start, as floats."""
+        """All cells of the block at the start of the walk, as floats; `names` has the indices of parameters."""
         return self._block(self.code)
 
     @cached_property
     def rubbed(self) -> Scenario:
-        """The scenario with joint friction on where its walker has it."""
+        """The scenario with joint friction on, if `walker` has it."""
         return self.scenario.replace({FRICTION: self.walker.plant.friction})
 
     def at(self, values: Mapping[str, object]) -> Array:
-        """Numbers of this walk's block, as floats, with other values of its scenario.
+        """All cells of this walk's block, as floats, for other values of its scenario, by name.
 
-        Raises InputError for values that give another structure.
+        Raises InputError for values that give the machine code another structure.
         """
         s = self.rubbed.replace(values)
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
@@ -144,16 +153,20 @@ class PageWalk:
         return self._block(code)
 
     def _block(self, code: CompiledWalker) -> Array:
-        """The block at the start of a compiled walker as floats, without addresses."""
+        """The block at the start of a walk of a compiled walker, as floats, with 0 in place of addresses.
+
+        Blocks are compared to find the numbers that a slider changes.
+        """
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in FUNCTIONS:
             result[PLACES[name]] = 0.0  # an address, which differs from process to process
         return np.nan_to_num(result)  # cells of whole numbers may read as NaN, which equals nothing
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
-        """The sliders of the walk, without that of the delay, by name: each with the numbers that it changes,
-        and their dependence on its value (a `Form`), by name.
+        """Sliders of the walk by name, without that of the delay: (slider, name of each parameter that it
+        changes -> dependence on the slider's value, a `Form`).
         """
+        # order: m of the observer; a slider that also changes cells without a name is left out
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
         result = {
@@ -161,6 +174,7 @@ class PageWalk:
             for name, (one, forms) in sliders(self.rubbed, order, self.numbers, self.at).items()
             if forms.keys() <= named.keys()
         }
+        # coefficients of friction are proportional to their slider: a + b s^k with a = 0, k = 1
         rubbing = {
             name: (0.0, float(self.numbers[k]), 1)
             for name, k in self.names.items()
@@ -174,8 +188,8 @@ class PageWalk:
         return result
 
     def delay(self) -> dict[int, Form]:
-        """For each number of the block that a delay between whole samples changes: its index
-        -> its form over the delay.
+        """Index of each cell of the block that changes with the delay within `delays` -> its form over the
+        delay [s]; empty for a delay of whole periods.
         """
         low, high = self.delays
         if low == high:
@@ -185,47 +199,62 @@ class PageWalk:
 
     @property
     def delays(self) -> tuple[float, float]:
-        """Range of delays [s] with the structure of this walk: between two whole samples, or this one alone."""
+        """Range of delays [s] for which this variant is right: between two multiples of the period, or its own
+        delay twice where that is a multiple.
+        """
         period, delay = self.timing.period, self.timing.delay
         whole, part = whole_and_part(delay, period)
         return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
 
 
 def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
-    """Compile a walker with a hand. Raises NotCompiled."""
+    """Compile a walker that has a hand, for states of the layout of x (nx,), with the scenario's method of
+    integration and the errors of its signals from the gait. Raises NotCompiled.
+    """
     method = methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, walker.layout_of(x), 0.0, scene.walked.constraint)
 
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
-    """The walk of a scenario, followed by its structures for other delays, up to this many samples."""
+    """The walk of a scenario, followed by its variants for other ranges of the delay, up to `samples` periods.
+
+    name: for messages. samples = 0: no other delay. A walk whose parts take no delay has no variants.
+    """
+    # delays 0 and within each period: see `PageWalk.delays`
     result = [PageWalk.of(name, s)]
     period = result[0].timing.period
     for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
         try:
             one = PageWalk.of(name, s.replace({DELAY: delay}), result[0].scene)
         except InputError:
-            continue  # of a part that takes no delay
+            continue  # a part of this walk takes no delay
         if one.delays not in [x.delays for x in result]:
             result.append(one)
     return result
 
 
 def with_hand(walker: Walker) -> Walker:
-    """The walker with a torque on its coordinates and a force on its trunk as disturbance, both zero."""
+    """The walker with the hand as its disturbance: a torque on the coordinates and a force on the trunk, both
+    zero; the page changes values and link.
+    """
     force = OnLink(walker.plant, walker.plant.description.trunk, TorqueStep(np.zeros(3)))
     return replace(walker, disturbance=Sum() + TorqueStep(np.zeros(walker.plant.n)) + force)
 
 
 def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
-    """What machine.js reads of the walks; vectors in base64. Raises InputError.
+    """The settings about walks that machine.js reads, by name; vectors are in base64. Raises InputError.
 
-    walks       by name: its scenario as lines, its sliders, and its variants, which are blocks as they begin
-    code        the module, with the names of the functions in the order of their numbers
-    links       A; by name re, im (3, n) [m] at the link's (0, 0) and their slopes along x and z, and turn
-    joints      what each drawn joint is: a coordinate, or -1, -2 for x and z of the trunk
-    exchanged   whether the legs are drawn with exchanged names, in odd and even single supports; R
-    places, status, signals: numbers of the kernels, by name, and struck
+    walks: name -> the walk with its variants, the first one at the delay of its scenario.
+
+    walks       by name the result of `walk_numbers`: scenario as lines, sliders, variants
+    code        bytes of the WebAssembly module; functions: names in the order of their numbers (`webassembly`)
+    links       `link_numbers`; twins: link -> the same link of the other leg; trunk: its name
+    n, R        number of coordinates; relabelling q+ = R q- of the legs at an impact
+    joints      for each drawn joint the index of its coordinate, or -1, -2 for x and z of the trunk
+    exchanged   whether legs are drawn with exchanged names, in odd and in even single supports
+    spring      stiffness [N/m] and damping [N s/m] of the hand's spring
+    places      name of a field of the block -> its cell; struck: code of an arc that ends in an impact
+    status      text of each status, by code; signals: `signal_places`
     """
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
@@ -256,12 +285,16 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
 
 
 def packed(data: bytes | Ints) -> str:
-    """Encode bytes or a vector in base64."""
+    """Encode bytes, or the bytes of a vector of whole numbers, as text in base64."""
     return base64.b64encode(data if isinstance(data, bytes) else data.tobytes()).decode("ascii")
 
 
 def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any]:
-    """The numbers of one walk for machine.js: its scenario as lines, its sliders, and its structures."""
+    """The numbers of one walk for machine.js: its scenario as lines, first single support, sliders, variants.
+
+    walk: the walk and its variants, of which the first has the scenario's delay. blocks: the `WebWalker` of
+    each.
+    """
     first, result = walk[0], walk[0].sliders()
     shown = [one._asdict() for one, _ in result.values()]
     if len(walk) > 1:
@@ -281,10 +314,13 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
 def structure_numbers(
     walk: PageWalk, web: WebWalker, found: Mapping[str, tuple[Slider, dict[str, Form]]]
 ) -> dict[str, Any]:
-    """The numbers of one walk for the page: the memory block of its run, clock, limits of ground and motors,
-    and the indices in the block of the numbers that the mouse and the sliders change.
+    """The numbers of one variant of a walk for machine.js: the block, clock, limits of ground and motors, and
+    the indices in the block of the numbers that the hand and the sliders change.
+
+    found: result of `PageWalk.sliders` of the first variant; its indices are found here by name.
     """
     s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
+    # the machine code has full friction; the walk begins with the share of its slider
     if FRICTION in found:
         slider, forms = found[FRICTION]
         for name in forms:
@@ -310,7 +346,9 @@ def structure_numbers(
 
 
 def hand_places(code: CompiledWalker) -> dict[str, Any]:
-    """Indices in the block of the hand's torque (n,) and force (2,), and of re, im and turn of its point."""
+    """Indices in the block of the hand's torque (n,) and force (2,), and the first ones of re, im and turn (n,)
+    of its point.
+    """
     n, hand = code.walker.plant.n, code.walker.disturbance
     assert hand is not None
 
@@ -328,7 +366,10 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
 
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
-    """A, and the closed form of the points of each link; see `page_numbers`."""
+    """A (n, n), and for each link by name the formula of its points, as in the module.
+
+    re, im (3, n) [m]: at the link's (0, 0), and their slopes along x and z [1]; turn (n,).
+    """
     result: dict[str, Any] = {}
     for link in dict.fromkeys(links):
         corner, *others = (
@@ -347,6 +388,7 @@ def trunk_of(plant: Biped) -> str:
 
     Raises InputError for a robot whose trunk lies elsewhere.
     """
+    # at a posture without symmetry, the link's origin and the base agree only if they are the same point
     q = np.random.default_rng(0).standard_normal(plant.n)
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
@@ -360,14 +402,18 @@ def trunk_of(plant: Biped) -> str:
 
 
 def joint_places(plant: Biped) -> list[int]:
-    """For each drawn joint the index of its coordinate, or -1 and -2 for x and z of the base."""
+    """For each joint that moves, in the tree's order, the index of its coordinate, or -1 and -2 for x and z of
+    the floating base.
+    """
     d = plant.description
     places = {name: k for k, name in enumerate(d.joints)} | {d.base[0]: -1, d.base[1]: -2}
     return [places[joint.name] for joint in plant.tree.joints if joint.type != "fixed"]
 
 
 def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
-    """Name of each signal -> where it begins and ends in the result of `WebWalker.observe`."""
+    """Name of each signal -> where it begins and ends (index, index) in the result of the function
+    `WebWalker.observe`, found by one evaluation at the start of the walk.
+    """
     h = walk.scene.walked.constraint
     result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
     ends = np.cumsum([np.size(part) for part in result]).tolist()

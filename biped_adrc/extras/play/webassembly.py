@@ -1,16 +1,17 @@
 """The compiled loops and functions of walkers as one WebAssembly module, for a page that needs no server.
 
 The module is made from the same text as the machine code: the loops of `engine.kernels` in LLVM's language, and
-the functions of each walker (flow, tick, impact, ..) as `engine.ir` writes them. LLVM makes an object file of
-it, which a browser loads without a linker.
+the functions of each walker (flow, tick, impact, ..; together its laws) as `engine.ir` writes them. LLVM makes
+an object file of it, which a browser loads without a linker.
 
-WebAssembly has no addresses of functions: they are called by their number in a table, from 1 on. So the memory
-block of a run (`engine.kernels.record`) has such a number wherever it has an address in machine code.
-`WebWalkers.functions` lists the names in the order of these numbers, and the constant `called` puts the
-functions into the table in the same order. Walkers of the same structure share their functions.
+A run is one block of memory (`engine.kernels.record`), which has the addresses of the walker's functions.
+WebAssembly has no addresses of functions: they are called by their number in a table, from 1 on. So the block
+has such a number wherever it has an address in machine code. `WebWalkers.functions` lists the names in the
+order of these numbers, and the constant `called` puts the functions into the table in the same order. Walkers
+of the same structure (equal but for the values of their parameters) share their functions.
 
-The page has to give the module, by the name `env`: its memory, the table, the end of the stack, and functions
-of mathematics such as `sin` and `pow`. `web_walkers` makes the module, and the block of each walker.
+The page has to pass to the module, by the name `env`: its memory, the table, the end of the stack, and
+functions of mathematics such as `sin` and `pow`. `web_walkers` makes the module, and the block of each walker.
 """
 
 from __future__ import annotations
@@ -32,12 +33,12 @@ from biped_adrc.engine.program import CompiledWalker, push_code
 
 
 class WebWalker(NamedTuple):
-    """The numbers of one walker."""
+    """One walker in the module."""
 
     plan: CompiledRun
-    """The plan of its run, with numbers of functions in place of addresses."""
+    """Its block of memory before a run, with numbers of functions in place of addresses."""
     observe: int
-    """Number of the function that computes its signals (`closed_loop.instant_signals`)."""
+    """Number in the table of the function that computes its signals (`closed_loop.instant_signals`)."""
 
 
 class WebWalkers(NamedTuple):
@@ -51,10 +52,12 @@ class WebWalkers(NamedTuple):
 
 
 def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
-    """Make one module for walkers on one gait, each made with the reference to which its signals refer.
+    """Make one module for several compiled walkers on one gait.
 
-    Raises InputError for the exponential method, whose product with matrices has another form.
+    Each has to be compiled with a reference, from which its signals take the error. Raises InputError for a
+    walker with the exponential method, whose product with matrices is no function of this form.
     """
+    # the functions of the loops have the first numbers
     laws = _Laws({}, {name: k for k, name in enumerate(_LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
     code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))
@@ -62,26 +65,28 @@ def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
 
 
 class _Laws(NamedTuple):
-    """Functions that walkers share, added by one walker after the other."""
+    """The functions of walkers that the module has so far, collected walker after walker."""
 
     names: dict[str, str]
-    """Text of functions of walkers in LLVM's language -> its name."""
+    """Text in LLVM's language with functions of a walker -> the name under which the module has it."""
     numbers: dict[str, int]
     """Name of a function that is called by its number -> the number, from 1."""
 
     def of(self, code: LoadedCode) -> str:
-        """Name of the text of these functions; a new one at the first call."""
+        """Name of the text of these functions; the first call makes a new one."""
         return self.names.setdefault(code.text, f"laws{len(self.names)}")
 
     def number(self, name: str) -> int:
-        """Number of a function, from 1; a new one at the first call."""
+        """Number of the function `name` in the table, from 1; the first call gives it the next one."""
         return self.numbers.setdefault(name, 1 + len(self.numbers))
 
 
 def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
-    """Numbers of one walker, whose functions are added to `laws`. Raises InputError
-    for the exponential method.
+    """The `WebWalker` of one compiled walker, whose functions are added to `laws`.
+
+    Raises InputError for the exponential method.
     """
+    # cells of the block with an address get the function's number; 0 stays for a function that it does not have
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
@@ -105,11 +110,13 @@ _LOOPS = ("go_on", "land", "look")
 
 
 def web_module(laws: Mapping[str, str], called: Sequence[str] = _LOOPS) -> bytes:
-    """Compile the loops and the functions `laws` to WebAssembly; returns the bytes, which are cached on disk.
+    """Compile the loops and the functions of walkers to WebAssembly; returns the bytes, which are cached on
+    disk.
 
-    laws: name -> text for LLVM. called: names of functions in the order of their numbers; function `f`
-    of the text `name` is `name.f`.
+    laws: name -> text in LLVM's language. called: names of the functions with numbers, in their order; function
+    `f` of the text `name` is called `name.f`.
     """
+    # the cache's key has the text of this file, so that a change here compiles anew
     own = Path(__file__).read_text(encoding="utf-8")
     key = hash_of(TARGET, loops(), own, *called, *chain(*laws.items()))
     code = fetch(key)
@@ -120,7 +127,9 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = _LOOPS) -> bytes
 
 
 def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
-    """Link the laws, by name, and the loops into one module of WebAssembly; returns its bytes."""
+    """Link the loops and the laws, arguments as in `web_module`, into one module of WebAssembly; returns its
+    bytes.
+    """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
@@ -131,7 +140,7 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
             function.name = f"{name}.{function.name}"
         module.link_in(modules)
     for function in _defined(module):
-        if function.name not in called:
+        if function.name not in called:  # then LLVM may inline it, or leave it out
             function.linkage = "internal"
     names = ", ".join(f'ptr @"{name}"' for name in called)
     table = f"@called = constant [{len(called)} x ptr] [{names}]"

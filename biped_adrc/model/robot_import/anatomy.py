@@ -1,4 +1,4 @@
-"""The parts of a planar biped found in its tree: feet, hip, order of the joints, and the phase variable.
+"""The parts of a planar biped, as they are found in its tree: feet, hip, order of joints, and phase variable.
 
 The phase is the absolute angle of the virtual stance leg from the hip to the stance foot, counter-clockwise
 with x to the right and z up, so that it falls while the robot walks to +x. With a_k the absolute angles of the
@@ -8,6 +8,10 @@ links of the stance leg and l_k the lengths of the leg in them,
 
 which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
 triangle), for others its first-order part about the straight leg; a virtual constraint needs a constant row c.
+
+The trunk is the link that the planar base carries, the torso. Feet are a pair (stance foot, swing foot); which
+leg stands is a convention, as the legs are alike. All positions are those at zero angles, where all frames are
+parallel. Re-rooting is to turn the tree round, so that it hangs from its stance foot (`pinned.reroot`).
 
 `import_robot.derive` calls `anatomy` after base and feet are known. What the file does not say is guessed only
 when there is one answer, and every guess is a sentence in `Derived.notes`.
@@ -36,10 +40,10 @@ _AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
 
 @dataclass(frozen=True)
 class Anatomy:
-    """Names of the parts of a biped: feet, hip, joints in order, and its phase variable."""
+    """Parts of a biped: names of feet and hip, joints in order, and its phase variable."""
 
     feet: tuple[str, str]
-    """Stance and swing foot."""
+    """Links of the stance and the swing foot."""
     hip: str
     """Link whose origin is the hip."""
     moving: tuple[Joint, ...]
@@ -47,11 +51,12 @@ class Anatomy:
     phase: tuple[float, ...]
     """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
     notes: Notes
-    """Sentences on what was guessed."""
+    """Sentences on what was guessed, and on the phase."""
 
 
 def anatomy(body: PlanarBase, pair: tuple[str, str], hip: str | None) -> Anatomy:
-    """Find the parts of a biped with the feet `pair` (stance, swing); `hip` is guessed when it is None.
+    """Find the parts of a biped with the feet `pair` (stance, swing); `hip` is the link at whose origin the
+    legs meet, guessed when it is None.
 
     Raises ModelError with the candidates and the option to give when a guess is not certain.
     """
@@ -71,8 +76,8 @@ def anatomy(body: PlanarBase, pair: tuple[str, str], hip: str | None) -> Anatomy
 
 
 def position(tree: Tree, link: str) -> Array:
-    """Position (x, z) of the frame of a link at zero angles (2,) [m]: the sum of the
-    origins, as frames are parallel.
+    """Position (x, z) (2,) [m] of the frame of a link at zero angles, in the frame of the root: the sum of the
+    joints' origins, as frames are parallel.
     """
     origins = [joint.origin for joint in tree.path_to_root(link)]
     return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
@@ -89,7 +94,7 @@ def _chain(body: PlanarBase, link: str) -> list[Joint]:
 def on_feet(
     body: PlanarBase, feet: tuple[str, ...] | None, actuated: tuple[str, ...]
 ) -> tuple[PlanarBase, tuple[str, str]]:
-    """The robot on two points, and its feet (stance, swing): guessed where `feet` is None.
+    """The robot on two points, and these, its feet (stance, swing), which are guessed where `feet` is None.
 
     A joint between shin and foot is welded at its zero unless it is one of `actuated`. A tree that hangs from
     one of its legs is turned round, so that the trunk carries both. Raises ModelError.
@@ -105,24 +110,27 @@ def on_feet(
         )
     pair = feet[0], feet[1]
     for ends in (pair, pair[::-1]):
+        # the way to the other foot begins with the leg of ends[0]
         body = _on_point(body, ends[0], urdf.way(body.tree, ends), actuated)
     return _upright(body, pair)
 
 
 def _ends(body: PlanarBase) -> list[str]:
-    """Names of the links at the ends of the tree, the trunk among them where one joint hangs on it."""
+    """Names of the links at the ends of the tree: no joint hangs on them, or on the trunk at most one."""
     tree, trunk = body.tree, body.trunk
     below = tree.links_from(trunk)
+    # at most 1 joint on the trunk, 0 on other links
     return [link for link in below if len(tree.joints_below(link)) <= (link == trunk)]
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
-    """Guess the two feet: the two ends with the most joints between them, or the two whose names say foot;
-    also returns the reason.
+    """Guess the two feet: the two ends of the tree with the most joints between them, or if several pairs have
+    as many the two whose names say foot; also returns the sentence that says why.
 
     Raises ModelError where neither rule gives exactly two.
     """
     ends = _ends(body)
+    # number of joints between two ends that are not fixed
     apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
     most = max(apart.values(), default=0)
     farthest = [pair for pair, count in apart.items() if count == most]
@@ -143,11 +151,11 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
 def _on_point(
     body: PlanarBase, foot: str, leg: list[tuple[Joint, str]], actuated: tuple[str, ...]
 ) -> PlanarBase:
-    """The robot, after a check that its foot lies away from the last joint of the leg; if it does not, that
-    joint, an ankle, is welded, unless it is one of `actuated`.
+    """The robot itself if its foot lies away from the last joint of the leg. Otherwise that joint is an ankle,
+    and the result has it fixed: so a link that is called a foot becomes a part of the shin.
 
-    leg: joints and links on the way from this foot to the other one. Raises ModelError with a hint how to add a
-    tip.
+    leg: joints and links on the way from this foot to the other one. Raises ModelError, with a hint how to add
+    a tip, for an ankle that is one of `actuated`, and for a link that is not called a foot.
     """
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
@@ -166,11 +174,13 @@ def _on_point(
 
 
 def _upright(body: PlanarBase, feet: tuple[str, str]) -> tuple[PlanarBase, tuple[str, str]]:
-    """The tree hung from a link in the middle between the feet, where it hangs from a leg; also its feet.
+    """The robot, whose trunk is in the middle of the way between the feet: where the tree hangs from a link of
+    a leg, it is turned round to hang from the heaviest link in the middle. Also its feet.
 
     A foot at the old root keeps its place by a link without mass, since `reroot` moves the frames of links.
     """
     bodies, tree = urdf.bodies_between(body.tree, feet), body.tree
+    # one body in the middle where their number is odd, twice here; two where it is even
     middle = [*bodies[(len(bodies) - 1) // 2], *bodies[len(bodies) // 2]]
     if body.trunk in middle or not any(body.trunk in links for links in bodies):
         return body, feet
@@ -179,16 +189,18 @@ def _upright(body: PlanarBase, feet: tuple[str, str]) -> tuple[PlanarBase, tuple
         feet = (tip, feet[1]) if feet[0] == body.trunk else (feet[0], tip)
     heaviest = max(middle, key=lambda link: getattr(tree.links[link].inertial, "mass", 0.0))
     turned = reroot(tree, heaviest, body.trunk)
+    # `reroot` puts the link "ground" and a joint to it first: both go, and a planar base takes their place
     links = {name: link for name, link in turned.links.items() if name != "ground"}
     again = added(Tree(tree.name, links, turned.joints[1:], tree.source), heaviest)
     text = f"trunk: '{heaviest}', in the middle between the feet; the file hangs from '{body.trunk}', in a leg"
+    # notes[0] is on the old base
     return again.noting(*body.notes[1:], Note("assumed", text)), feet
 
 
 # -- joints ----------------------------------------------------------------------------------------
 def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
-    """Order the joints: stance hip, swing hip, stance knee, swing knee, ...; then the joints
-    that belong to no leg alone.
+    """The revolute joints but the pitch, in the order stance hip, swing hip, stance knee, swing knee, ..., then
+    those that carry both feet or none.
 
     From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's order.
     """
@@ -201,10 +213,12 @@ def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
 
 # -- hip and phase ---------------------------------------------------------------------------------
 def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
-    """Guess the link whose origin is the hip, where the legs meet at the first joint of the
-    swing leg; with the reason.
+    """Guess the link whose origin is the hip, the place of the first joint of the swing leg; also returns the
+    sentence that says why.
 
-    Raises ModelError where the swing foot is fixed to the stance leg.
+    It is the link where the paths from both feet to the root meet, if its origin lies at that joint and stays
+    there when the tree is turned round, else the first link of the swing leg. Raises ModelError where the swing
+    foot is fixed to the stance leg.
     """
     one, other = ([foot, *(j.parent for j in tree.path_to_root(foot))] for foot in feet)
     meet = next(link for link in one if link in other)
@@ -220,7 +234,9 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
 
 
 def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
-    """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
+    """Raise ModelError unless the link `hip` is the trunk or hangs on it, and keeps its origin when the tree is
+    turned round at `foot`, the stance foot.
+    """
     tree = body.tree
     fits = [link for link in tree.links_from(body.trunk) if _keeps_its_origin(tree, link, foot)]
     if hip not in fits:
@@ -231,16 +247,21 @@ def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
 
 
 def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
-    """Whether re-rooting at `foot` leaves the origin of `link` where it is.
+    """Whether turning the tree round at `foot` leaves the origin of `link` where it is.
 
-    `pinned.reroot` moves the frame of a link on the stance leg to the joint below it.
+    `pinned.reroot` moves the frame of a link between root and foot to the joint below it, so that one must lie
+    at the origin. Other links keep their frames.
     """
     outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
     return all(math.hypot(*joint.origin[::2]) < _AWAY for joint in outwards)
 
 
 def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
-    """Row c (n,) of Theta, from the lengths [m] of the stance leg's links between foot and hip."""
+    """Row c (n,) of Theta = c q, from the lengths [m] of the stance leg's links between foot and hip.
+
+    joints: those of q in order, the pitch last. c weights the absolute angles of the links by their lengths.
+    """
+    # from the foot upwards, until a link that the hip is on or hangs on
     carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
     points, links = [position(tree, foot)], []
     for joint in tree.path_to_root(foot):
@@ -250,6 +271,7 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
         points.append(position(tree, joint.child))
     points.append(position(tree, hip))
     lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
+    # `absolute_angles` count in the sense of the pitch, which is counter-clockwise about -y, clockwise about y
     counter_clockwise = -joints[-1].axis[1]
     rows = urdf.absolute_angles(tree, tuple(joint.name for joint in joints), links)
-    return counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0
+    return counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0  # + 0.0: no -0.0 in the file

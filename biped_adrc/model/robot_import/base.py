@@ -1,14 +1,15 @@
 """The planar base of a robot: two slides along x and z, then the pitch of the trunk, q_N.
 
 The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints in the
-plane x-z and one revolute joint about y, in this order from the root. A mass in between does not turn, and one
-on the first slide moves in one direction only, which no D_s of a pinned robot has: light ones are left out, and
-a note names them, others are refused. Slides that the file turns, as on a ramp, are put along x and z, and the
-zero of the pitch turns with them. The stance contact determines its position, so only the pitch remains as a
-coordinate. A robot without a base floats on its root link, and gets a base there; it turns in the sense of the
-robot's other joints. So does the base in place of a `floating` or a `planar` joint, whatever the axis of that
-joint. A robot that the file pins to the ground by a revolute joint gets slides below the pin. Places along y do
-not enter planar motion, and stay as they are.
+plane x-z and one revolute joint about y, in this order from the root. A mass above the pitch does not turn with
+it, and one on the first slide moves in one direction only; the matrix D_s of a robot pinned at its foot has no
+such masses: light ones are left out, and a note names them, others are refused. Slides that the file turns, as
+on a ramp, are put along x and z, and the zero of the pitch turns with them. The stance contact determines the
+place of the base, so only its pitch remains as a coordinate. A robot without a base floats on its root link,
+and gets a base there, whose pitch turns in the sense of the robot's other joints. So does the base in place of
+a `floating` or a `planar` joint, whatever the axis of that joint. A robot that the file pins to the ground by a
+revolute joint gets slides below the pin. Places along y do not enter planar motion, and stay as they are. The
+trunk is the link that the base carries, the torso of a biped. A slide is a prismatic joint.
 `import_robot.derive` calls `on_planar_base` first.
 """
 
@@ -31,7 +32,9 @@ LIGHT = 0.01
 
 @dataclass(frozen=True)
 class PlanarBase:
-    """A tree with its planar base of two prismatic joints and the pitch."""
+    """A robot as a tree of links and joints, with its planar base of two slides (prismatic joints) and the
+    pitch.
+    """
 
     tree: Tree
     base: tuple[str, str]
@@ -41,23 +44,26 @@ class PlanarBase:
     trunk: str
     """Link that the base carries."""
     notes: Notes
-    """Sentences on what was found or added."""
+    """Notes for the user on what was found, added or left out, the one on the base first."""
 
     def noting(self, *notes: Note) -> PlanarBase:
-        """A copy with more notes."""
+        """A copy with these notes behind the others."""
         return replace(self, notes=(*self.notes, *notes))
 
 
 def on_planar_base(tree: Tree) -> PlanarBase:
-    """The planar tree with the base it has, or with one added above its root.
+    """The robot of a file on a planar base: the one that it has, or one added above its root or in place of the
+    joint that holds it, with the axes of all joints exactly in the plane.
 
     Raises ModelError for joints out of the plane, a base of another kind or with mass,
     and joints that move no mass.
     """
     tree = replace(tree, joints=tuple(_in_plane(tree, joint) for joint in tree.joints))
     slides = [joint for joint in tree.joints if joint.type == "prismatic"]
+    # the root is the one link that no joint carries
     root = next(link for link in tree.links if tree.joint_above(link) is None)
     top = _top(tree, root)
+    # a joint above slides is a part of the base that the file has
     if top is not None and not (slides and top.type in ("fixed", "revolute")):
         on_base = _released(tree, root, top)
     else:
@@ -67,8 +73,8 @@ def on_planar_base(tree: Tree) -> PlanarBase:
 
 
 def _in_plane(tree: Tree, joint: Joint) -> Joint:
-    """The joint with its axis rounded to y, or that of a slide into the plane x-z. Raises ModelError if it
-    is not near.
+    """The joint with its axis rounded to y or -y, or for a slide into the plane x-z. Raises ModelError for an
+    axis that deviates by PLANAR or more; the axis of a `planar` joint is the normal of its plane.
     """
     if joint.type in ("fixed", "floating"):
         return joint
@@ -85,7 +91,8 @@ def _in_plane(tree: Tree, joint: Joint) -> Joint:
 
 
 def _top(tree: Tree, root: str) -> Joint | None:
-    """The joint in whose place a base is put: one that floats, or the only one between robot and world.
+    """The joint in whose place a base is put: one of type `planar` or `floating` (it floats), or the only joint
+    on a root without mass, if it is revolute, or fixed on a root called world; else None.
 
     Raises ModelError for a joint that floats below another one.
     """
@@ -103,7 +110,10 @@ def _top(tree: Tree, root: str) -> Joint | None:
 
 
 def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
-    """The tree below `top` on a base added in its place; an axis of `top` is that of the pitch."""
+    """The tree below the joint `top`, on a base added in place of `top` and of all that does not hang below it.
+
+    The name and axis of a planar or revolute `top` become those of the pitch.
+    """
     turns = top.type in ("planar", "revolute")
     on_base = added(tree, top.child, *((top.axis, (*_NAMES[:2], top.name)) if turns else ()))
     other = sorted(set(tree.links) - {*on_base.tree.links, root})
@@ -113,19 +123,23 @@ def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
 
 
 def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
-    """The planar base that the file has already, with slides along +x and +z; those of a file may be turned
-    in the plane, as on a slope.
+    """The robot on the planar base that the file has already; its slides get the axes +x and +z, also if those
+    of the file are turned in the plane, as on a slope.
 
-    Raises ModelError where it is incomplete or has mass.
+    slides: all prismatic joints of the tree. Raises ModelError where the base is incomplete or its moving links
+    have more than the share LIGHT of the robot's mass.
     """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
+    # tops: revolute joints with no other above them, one if it is the pitch; carriers: joints above it
     tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
     carriers = tree.path_to_root(tops[0].parent) if tops else ()
     carried = tree.links_from(tops[0].child) if tops else []
+    # still: masses [kg] that the pitch does not carry; heavy: those of them that a slide moves
     masses = {x: body.mass for x, link in tree.links.items() if (body := link.inertial)}
     still = {x: masses.pop(x) for x in list(masses) if x not in carried}
     heavy = {x: m for x, m in still.items() if set(slides) & set(tree.path_to_root(x))}
     robot = sum(masses.values())
+    # the slide nearer to x first; two slides are parallel where the determinant of their axes is 0
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
     plane = plane and set(slides) <= set(carriers) and len(tops) == 1
@@ -140,7 +154,8 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     names = tuple(joint.name for joint in (*flat, pitch))
     on_base = added(tree, pitch.child, pitch.axis, names)
     text = "base: '{}' and '{}' slide, '{}' is the pitch of the trunk".format(*names)
-    slope = math.atan(-x.axis[2] / x.axis[0])
+    slope = math.atan(-x.axis[2] / x.axis[0])  # positive downhill
+    # (kind, whether it is so, text)
     notes = (
         ("read", True, f"{text} '{pitch.child}'"),
         ("left out", still, f"masses [kg] that stand still, or only slide with the base: {still}"),
@@ -152,9 +167,12 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
 def added(
     tree: Tree, root: str, axis: Triple | None = None, names: tuple[str, ...] = _NAMES
 ) -> PlanarBase:
-    """The tree below link `root` with a base above it; its pitch turns about `axis`, or in the sense of the
-    first revolute joint.
+    """The tree from link `root` downwards with a new planar base above it, and nothing else.
+
+    Its pitch turns about `axis`; None: in the sense of the first revolute joint of the tree. names: of the
+    slides along x and z and of the pitch, with underscores where another link or joint has the name.
     """
+    # `links_from` is empty for the root of the tree: then all links are carried
     carried = {link: tree.links[link] for link in tree.links_from(root) or tree.links}
     tree = replace(tree, links=carried, joints=tuple(j for j in tree.joints if j.parent in carried))
     axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
@@ -184,6 +202,7 @@ def _check_below(on_base: PlanarBase) -> None:
             f"{where}: no revolute joint below the trunk '{on_base.trunk}'; a biped has at least one between "
             "its feet"
         )
+    # joints away from the trunk first: where a whole leg has no mass, the message names a lower link of it
     for joint in sorted(below, key=lambda joint: joint.parent == on_base.trunk):
         wrong = ""
         carried = tree.links_from(joint.child)

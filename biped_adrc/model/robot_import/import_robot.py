@@ -22,6 +22,10 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
     record_of             the robot.toml, from which the Biped is made
     checks                laws of mechanics, with numbers
 
+The trunk is the link that the base carries, the torso. The legs exchange their roles at an impact, so they have
+to be alike; two links or joints that change over are twins. A note is a sentence for the user, of the kind
+"read", "assumed" or "left out".
+
 The record uses the words of a robot.toml, and is written as TOML by `to_toml`: `tomllib` reads and
 does not write. Strings, numbers, lists and tables are all a record holds, and JSON's strings are
 basic strings of TOML.
@@ -64,7 +68,7 @@ _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
-    """The tree itself where a link has a shape, else the tree with balls, and a sentence about it.
+    """The tree itself where any link has a shape, else the tree with rods and balls to draw, and a note on it.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
     """
@@ -73,6 +77,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
     links = {}
     for name, link in tree.links.items():
+        # a link above both feet, or above none, belongs to the trunk
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
@@ -81,9 +86,9 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
 
 
 def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
-    """Rods from the link's origin to the joints below it, or to its COM, and a ball at the COM.
+    """Rods from the link's origin to the joints below it, or else to its COM, and a ball of steel at the COM.
 
-    A rod is a cylinder along z, and a row of balls in another direction.
+    A rod is a cylinder along z, and in another direction a row of balls, since cylinders stand upright here.
     """
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     balls: list[Visual] = []
@@ -141,13 +146,15 @@ def _record_of(
 ) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
-    file: name of the URDF. hints: with motors and torque limit filled in. rotors: inertia of the motors'
-    rotors, reflected to their joints [kg m^2].
+    file: name of the URDF. contents: of that file. body: the robot on its base. parts: feet, hip, joints,
+    phase. hints: of the user, with motors and torque limit filled in. rotors: inertia of the motors' rotors,
+    reflected to their joints [kg m^2].
     """
     moving, actuated = [joint.name for joint in parts.moving], hints.actuated or ()
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
+        """The values of joints that were not welded, in the order of q."""
         return {name: values[name] for name in moving if name in values}
 
     return {
@@ -174,9 +181,10 @@ def _record_of(
 
 
 def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
-    """Links with mass by body: twins together, under their name without the side.
+    """Names of the links with mass by body: twins are one body, with their name without left or right.
 
-    A name that is empty or occupied without its side is replaced by that of the first link.
+    Where that name is empty, or another body or link has it, the body has the name of the link in the stance
+    leg.
     """
     twins = dict(urdf.pairs(tree, feet))
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
@@ -192,7 +200,7 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
 
 
 def to_toml(record: Mapping[str, object]) -> str:
-    """TOML text of `record`, a line for each key."""
+    """TOML text of `record`, one line for each key; a table is written inline."""
     return "".join(f"{toml_key(key)} = {toml_value(value)}\n" for key, value in record.items())
 
 
@@ -204,13 +212,13 @@ class Derived:
     notes: Notes
     """Sentences on what was read, assumed and left out, in this order."""
     checks: tuple[Check, ...]
-    """The laws of `model.physical` with their numbers."""
+    """The laws of `model.physical`, each with its relative gap, and whether it holds."""
     record: Mapping[str, Any]
     """Content of its robot.toml."""
 
     @property
     def broken(self) -> tuple[Check, ...]:
-        """Laws that do not hold; empty for a robot that can be used."""
+        """The checks of laws that do not hold; empty for a robot that can be used."""
         return tuple(check for check in self.checks if not check.holds)
 
     def write(self, folder: Path | str) -> Path:
@@ -238,10 +246,10 @@ def biped_from_urdf(
 ) -> Biped:
     """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
 
-    path: of the URDF. feet: links of the feet, stance first. actuated: joints with a motor. hip: the link at
-    which the legs hang. torque [N m]: limit of every motor. armature [kg m^2]: inertia of rotors on every
-    driven joint. tip (3,) [m]: the foot's point in its link. None: found in the file. Raises ModelError, with
-    the laws that do not hold.
+    path: of the URDF. feet: links of the feet, stance first. actuated: joints with a motor, q1 first. hip: link
+    whose origin is the hip. torque [N m]: limit of every motor. armature [kg m^2]: inertia of the rotor on
+    every joint with a motor. tip (3,) or (6,) [m]: place of both feet, or of one after the other, in the frames
+    of the links `feet`. None: found in the file. Raises ModelError, with the laws that do not hold.
 
     >>> ba.biped_from_urdf(biped.description.urdf).n
     5
@@ -254,13 +262,15 @@ def biped_from_urdf(
 
 
 def derive(path: Path | str, hints: Hints | None = None) -> Derived:
-    """Derive a biped from a URDF and check it. Checks that fail do not raise; they are in `broken`.
+    """Derive a biped from a URDF or MJCF and check it, in the stages of the module. Laws that do not hold raise
+    nothing here: they are in `Derived.broken`. hints: what the user states; None is nothing.
 
     Raises ModelError that names the link, joint or file, and what to give or to change.
     """
     hints = Hints() if hints is None else hints
     contents, feet = _with_tips(path, hints)
     body, pair = on_feet(on_planar_base(contents.tree), feet, hints.actuated or ())
+    # names that begin with of_ are notes on a stage
     tree, of_legs = urdf.evened(body.tree, pair)
     body = replace(body, tree=tree).noting(*of_legs)
     parts = anatomy(body, pair, hints.hip)
@@ -281,8 +291,8 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:
-    """Read the file; also returns the feet: those of the hints, or links added at
-    their tips. Raises ModelError.
+    """Read the file; also returns the names of the feet, (stance, swing): those of the hints (None to guess
+    them), or if the hints have a `tip` new links without mass there. Raises ModelError.
     """
     contents, feet = _contents(Path(path)), hints.feet
     if hints.tip is None:
@@ -297,6 +307,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
             f"tip={hints.tip}, expected x, y, z of both feet or of one after the other"
         )
     tree, tips = contents.tree, []
+    # np.resize repeats three numbers for the second foot; place is in the axes that the link has in the file
     for foot, place in zip(feet, np.resize(hints.tip, (len(feet), 3)), strict=True):
         tree, tip = urdf.with_tip(tree, foot, vector(contents.turns[foot] @ place))
         tips.append(tip)
@@ -304,7 +315,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
 
 
 def _contents(path: Path) -> Contents:
-    """The robot of a URDF, or of an MJCF, which its first element tells. Raises ModelError."""
+    """Read a URDF or an MJCF, whichever its first <robot> or <mujoco> says. Raises ModelError."""
     with reading("file of a robot", path, ModelError):
         first = re.search(rb"<(robot|mujoco)\b", path.read_bytes())
     return read_mjcf(path) if first and first[1] == b"mujoco" else read(path)
@@ -312,9 +323,10 @@ def _contents(path: Path) -> Contents:
 
 # -- motors ----------------------------------------------------------------------------------------
 def _motors(contents: Contents, moving: Joints, hints: Hints) -> tuple[Names, Notes]:
-    """Names of the joints with a motor in order, and a sentence where they were guessed.
+    """Names of the joints with a motor, q1, q2, ..., and a note where they were guessed.
 
-    Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or doubled names.
+    moving: all joints but the pitch, in order. The guess is all of them but those whose <limit effort> is 0.
+    Raises ModelError for unknown or doubled names.
     """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
@@ -323,7 +335,7 @@ def _motors(contents: Contents, moving: Joints, hints: Hints) -> tuple[Names, No
         motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(result)) or "none"
         text = f"motors: {motors}" + (f"; {free} free (effort 0)" if free else "")
         return result, (Note("assumed", text),)
-    if len(set(hints.actuated) & set(names)) < len(hints.actuated):
+    if len(set(hints.actuated) & set(names)) < len(hints.actuated):  # a name is unknown or doubled
         raise ModelError(
             f"'{contents.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
             f"from {list(names)}"
@@ -332,8 +344,8 @@ def _motors(contents: Contents, moving: Joints, hints: Hints) -> tuple[Names, No
 
 
 def _torque(contents: Contents, actuated: Names, hints: Hints) -> tuple[float, Notes]:
-    """The torque limit of all motors [N m], that of the hints or else the least one in the
-    URDF, and a sentence on it.
+    """The torque limit of every motor [N m]: that of the hints, or else the least one of the joints `actuated`
+    in the file; and a note on it in the second case.
 
     It is 1 for a robot without motors, as a record needs a number. Raises ModelError where a motor has none.
     """
@@ -352,9 +364,11 @@ def _torque(contents: Contents, actuated: Names, hints: Hints) -> tuple[float, N
 
 
 def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors, Notes]:
-    """The inertia of the motors' rotors, reflected to their joints [kg m^2]: one, or one each; and sentences.
+    """The inertia of the motors' rotors, reflected to their joints [kg m^2], of the hints or else of the file;
+    and notes.
 
-    The rotor of a joint without a motor is left out.
+    One number if all motors have the same, else one for each of `actuated`. The rotor of a joint without a
+    motor is left out.
     """
     if hints.armature is not None:
         return hints.armature, ()
@@ -366,11 +380,11 @@ def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors
     notes = [Note("read", f"rotor inertia, reflected to the joint: {text}") if text else none]
     if other := sorted(name for name, x in contents.rotor.items() if x and name not in actuated):
         notes.append(Note("left out", f"rotor inertia of {other}, without a motor or welded"))
-    return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)
+    return each[0] if len(set(each)) == 1 else each or 0.0, tuple(notes)  # 0.0 without motors
 
 
 def _remarks(contents: Contents, moving: Joints, hints: Hints) -> Notes:
-    """Sentences on friction: of the feet, and of the joints."""
+    """Notes on friction: of the feet, where the hints do not state it, and of the joints in the file."""
     text = (
         f"dry friction of the feet: {FRICTION}, as of RABBIT; --set friction_coefficient= gives it"
     )

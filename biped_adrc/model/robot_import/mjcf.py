@@ -5,9 +5,10 @@ world's, at the anchor of its last joint, so that it is a link of `urdf.Tree`; j
 links without mass. A shape or site that is called a foot, on a body that is not, is the point of a foot. Angles
 count from the reference posture.
 
-Read are masses and inertias, joints and their ranges, armature, damping, friction loss, and the torque
-that the motors reach. Shapes with their contacts, springs and the gains of servos are left out; constraints
-between bodies are refused. Needs the extra `mujoco`.
+Read are masses and inertias, joints and their ranges, armature, damping, friction loss, and the torque that the
+motors reach. Shapes with their contacts, springs and the gains of servos are left out; constraints between
+bodies are refused. It needs the optional package `mujoco`. In the functions m is MuJoCo's compiled model, d its
+data, j the index of a joint and b that of a body; body 0 is the world.
 """
 
 from __future__ import annotations
@@ -29,12 +30,17 @@ from biped_adrc.model.robots.urdf import FREELY, Joint, Link, Note, Notes, Tree,
 from biped_adrc.model.robots.urdf_reader import Contents
 
 _KINDS = ("floating", "ball", "prismatic", "revolute")
-"""Types of joints, in MuJoCo's order."""
+"""Types of joints, in the order of MuJoCo's numbers for them."""
 _TURNS = {"quat", "axisangle", "euler", "xyaxes", "zaxis"}
+"""Attributes of a body that turn its frame."""
 
 
 def read_mjcf(path: Path) -> Contents:
-    """Compile an MJCF and read the robot in it. Raises ModelError, and InputError without MuJoCo."""
+    """Compile an MJCF and read the robot in it, as `urdf_reader.read` does for a URDF.
+
+    Raises ModelError for a file that does not compile or has constraints between bodies, InputError without
+    MuJoCo.
+    """
     with optional(
         "mujoco", f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
     ):
@@ -52,12 +58,12 @@ def read_mjcf(path: Path) -> Contents:
             "joints are not supported"
         )
     d = mujoco.MjData(m)
-    mujoco.mj_kinematics(m, d)
+    mujoco.mj_kinematics(m, d)  # places of all bodies at the reference posture
     names = [one_line(m.body(b).name) or f"body{b}" for b in range(m.nbody)]
     hinges = {_name(m, j): j for j in range(m.njnt) if _KINDS[m.jnt_type[j]] == "revolute"}
 
     def by_joint(values: Array) -> dict[str, float]:
-        """One of the model's arrays over its velocities, by joint."""
+        """The entries for hinges of an array over MuJoCo's velocities, by name of the joint."""
         return {name: float(values[m.jnt_dofadr[j]]) for name, j in hinges.items()}
 
     torques = {name: e for name, j in hinges.items() if (e := _torque(m, j)) < math.inf}
@@ -68,8 +74,11 @@ def read_mjcf(path: Path) -> Contents:
 
 
 def _compiled(model: Any, path: Path) -> Any:
-    """The `model` of an MJCF, also of one with `coordinate="global"`, of MuJoCo before 2.3.4: with the frames
-    of all bodies at the world's origin, its places are those in the world. Raises ValueError.
+    """Compile the MJCF at a path by `model`, MuJoCo's class MjModel. Raises ValueError if it fails.
+
+    MuJoCo from 2.3.4 on refuses a file with `coordinate="global"`, whose places are all in the world. The same
+    file without that attribute and without places of bodies is right: all body frames then lie at the world's
+    origin.
     """
     try:
         return model.from_xml_path(str(path))
@@ -78,6 +87,7 @@ def _compiled(model: Any, path: Path) -> Any:
             raise
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
+        # that would drop the turn of a turned body, and the place of a body without joints
         if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
     for element in (*root.iterfind("compiler"), *bodies):
@@ -86,12 +96,18 @@ def _compiled(model: Any, path: Path) -> Any:
 
 
 def _name(m: Any, j: int) -> str:
-    """Name of joint j."""
+    """Name of joint j, or joint with its index if the file has none."""
     return one_line(m.joint(j).name) or f"joint{j}"
 
 
 def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
-    """Links and joints of a compiled model, placed by its data at qpos0."""
+    """Links and joints of a compiled model, placed by its data at qpos0; names: of the bodies.
+
+    A body with several joints becomes a chain of links without mass, and its own link at the end. Raises
+    ModelError for a ball joint, and a body with impossible moments. path: of the file, for messages.
+    """
+    # places: origin [m] of each body's link in the world; above, parent: origin and name of the link that
+    # carries the next joint
     places, links, joints = [np.zeros(3)], {names[0]: Link(names[0], None, ())}, list[Joint]()
     for b in range(1, m.nbody):
         above, parent = places[m.body_parentid[b]], names[m.body_parentid[b]]
@@ -101,6 +117,7 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             name = _name(m, j) if own else f"{names[b]}_mount"
             child = names[b] if last else f"{names[b]}_{name}"
             kind = _KINDS[m.jnt_type[j]] if own else "fixed"
+            # the child's origin in the world [m]
             place = d.xanchor[j] if kind == "revolute" else d.xpos[b] if last else above
             axis = vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
@@ -113,13 +130,14 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
         places.append(above)
         if m.body_mass[b] > 0.0:
             R = d.ximat[b].reshape(3, 3)
-            moments = (R * m.body_inertia[b]) @ R.T
+            moments = (R * m.body_inertia[b]) @ R.T  # R diag(principal moments) R'
             upper = tuple(moments[np.triu_indices(3)].tolist())
             body = urdf.Inertial(float(m.body_mass[b]), vector(d.xipos[b] - above), upper)
             urdf.check_inertial(body, f"'{path}', body '{names[b]}'")
             links[names[b]] = Link(names[b], body, ())
     model = one_line(m.names[: m.names.index(b"\0")].decode(errors="replace"))
     tree = Tree(model or path.stem, links, tuple(joints), f"{path} (MJCF)")
+    # a shape or site that is called a foot, on a body that is not, becomes a link without mass at its place
     owners, at = (*m.geom_bodyid, *m.site_bodyid), (*d.geom_xpos, *d.site_xpos)
     shapes = [*map(m.geom, range(m.ngeom)), *map(m.site, range(m.nsite))]
     for b, place, shape in zip(owners, at, shapes, strict=True):
@@ -131,17 +149,22 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
 
 
 def _range(m: Any, j: int) -> tuple[float, float]:
-    """Range [rad] of hinge j about its zero; infinite where it has none, or a whole turn."""
+    """Range (lower, upper) [rad] of hinge j, counted from the reference posture; infinite where it has none, or
+    one of a whole turn or more.
+    """
     low, high = (float(x) for x in m.jnt_range[j] - m.qpos0[m.jnt_qposadr[j]])
     return (low, high) if m.jnt_limited[j] and high - low < 2.0 * math.pi else FREELY
 
 
 def _torque(m: Any, j: int) -> float:
-    """Torque [N m] that the actuators of joint j reach: by their force range, or their control range as motors.
+    """Torque [N m] that the actuators of joint j reach in both directions: the sum of their limits, at most
+    that of the joint itself.
 
-    0 without an actuator, infinite without a limit.
+    The limit of an actuator is its force range, or if it is a motor without one, its control range times its
+    gain; both times its gear. 0 without an actuator, infinite without a limit.
     """
     total = 0.0
+    # transmission types 0 and 1 act on a joint; bias type 0 is a motor, others are servos
     for a in np.flatnonzero((m.actuator_trnid[:, 0] == j) & (m.actuator_trntype < 2)):
         gear, gain = abs(m.actuator_gear[a, 0]), abs(m.actuator_gainprm[a, 0])
         if m.actuator_forcelimited[a]:
@@ -154,7 +177,10 @@ def _torque(m: Any, j: int) -> float:
 
 
 def _notes(m: Any, hinges: dict[str, int]) -> Notes:
-    """Notes on the parts of a compiled model that the robot leaves out."""
+    """Notes on the parts of a compiled model that the robot leaves out; hinges: index j by name.
+
+    springs: stiffness [N m/rad] by joint. zeros: angle [rad] of the reference posture in the file, by joint.
+    """
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
     g = m.opt.gravity.tolist()

@@ -39,7 +39,7 @@ ConeFloat = Annotated[float, Range("a number above 0 and at most 1", lambda x: 0
 
 
 class KnownLimits(NamedTuple):
-    """The `Limits` of one robot, with every number known."""
+    """The `Limits` of one robot, with a number in place of every None."""
 
     friction: float
     """Dry friction mu of the ground, dimensionless."""
@@ -70,7 +70,7 @@ class Limits(Checked, Shown):
     """Time over which the force of the ground is averaged [s]."""
 
     def of(self, robot: RobotDescription) -> KnownLimits:
-        """These limits with the values of the robot's record in place of None."""
+        """These limits as numbers: where one is None, the value of the robot's record."""
         mu = robot.friction_coefficient if self.friction is None else float(self.friction)
         torque = robot.peak_torque if self.torque is None else float(self.torque)
         return KnownLimits(mu, torque, self.window)

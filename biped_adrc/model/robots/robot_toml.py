@@ -19,6 +19,8 @@ cannot, here for RABBIT, abbreviated:
     armature = 0.83                                                     # [kg m^2]
     thigh = { mass = 6.8, com = 0.11, inertia = 0.47 }                  # [kg], [m], [kg m^2]
 
+A body, such as thigh, is one link, or the two links that change over when the legs exchange their roles.
+
 The keys are the fields of `RobotDescription`, with joint friction in a table [friction] of `viscous` and
 `static`. May be missing: `passive` (none), `trunk` (the hip's link), `offset` (zero), `gravity` (9.81),
 `ranges` (joints turn freely), `friction` (none), and the bodies of a preset (the URDF's own).
@@ -47,14 +49,14 @@ from biped_adrc.model.robots.urdf_reader import read
 
 
 def _different(names: tuple[str, ...]) -> tuple[str, ...]:
-    """The names. Raises ValueError where two are the same."""
+    """The names themselves. Raises ValueError where two are the same."""
     if len(set(names)) < len(names):
         raise ValueError(f"found {list(names)}, expected a list of different names")
     return names
 
 
 def _rising(ends: tuple[float, float]) -> tuple[float, float]:
-    """The ends of a range. Raises ValueError for another order."""
+    """The ends (lower, upper) of a range themselves. Raises ValueError unless the lower one is less."""
     if not ends[0] < ends[1]:
         raise ValueError(f"found {list(ends)}, expected the lower angle first")
     return ends
@@ -82,7 +84,7 @@ class BodyParameters:
 
 
 ALONG = 1e-6
-"""How far an axis may be from y, x or z [1]."""
+"""Largest 1 - cos of the angle between an axis and y, x or z [1]."""
 GRAVITY = 9.81
 """Gravity [m/s^2] of a record that gives no other value."""
 
@@ -97,7 +99,7 @@ class Preset:
     armature: Rotors
     """Rotor inertia per actuated joint, reflected to it [kg m^2]; one number, or one for each motor."""
     bodies: Mapping[str, BodyParameters]
-    """Parameters by class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
+    """Parameters by body (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,7 @@ class RobotDescription(Shown):
     static: Mapping[str, NotNegative]
     """Static joint friction by joint [N m]; 0 for joints that are not here."""
     links: Mapping[str, Annotated[Names, Field(min_length=1)]]
-    """Links by body: the class "thigh" has the links of both thighs."""
+    """Names of links by body: the body "thigh" has the links of both thighs."""
     default_preset: str
     """Name of the preset that is used by default."""
     presets: Mapping[str, Preset]
@@ -149,7 +151,7 @@ class RobotDescription(Shown):
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of q1..qN: the actuated joints, joints without a motor, the pitch."""
+        """Names of the joints whose angles are q1, ..., qN: those with a motor, those without, the pitch."""
         return (*self.actuated, *self.passive, self.unactuated)
 
     @property
@@ -163,7 +165,7 @@ class RobotDescription(Shown):
         return " ".join(f"{c:+.6g} q{i}" for i, c in enumerate(self.phase, 1) if c != 0.0)
 
     def preset(self, name: str | None = None) -> Preset:
-        """The preset `name`, or the default one. Raises ModelError with the known names."""
+        """The preset `name`; None: the default one. Raises ModelError with the known names for another name."""
         name = self.default_preset if name is None else name
         if name not in self.presets:
             raise ModelError(
@@ -172,7 +174,7 @@ class RobotDescription(Shown):
         return self.presets[name]
 
     def joint_index(self, joint: str | int) -> int:
-        """Index in q of a joint given by name, as "q1".."qN", or by index from 0.
+        """Index in q, from 0, of a joint by its name, by one of "q1" to "qN", or by that index itself.
 
         Raises ModelError with the possible names.
         """
@@ -183,19 +185,20 @@ class RobotDescription(Shown):
                 f"robot '{self.name}' has no joint '{joint}'; expected one of {list(self.joints)}, q1..q{n}, "
                 "or an index from 0"
             )
-        return known.index(joint) % n
+        return known.index(joint) % n  # `known` has the n joints three times
 
     def tree(self, preset: str | None = None) -> Tree:
-        """Read the floating URDF with the inertials of `preset`. Raises ModelError.
+        """Read the URDF with the floating base, and replace mass, COM and inertia of its links by those of a
+        preset (None: the default one). Raises ModelError.
 
         A preset has one moment of inertia per body, about y. The moments about x and z get values of a slender
-        link, since a URDF needs them and planar motion does not depend on them.
+        link along z, since a URDF needs them and planar motion does not depend on them.
         """
         tree = read(self.urdf).tree
         inertials: dict[str, Inertial] = {}
         for body, p in self.preset(preset).bodies.items():
             for link in self.links[body]:
-                # the moments about x and z do not enter planar motion
+                # xx, xy, xz, yy, yz, zz
                 moments = (p.inertia, 0.0, 0.0, p.inertia, 0.0, 0.05 * p.inertia)
                 inertials[link] = Inertial(p.mass, (0.0, 0.0, p.com), moments)
         if unknown := sorted(set(inertials) - set(tree.links)):
@@ -209,11 +212,11 @@ _READER = TypeAdapter(RobotDescription)
 """Reads a record from TOML's tables, by the types of its fields."""
 RECORD_KEYS = {f.name for f in fields(RobotDescription)} - {"viscous", "static"} | {"friction"}
 BODY_KEYS = [f.name for f in fields(BodyParameters)]
-"""Keys of a record and of a body in a preset."""
+"""RECORD_KEYS are the keys of a record, BODY_KEYS those of a body in a preset."""
 
 
 def robot_names() -> tuple[str, ...]:
-    """Names of the robots that come with the package."""
+    """Names of the robots that come with the package, as `load_description` takes them."""
     return tuple(stored("robot"))
 
 
@@ -237,7 +240,7 @@ def load_description(robot: str | Path) -> RobotDescription:
 
 
 def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
-    """The record from TOML's tables `data`, whose URDF lies beside `path`.
+    """The record from the tables `data` of a robot.toml at `path`; the URDF's place is relative to that file.
 
     Raises ModelError that names the key, what was found and what was expected.
     """
@@ -245,6 +248,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         _table("the record", data, RECORD_KEYS)
         links, presets = _table("links", data["links"]), _table("presets", data["presets"])
         rubbing = _table("friction", data.get("friction", {}), ("viscous", "static"))
+        # what a record may leave out; "offset" gets its n zeros below, when n is known
         usual = {"trunk": data["hip"], "passive": (), "offset": (), "gravity": GRAVITY}
         friction, urdf = {"viscous": {}, "static": {}, **rubbing}, data["urdf"]
         own = {
@@ -254,10 +258,13 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         try:
             d = _READER.validate_python({**usual, **friction, **data, **own})
         except ValidationError as error:
+            # a type with alternatives reports an error for each: the one at the deepest place says most. The
+            # bodies of a preset are keys of its table, so the file has no word "bodies"
             innermost = max(error.errors(), key=lambda one: len(one["loc"]))
             raise ValueError(problem(innermost).replace(".bodies.", ".")) from None
         n = len(d.joints)
         d = d if "offset" in data else replace(d, offset=(0.0,) * n)
+        # rows of numbers, with the number of entries that each must have
         rows = {"phase": (d.phase, n), "offset": (d.offset, n)}
         for name, preset in d.presets.items():
             if isinstance(preset.armature, tuple):
@@ -276,13 +283,16 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         for key, table in (("ranges", d.ranges), ("friction", {**d.viscous, **d.static})):
             if others := sorted(set(table) - set(d.joints)):
                 raise ValueError(f"{key} names {others}, the joints are {list(d.joints)}")
-        if d.phase[-1] == 0.0:
+        if d.phase[-1] == 0.0:  # Theta is an absolute angle, so the pitch has a part in it
             raise ValueError(f"phase is {list(d.phase)}; the last number must not be 0")
         return d
 
 
 def _table(key: str, value: object, known: Collection[str] = ()) -> Mapping[str, Any]:
-    """Check a table, and that its keys are known where `known` names them. Raises ValueError."""
+    """Return `value` after a check that it is a table and `known` has all its keys; () allows every key.
+
+    key: its name in messages. Raises ValueError.
+    """
     if not isinstance(value, Mapping):
         raise ValueError(f"{key} is {value!r}, expected a table")
     for name in sorted(set(value) - set(known)) if known else ():
@@ -291,7 +301,10 @@ def _table(key: str, value: object, known: Collection[str] = ()) -> Mapping[str,
 
 
 def _preset(name: str, value: object, links: Mapping[str, Any]) -> dict[str, Any]:
-    """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none."""
+    """The fields of a `Preset` from its table [presets.NAME], which has parameters of all bodies or of none.
+
+    links: the record's table of bodies. Raises ValueError for unknown keys, KeyError for a missing body.
+    """
     record, keys = _table(f"presets.{name}", value, (*links, "armature", "source")), BODY_KEYS
     all_or_none = links if any(x in record for x in links) else ()
     bodies = {x: _table(f"presets.{name}.{x}", record[x], keys) for x in all_or_none}
@@ -299,7 +312,7 @@ def _preset(name: str, value: object, links: Mapping[str, Any]) -> dict[str, Any
 
 
 def check_planar(tree: Tree, d: RobotDescription) -> None:
-    """Check that joints turn about y and that the base slides along x and z.
+    """Check that the joints of the record `d` turn about y or -y, and that its base slides along +x and +z.
 
     Raises ModelError that names the joint, its axis and the expected one.
     """

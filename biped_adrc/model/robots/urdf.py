@@ -5,18 +5,18 @@ read by `urdf_reader`, which checks it; parameters are changed on this tree (pre
 at a foot), and Pinocchio gets the text that `to_xml` writes. All records are frozen: a change makes a new
 tree.
 
-The legs exchange their roles at impact: the same configuration in coordinates of the next step.
+The legs exchange their roles at impact: the same configuration gets the coordinates of the next walking step.
 
     q+ = R q- + r,   v+ = R v-
 
-Links of one leg have twins in the other; the trunk and any other link are their own twins. With A the absolute
-angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. So R is a permutation for hips
-that count from a torso, and a combination for a hip that counts from the other leg. r is not zero for robots
-with spokes; it comes from the record.
+Links of one leg have twins in the other; the trunk, which is the torso and carries the legs, and any other link
+are their own twins. With a = A q the absolute angles of the links, and P the matrix that exchanges twins in a,
+R solves A R = P A. So R is a permutation for hips that count from a torso, and a combination for a hip that
+counts from the other leg. r is not zero for robots with spokes; it comes from the record.
 
 This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
 not, and `evened` takes the mean of legs that nearly are. Twins are paired along the way from foot to foot,
-from both ends to its middle.
+from both ends to its middle. The feet are a pair (link of the stance foot, link of the swing foot).
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ Triple = tuple[float, float, float]
 
 
 def vector(values: Array) -> Triple:
-    """The three entries of an array as a tuple."""
+    """The three entries of an array (3,) as a tuple of floats."""
     x, y, z = values.tolist()
     return x, y, z
 
@@ -80,7 +80,7 @@ class Inertial:
     """Moments about the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
 
     def scaled(self, kind: str, factor: float) -> Inertial:
-        """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
+        """A copy with the field `kind`, "mass", "com" or "inertia", multiplied by a factor [1]."""
         old = getattr(self, kind)
         new = factor * old if kind == "mass" else tuple(factor * x for x in old)
         return Inertial(**(vars(self) | {kind: new}))
@@ -134,7 +134,7 @@ class Joint:
 
     @property
     def mirrored(self) -> Joint:
-        """The joint whose angle is the negative of this one's."""
+        """The same joint with its angle counted the other way: axis and range are negated."""
         (x, y, z), (low, high) = self.axis, self.range
         return replace(self, axis=(-x, -y, -z), range=(-high, -low))
 
@@ -153,7 +153,7 @@ class Tree(Shown):
     """File named in messages."""
 
     def joint_above(self, link: str) -> Joint | None:
-        """The joint whose child is `link`, None at the root."""
+        """The joint whose child is `link`; None for the root."""
         return next((j for j in self.joints if j.child == link), None)
 
     def joints_below(self, link: str) -> tuple[Joint, ...]:
@@ -170,20 +170,20 @@ class Tree(Shown):
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
-        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang
-        below `top`.
+        """Joints from `link` up to link `top`, the nearest first; () for `top` itself, None where `link` does
+        not hang below it. For a `top` that is the root, which no joint carries, it is always None.
         """
         path = self.path_to_root(link)
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None
 
     def links_from(self, top: str) -> list[str]:
-        """Names of link `top` and all links below it that a joint carries, in the order of the file."""
+        """Names of link `top` and all links below it, in the file's order; [] for the root of the tree."""
         return [link for link in self.links if self.path_below(link, top) is not None]
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """A copy of the tree with the inertials of some links replaced. Raises ModelError for
-        impossible mass properties.
+        """A copy of the tree in which the links named in `inertials` have these mass properties. Raises
+        ModelError for those of no body.
         """
         links = dict(self.links)
         for name, inertial in inertials.items():
@@ -193,12 +193,13 @@ class Tree(Shown):
 
 
 def with_tip(tree: Tree, link: str, place: Triple, name: str = "") -> tuple[Tree, str]:
-    """The tree with a link without mass at a place [m] in the frame of `link`, a foot; and its name,
-    `name` or that of the link with "_tip" where no other has it.
+    """The tree with a new link without mass, a foot, fixed to `link` at a place [m] in its frame; and its name.
+
+    That is `name`, or if empty the link's name and "_tip", with underscores where another link or joint has it.
     """
     tip = free_name(tree, name or f"{link}_tip")
     mount = free_name(tree, f"{tip}_mount")
-    joint = Joint(mount, "fixed", link, tip, place, (1.0, 0.0, 0.0))
+    joint = Joint(mount, "fixed", link, tip, place, (1.0, 0.0, 0.0))  # its axis has no meaning
     links = {**tree.links, tip: Link(tip, None, ())}
     return replace(tree, links=links, joints=(*tree.joints, joint)), tip
 
@@ -211,9 +212,10 @@ def free_name(tree: Tree, name: str) -> str:
 
 
 def to_xml(tree: Tree) -> str:
-    """URDF text of `tree`; `urdf_reader.read` of it gives the same tree back.
+    """URDF text of `tree`; `urdf_reader.read` makes the same tree of it.
 
-    <limit> is compulsory in URDF: FREE stands for a limit that the tree does not state.
+    Torque limits are not in a tree, so every <limit effort> is FREE. <limit> is compulsory in URDF: FREE stands
+    for a limit that the tree does not state.
     """
     robot = ET.Element("robot", name=tree.name)
     for link in tree.links.values():
@@ -249,12 +251,14 @@ def _write_inertial(element: ET.Element, inertial: Inertial) -> None:
 
 
 def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
-    """Add origin, geometry and colour of a shape to the element <visual>."""
+    """Add origin, geometry and colour of a shape to the element <visual>; link: name of its link."""
     ET.SubElement(element, "origin", xyz=_text(*visual.origin))
     keys = GEOMETRY_SIZES[visual.shape]
+    # a box has its three edges in one attribute; the others have one number for each attribute
     sizes = [_text(*visual.size)] if len(keys) == 1 else map(_text, visual.size)
     shape = dict(zip(keys, sizes, strict=True))
     ET.SubElement(ET.SubElement(element, "geometry"), visual.shape, shape)
+    # URDF wants a name for a material; nobody reads it
     material = ET.SubElement(element, "material", name=link)
     ET.SubElement(material, "color", rgba=_text(*visual.rgba))
 
@@ -262,14 +266,15 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
 def check_inertial(inertial: Inertial, where: str) -> None:
     """Raise ModelError unless mass and moments are those of a rigid body.
 
-    The mass must be positive, no principal moment negative or above the sum of the other two. A point mass or
-    a rod has moments that are zero: D_s of the whole robot must be definite, not that of each body. Moments
-    are scaled, so that tiny bodies do not underflow.
+    The mass must be positive, no principal moment negative or above the sum of the other two. A point mass or a
+    rod has moments that are zero, which is right: D_s of the whole robot must be definite, not the inertia of
+    each body. Moments are scaled, so that tiny bodies do not underflow. where: file and link, for the message.
     """
     J = np.array(inertial.inertia)[SYMMETRIC]
     size = float(np.sum(np.abs(J)))
     fits = 0.0 < inertial.mass < math.inf and size < math.inf
     principal = np.linalg.eigvalsh(J / (size or 1.0)) if fits else np.array([-1.0, 0.0, 0.0])
+    # least principal moment, and least gap of the triangle inequality, relative to the sum of the moments
     least = min(float(principal[0]), float(np.sum(principal) - 2.0 * principal[2]))
     if not least >= -1e-9:
         raise ModelError(
@@ -279,21 +284,24 @@ def check_inertial(inertial: Inertial, where: str) -> None:
         )
 
 
-_EXACT = 1e-9  # largest residual of A R = P A, dimensionless
+_EXACT = 1e-9  # largest residual of A R = P A, and of the relative difference of equal legs, dimensionless
 _LEAST = 1e-6  # [kg], [kg m^2], [m], smaller numbers of the legs differ by round-off
 ALIKE = 0.01
 """Largest relative difference of the legs in a file whose mean is taken, dimensionless."""
 
 
 def way(tree: Tree, feet: tuple[str, str]) -> list[tuple[Joint, str]]:
-    """Joints on the way from one foot to the other, each with the link behind it."""
+    """Joints on the way from feet[0] to feet[1], each with the name of the link to which it leads."""
     one, other = (tree.path_to_root(foot) for foot in feet)
+    # up to the link where the two paths to the root meet, then down
     up = [(joint, joint.parent) for joint in one if joint not in other]
     return up + [(joint, joint.child) for joint in reversed(other) if joint not in one]
 
 
 def bodies_between(tree: Tree, feet: tuple[str, str]) -> list[list[str]]:
-    """Links on the way from one foot to the other, those that fixed joints hold together in one list."""
+    """Names of the links on the way from feet[0] to feet[1]: one list for each rigid body, whose links fixed
+    joints hold together.
+    """
     bodies = [[feet[0]]]
     for joint, link in way(tree, feet):
         if joint.type == "fixed":
@@ -304,8 +312,11 @@ def bodies_between(tree: Tree, feet: tuple[str, str]) -> list[list[str]]:
 
 
 def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
-    """Name of a link -> its twin in the other leg, paired from both feet to the middle of the way between them;
-    a link that is not in the result is its own twin.
+    """Name of a link -> its twin in the other leg, for the links of both legs; a link that is not in the result
+    is its own twin.
+
+    Rigid bodies on the way from foot to foot are paired from both ends to the middle, and in a pair of bodies
+    the links, each counted from its foot.
     """
     bodies, paired = bodies_between(tree, feet), dict[str, str]()
     for near, far in zip(bodies[: len(bodies) // 2], reversed(bodies), strict=False):
@@ -315,10 +326,10 @@ def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
 
 
 def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Array:
-    """Absolute angle of each link as a sum of `joints`: rows (len(links), n), dimensionless.
+    """Matrix A (len(links), n) of the absolute angles a = A q of some links, q the angles of the n `joints`.
 
-    An entry is +1 or -1 for a joint on the link's path to the root, the sign relative to the last joint, which
-    is the pitch; 0 for other joints.
+    An entry is +1 or -1 for a joint on the link's path to the root, +1 where it turns in the sense of the last
+    of `joints`, which is the pitch; 0 for other joints.
     """
     axis = next(joint.axis for joint in tree.joints if joint.name == joints[-1])
     rows = np.zeros((len(links), len(joints)))
@@ -331,7 +342,7 @@ def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Ar
 
 
 def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> Array:
-    """R (n, n) of q+ = R q- + r, dimensionless, from A R = P A by least squares.
+    """R (n, n) of q+ = R q- + r, dimensionless, from A R = P A by least squares; q are the angles of `joints`.
 
     Entries within 1e-9 of an integer are rounded. Raises ModelError when no linear map exchanges the legs: the
     residual is not zero or R R is not the identity.
@@ -344,6 +355,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     paired = A[: len(pairs)].tolist()
     own = [k for k, row in enumerate(A.tolist()) if k < len(paired) or row not in paired]
     A, links = A[own], [links[k] for k in own]
+    # row by row the angle of the twin
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
     R = np.where(np.abs(R) < _EXACT, 0.0, R)
@@ -358,23 +370,28 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
 
 def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     """Pairs (link of the stance leg, its twin in the swing leg), from the feet upwards."""
-    return tuple(twins(tree, feet).items())[::2]
+    return tuple(twins(tree, feet).items())[::2]  # `twins` has every pair in both directions
 
 
 def unlike(tree: Tree, feet: tuple[str, str]) -> dict[tuple[str, str], float]:
-    """Pairs of twins that differ in the plane, each with the largest relative difference of mass, moment, COM
-    and place on the parent, dimensionless.
+    """Pairs of twins -> largest relative difference [1] of mass, moment about y, COM and place on the parent;
+    only the pairs that differ by more than round-off.
     """
+    # where these four begin among the six numbers of `_in_plane`; COM and place are vectors
     starts, gaps = (0, 1, 2, 4), dict[tuple[str, str], float]()
     for pair in pairs(tree, feet):
         a, b = (_in_plane(tree, link) for link in pair)
+        # lengths of the four parts, of the difference and of either twin
         gap, *sizes = (np.sqrt(np.add.reduceat(x * x, starts)) for x in (a - b, a, b))
         gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), _LEAST)))
     return {pair: gap for pair, gap in gaps.items() if gap > _EXACT}
 
 
 def _in_plane(tree: Tree, link: str) -> Array:
-    """Mass [kg], moment about y [kg m^2], COM (x, z) and place (x, z) on the parent [m] of a link, (6,)."""
+    """Mass [kg], moment about y [kg m^2], COM (x, z) and place (x, z) on the parent [m] of a link, (6,).
+
+    0 for what it does not have: mass properties, or a joint above it.
+    """
     body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
     joint = tree.joint_above(link)
     place = (0.0, 0.0) if joint is None else joint.origin[::2]
@@ -382,8 +399,9 @@ def _in_plane(tree: Tree, link: str) -> Array:
 
 
 def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
-    """The tree with the mean of both legs where they differ by at most ALIKE, as exports of CAD do, and a
-    sentence on it; otherwise the tree itself.
+    """The tree in which both legs have the mean of their masses, moments, COMs and lengths, and a note on it.
+
+    So only where they differ by at most ALIKE, as exports of CAD do; otherwise the tree itself without a note.
     """
     gaps = unlike(tree, feet)
     if not gaps or max(gaps.values()) > ALIKE:
@@ -395,6 +413,7 @@ def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
             link, joint = links[name], joints[name]
             joints[name] = replace(joint, origin=(px, joint.origin[1], pz))
             if body := link.inertial:
+                # all six moments are scaled alike, so that they remain those of a body
                 body = body.scaled("inertia", yy / body.inertia[3] if yy else 1.0)
                 body = replace(body, mass=m, com=(x, body.com[1], z))
                 links[name] = replace(link, inertial=body)

@@ -6,10 +6,13 @@ frame at zero angles and (x, R) the origin of a joint in it,
     R_c = R_p R,   x' = R_p x,   n' = R_c n                          (joints)
     c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
 
-so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles
-keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Where the
-joints turn about another horizontal axis than y, the whole robot is turned about z until they do.
-Shapes that are meshes or stand oblique after the turn are not kept: the tree has upright primitives only.
+In parallel axes the joint has the place x' and the axis n', the child the COM c' and the moments I'; n, c and I
+are those in the file, in the child's frame, and R_i is the rotation of its <inertial>. R_c, the rotation of a
+link from its axes in the file to those of the world, is called its turn. So a leg that hangs down by an origin
+of rpy = (0, pi, 0) becomes a leg that points along -z. Angles keep their names,
+senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Where the joints turn about
+another horizontal axis than y, the whole robot is turned about z until they do. Shapes that are meshes or stand
+oblique after the turn are not kept: the tree has upright primitives only.
 
 Kept beside the tree are <limit effort>, the friction <dynamics damping friction>, and the
 inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, from <transmission>
@@ -77,7 +80,10 @@ class Contents:
 
 
 def parse(path: Path) -> ET.Element:
-    """The element <robot> of a URDF file. Raises ModelError for another file."""
+    """The element <robot> of a URDF file; without a name it gets that of the file.
+
+    Raises ModelError for another format, xacro macros, and more than MOST_LINKS links.
+    """
     data = path.read_bytes()
     if path.suffix == ".xacro" or b"<xacro:" in data:
         raise ModelError(
@@ -99,16 +105,17 @@ def parse(path: Path) -> ET.Element:
 
 
 def read(path: Path | str) -> Contents:
-    """Read and check a URDF. Raises ModelError."""
+    """Read and check a URDF. Raises ModelError that names the file and the element."""
     with reading("URDF", path, ModelError):
         return _contents(parse(Path(path)), str(path))
 
 
 def _contents(robot: ET.Element, source: str) -> Contents:
-    """The robot of an element; source: its file. Raises ModelError with the element, not the file."""
+    """The content of an element <robot>; source: its file. Raises ModelError that names the element only."""
     movers = robot.findall("joint")
     ends = [_ends(joint) for joint in movers]
     names = {link.get("name") for link in robot.findall("link")}
+    # files may hang the robot on a link "world" that they do not define
     if "world" not in names and any(parent == "world" for parent, _ in ends):
         ET.SubElement(robot, "link", name="world")
     bodies = robot.findall("link")
@@ -117,6 +124,7 @@ def _contents(robot: ET.Element, source: str) -> Contents:
             raise ModelError(f"two {tag}s are named '{name}'; names must differ")
     order = [link.get("name", "") for link in bodies]
     turns = _turns(order, movers, ends, np.eye(3))
+    # with the root as in the file; again, turned about z, where the joints turn about another axis than y
     yaw = _yaw(movers, ends, turns)
     if yaw:
         turns = _turns(order, movers, ends, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
@@ -132,7 +140,7 @@ def _contents(robot: ET.Element, source: str) -> Contents:
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
-    """Notes on what the reader assumed about a URDF, and which parts of it the robot leaves out."""
+    """Notes on what the reader assumed about a URDF and what it leaves out; yaw [rad]: of `_yaw`."""
     bodies = robot.findall("link")
     heavy = {link.get("name"): e for link in bodies if (e := link.find("inertial")) is not None}
     points = [name for name, e in heavy.items() if e.find("inertia") is None]
@@ -152,13 +160,17 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
 
 
 def _rotors(robot: ET.Element) -> dict[str, float]:
-    """N^2 J [kg m^2] by joint of each <transmission>, from the texts of its elements."""
+    """Inertia N^2 J [kg m^2] of the rotor of each <transmission>, by the name of its joint.
+
+    N is the text of <mechanicalReduction>, 1 if missing; without <motorInertia> J the joint is left out.
+    """
     result = {}
     for e in robot.iterfind("transmission[joint]"):
         texts = {
             tag: e.findtext(f".//{tag}", "1") for tag in ("mechanicalReduction", "motorInertia")
         }
         if e.find(".//motorInertia") is not None:
+            # `_numbers` reads attributes, so the texts become those of an element
             numbers = ET.Element("transmission", texts)
             N, J = (_numbers(numbers, tag, "", 1, "<transmission>")[0] for tag in texts)
             result[_required(e, "joint", "<transmission>").get("name", "")] = N * N * J
@@ -172,7 +184,7 @@ def _place_of(element: ET.Element) -> str:
 
 
 def _name(element: ET.Element, where: str = "", key: str = "name") -> str:
-    """The attribute `key` of an element, after a check that it is printable.
+    """The attribute `key` of an element, after a check that it is printable text; where: start of the message.
 
     Line breaks and tabs would spoil tables and messages. Raises ModelError.
     """
@@ -198,11 +210,11 @@ def _numbers(
     where: str,
     least: float = -_LARGEST,
 ) -> Triple:
-    """`count` numbers of the attribute `key`, none below `least`; those of the text `default` where it is
-    missing.
+    """`count` numbers of the attribute `key` of an element, none below `least`; those of the text `default`
+    where the attribute or the element (None) is missing.
 
-    Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
-    would also read "nan", "inf" and "1_0".
+    Raises ModelError that quotes the attribute after `where`; so does a missing one with default "". Only
+    decimal notation counts: Python would also read "nan", "inf" and "1_0".
     """
     text = default if element is None else element.get(key, default)
     words = text.split()
@@ -238,7 +250,7 @@ def _ends(joint: ET.Element) -> tuple[str, str]:
 def _turns(
     links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], R: Array
 ) -> dict[str, Array]:
-    """Rotation (3, 3) of each link at zero angles, from its axes to those of the world; link -> rotation.
+    """Turn (3, 3) of each link at zero angles, from its axes to those of the world, by the link's name.
 
     ends: (parent, child) of each joint. R (3, 3): of the root. Raises ModelError unless the links are one tree.
     """
@@ -246,6 +258,7 @@ def _turns(
     roots = [link for link in links if link not in parents]
     turns = dict.fromkeys(roots, R)
     each = list(zip(joints, ends, strict=True))
+    # from the root outwards: joints whose parent has its turn and whose child has none yet
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
             turns[child] = _origin(joint, _place_of(joint), turns[parent])[1]
@@ -264,8 +277,8 @@ def _turns(
 def _yaw(
     joints: list[ET.Element], ends: list[tuple[str, str]], turns: Mapping[str, Array]
 ) -> float:
-    """Angle [rad] about z that turns the axis of the first joint that turns to y or -y; 0 if the axis is not
-    horizontal.
+    """Angle [rad] by which the robot must turn about z, so that the axis of its first revolute or continuous
+    joint is y or -y; 0 if it is so already, or the axis is not horizontal.
 
     It is in [-pi/2, pi/2); -pi/2 makes a robot that walks along y walk along x.
     """
@@ -278,14 +291,15 @@ def _yaw(
 
 
 def _clean(turn: Array) -> Array:
-    """A turn whose round-off of pi is set to zero, so that turns by right angles stay exact."""
+    """The turn (3, 3) with 0 for entries that are round-off of pi, so that right angles are exact."""
     return np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
 
 
 def _origin(element: ET.Element, where: str, R: Array) -> tuple[Triple, Array]:
-    """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`.
+    """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`; 0 and
+    R if there is none.
 
-    R (3, 3): from the axes of the element to the result's. where: place in the file, for errors.
+    R (3, 3): from the axes of the element to those of the result. where: place in the file, for errors.
 
     rpy turns about the fixed axes x, y, z in this order.
     """
@@ -297,9 +311,10 @@ def _origin(element: ET.Element, where: str, R: Array) -> tuple[Triple, Array]:
 
 # -- links and joints ------------------------------------------------------------------------------
 def _link(element: ET.Element, turns: Mapping[str, Array], moved: set[str]) -> Link:
-    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError.
+    """The link of an element <link>, in the axes of the world. Raises ModelError.
 
-    Without mass and moments it is a frame, and so is a root without mass, such as a world.
+    Without mass and moments it is a frame, and so is a root without mass, such as a world. turns: turn (3, 3)
+    by link. moved: names of the links that a joint carries, all but the root.
     """
     where, R = _place_of(element), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
@@ -307,14 +322,14 @@ def _link(element: ET.Element, turns: Mapping[str, Array], moved: set[str]) -> L
     if body is not None:
         inertial = _inertial(body, where, R)
         if inertial.mass == 0.0 and not (any(inertial.inertia) and element.get("name") in moved):
-            inertial = None
+            inertial = None  # moments without mass on a link that a joint carries are refused below
         else:
             urdf.check_inertial(inertial, where)
     return Link(element.get("name", ""), inertial, visuals)
 
 
 def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
-    """Mass properties of an element <inertial>, in axes turned by R (3, 3).
+    """Mass properties of an element <inertial>, in the axes of the world; R (3, 3): turn of its link.
 
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion. Without <inertia> it is a point.
@@ -324,6 +339,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     inertia, where = element.find("inertia"), f"{where} <inertia>"
     moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in urdf.MOMENTS])
     turned = turn @ moments[urdf.SYMMETRIC] @ turn.T
+    # symmetric but for round-off; upper triangle in the order of MOMENTS, where entry 3 is yy
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
     flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
@@ -331,13 +347,14 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
 
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
-    """The shape of an element <visual> in axes turned by R (3, 3); None if it is no primitive, or is oblique
-    there.
+    """The shape of an element <visual> in the axes of the world; None if it is no box, sphere or cylinder, or
+    stands oblique to these axes. R (3, 3): turn of its link.
     """
     shape = next((g for g in element.iterfind("geometry/*") if g.tag in urdf.GEOMETRY_SIZES), None)
     if shape is None:
         return None
     place, turn = _origin(element, f"{where} <visual>", R)
+    # the permutation of axes next to the turn; a cylinder must only have its axis along z
     axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
     oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
     if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
@@ -351,10 +368,10 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
 
 
 def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: str) -> Joint:
-    """The joint of an element, with its place and axis in the turned axes, its speed limit and its range.
+    """The joint of an element <joint>, with place and axis in the axes of the world, speed limit and range.
 
-    A range of a whole turn or more is none. Raises ModelError for unknown types, mimic joints and axes that are
-    not of unit length.
+    turns: turn (3, 3) by link. parent, child: names of its links. A range of a whole turn or more is none.
+    Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
     """
     where, kind = _place_of(element), element.get("type", "")
     if kind not in (*urdf.JOINT_TYPES, "continuous") or element.find("mimic") is not None:
@@ -366,7 +383,7 @@ def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: 
     axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
-    if kind != "fixed":
+    if kind != "fixed":  # <axis> is in the child's frame
         axis = turns[child] @ axis
     limit = element.find("limit")
     speed, low, high = (

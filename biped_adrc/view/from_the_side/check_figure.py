@@ -25,7 +25,10 @@ _STEP = 0.6
 
 
 def check_figure(biped: Biped) -> Figure:
-    """Draw the robot from the side as it was understood."""
+    """Draw the robot from the side as its URDF and its record were understood, with names, masses and angles.
+
+    Beside each COM stands its link; a line goes from a link's origin to its COM and to the joints below it.
+    """
     d, tree, leg = biped.description, biped.tree, robot_of(biped).leg
     q = apart(biped, _STEP * leg, 0.0, {})
     places = link_placements(tree, joint_values(biped, q))
@@ -62,12 +65,15 @@ def check_figure(biped: Biped) -> Figure:
 
 
 def _senses(axes: Axes, biped: Biped, places: dict[str, Array], radius: float) -> None:
-    """Draw a bent arrow at each joint in the sense of its angle, wider where others lie there already."""
+    """Draw at each joint a bent arrow in the sense in which its angle grows, wider where other joints are at
+    the same place. places: world placement (4, 4) of each link by name. radius [m]: of a lone arrow.
+    """
     joints, there = {joint.name: joint for joint in biped.tree.joints}, list[Array]()
     for i, name in enumerate(biped.description.joints):
         centre = _at(places[joints[name].child])
         k = sum(np.allclose(centre, other) for other in there)
         there.append(centre)
+        # a rotation about +y is clockwise in the picture, which has x to the right and z up
         bend = bent_arrow(-joints[name].axis[1] * radius * (1.0 + 0.5 * k))
         axes.add_patch(Polygon(centre + bend, color=TORQUE, alpha=0.7, zorder=4))
         side = 1 if joints[name].child in legs(biped)[1] else -1
@@ -82,7 +88,9 @@ def _at(M: Array, point: tuple[float, ...] = (0.0, 0.0, 0.0)) -> Array:
 def _write(
     axes: Axes, point: Array, text: str, side: int, colour: str, out: float, up: float = 0.0
 ) -> None:
-    """Write a text beside a point (2,) [m]: `out` to the right, or left for side -1, and `up` [points]."""
+    """Write a text beside a point (2,) [m]: from `out` to the right of it (side 1) or to the left (side -1),
+    and `up` above it, both in typographic points.
+    """
     ends = "left" if side > 0 else "right"
     far = (side * (4.0 + out), up - 4.0)
     axes.annotate(

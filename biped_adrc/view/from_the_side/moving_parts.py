@@ -2,8 +2,9 @@
 
 `DrawnWalk` makes the artists of one walk on an Axes once; its method `show` sets their positions and colours
 for the time t [s]. The module `moving_picture` puts the parts together. Matplotlib draws
-walk k with zorder 10 k to 10 k + 9, so that one walk is in front of another as a whole, and ground and trails
-behind all walks.
+walk k with zorder 10 k to 10 k + 9, so that one walk is in front of another as a whole, and the ground and the
+paths of hip and foot behind all walks, as k begins at 2. An arc is one single support. A role says which leg a
+line belongs to: stance, swing, or "" for the trunk.
 """
 
 from __future__ import annotations
@@ -42,10 +43,10 @@ def blank(width: float, height: float) -> Figure:
 
 
 def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[Array]:
-    """Draw the figure at the times (K,) [s] with `show`; returns the pixels (height, width, 3) of each.
+    """Draw the figure at the times (K,) [s]; returns the pixels (height, width, 3) of each, 0 to 255.
 
-    The figure is made once; from frame to frame only its lines move, as making a figure
-    takes longer than drawing it.
+    show: the function that moves the figure's parts to a time. The figure is made once; from frame to frame
+    only its lines move, as making a figure takes longer than drawing it.
     """
     canvas, out = FigureCanvasAgg(figure), []
     for t in times.tolist():
@@ -56,14 +57,15 @@ def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[
 
 
 def wrapped(words: str, width: float) -> str:
-    """Break a text of 11 points into lines of at most `width` [px]."""
+    """Break a text in letters of 11 points into lines of at most `width` [px]; its own line breaks stay."""
     return "\n".join(textwrap.fill(line, int(width / LETTER)) for line in words.split("\n"))
 
 
 def ground(axes: Axes, views: list[SideView]) -> None:
-    """Draw the ground of every walk as a line, and the tiles and stones of the last one.
+    """Draw the ground of every walk as a line, and the tiles and stepping stones of the last one.
 
-    Equal lines are drawn once. A stone is where the foot that stands on the one before has to land next.
+    Equal lines are drawn once. Each stone is drawn where the next foot has to land, measured from the foothold
+    before it, within the walker's tolerance.
     """
     x = np.concatenate([view.scene.footholds for view in views])
     low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
@@ -83,7 +85,8 @@ def ground(axes: Axes, views: list[SideView]) -> None:
 
 
 def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> None:
-    """Set the limits of the axes around the hip at t [s]: `left` [m] to its left, `right` [m] to its right.
+    """Set the limits of the axes around the hip at t [s]: `left` [m] to its left, `right` [m] to its right, and
+    in height around the ground below it.
 
     The limits stay as they are where the hip's position is not finite, as in a walk that has diverged.
     """
@@ -124,7 +127,7 @@ class DrawnWalk:
         self.steps: list[int] = []
 
     def show(self, t: float) -> None:
-        """Move all artists to t [s], which is later than the time before."""
+        """Move all artists to t [s]; from call to call t has to grow, since the paths are extended."""
         view, scene = self.view, self.view.scene
         roles, placements = view.roles(t), view.placements(t)
         self.links.set_segments(placed_lines(view.bones, placements))
@@ -149,8 +152,8 @@ class DrawnWalk:
         )
 
     def _extend(self, points: Array, step: int) -> None:
-        """Extend the drawn paths to hip and swing foot `points` (4,) [m]; the foot's path
-        breaks where the feet exchange.
+        """Extend the drawn paths to `points` (4,), x and z of hip and of swing foot [m], in single support
+        `step`; the path of the swing foot breaks at an impact, where the other foot becomes the swing foot.
         """
         self.passed.append(points)
         self.steps.append(step)
@@ -159,10 +162,10 @@ class DrawnWalk:
         self.foot.set_data(*np.insert(path[:, 2:], jumps, np.nan, axis=0).T)
 
     def _arrow(self, k: int, start: Array, force: Array) -> tuple[Array, str]:
-        """Draw arrow k for a force (2,) [N] at `start` (2,) [m]; returns the arrow (2,) [m],
-        and a text if it was cut.
+        """Draw arrow k (0: stance foot, 1: other foot) for a force (2,) [N] at `start` (2,) [m]; returns the
+        vector of the arrow (2,) [m], and a text if it was cut to LONGEST_ARROW, else "".
 
-        The robot's weight gives the length `WEIGHT_LENGTH`; the head shrinks with a short arrow.
+        A force as large as the robot's weight has the length `WEIGHT_LENGTH`; a short arrow has a small head.
         """
         vector = self.view.metres_per_newton * force
         length, words = float(np.hypot(*vector)), ""

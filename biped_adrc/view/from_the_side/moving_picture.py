@@ -54,11 +54,12 @@ def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) 
     walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and the
     picture follows it. clip: the part shown, pace and arrangement.
 
-    Raises InputError for a frame rate, a part or an arrangement that does not fit, and OutputError.
+    Raises InputError for a frame rate or a part that does not fit, OutputError for a file it cannot write.
     """
     fps = clip.fps or 25.0
     if not _FPS[0] <= fps <= _FPS[1]:
         raise InputError(f"fps is {fps:g}, expected {_FPS[0]:g} to {_FPS[1]:g} in a moving picture")
+    # in slow motion a second of the walk takes more frames
     times = _times(walks, clip, fps * clip.slower)
     pace = "" if clip.slower == 1.0 else f"{clip.slower:g} times slower"
     with style():
@@ -70,11 +71,13 @@ def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) 
 def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
     """Times (K,) [s] of the frames, `rate` [1/s] of them per second of the walk.
 
-    If a walk ended early, its end is one of them.
+    They fill the part that the clip shows, its stop not included; if a walk ended early the stop is added as a
+    last frame, in which the reason is read.
     """
     first = min(walk.trajectory.t_start for walk in walks.values())
     start, stop = clip.part(first, max(walk.trajectory.t_end for walk in walks.values()), first)
     check_frames((stop - start) * rate)
+    # round-off in the product does not add a frame
     count = math.ceil((stop - start) * rate * (1.0 - 1e-12))
     times = start + np.arange(count) / rate if count > 1 else np.array([start, stop])
     badly = any(ending(walk.trajectory) for walk in walks.values())
@@ -84,15 +87,17 @@ def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
 def moving_figure(
     walks: Mapping[str, Drawable], pace: str, apart: bool
 ) -> tuple[Figure, Callable[[float], None]]:
-    """Make the figure of walks, and the function that moves it to a time t [s].
+    """Make the figure of walks, and the function that moves it to a time t [s], later at each call.
 
-    apart: side by side, in panels as high as the tallest robot asks for, in place of over one another.
+    pace: text on how slow the picture is, in the caption; empty for the pace of the walk. apart: the walks are
+    side by side, in panels as high as the tallest robot needs, and not over one another.
     """
     groups = [{name: walk} for name, walk in walks.items()] if apart else [walks]
     width, shown = (WIDE, PANEL) if apart else (WIDTH, SHOWN)
     share, panels = 1.0 / len(groups), []
     views = [[SideView(WalkScene.of(walk)) for walk in group.values()] for group in groups]
     tallest = max(draw.HEADROOM * x[-1].height + draw.SOLE for x in views)
+    # a metre has the same number of pixels in width and in height
     figure = draw.blank(width, share * width * tallest / shown)
     for k, group in enumerate(groups):
         axes = figure.add_axes((k * share, 0.0, share, 1.0))
@@ -108,8 +113,9 @@ def moving_figure(
 class _Panel:
     """Walks laid over one another in the same axes.
 
-    The last walk is solid; its hip keeps its place in the picture, at the share `ahead` of the width `shown`
-    [m], and the ground moves. A caption gives time, step and pace, and how walks have ended.
+    The last walk is solid, the others are translucent; its hip keeps its place in the picture, at the share
+    `ahead` [1] of the width `shown` [m] from the left, and the ground moves. A caption says time, step and
+    pace, and how walks have ended. views: of the walks, in their order.
     """
 
     def __init__(
@@ -135,11 +141,11 @@ class _Panel:
         self.text = axes.text(
             0.02, 0.97, "", transform=axes.transAxes, va="top", fontsize=11, zorder=90
         )
-        self.text.set_parse_math(False)
+        self.text.set_parse_math(False)  # a dollar in a name is no formula
         self.text.set_bbox({"fc": "white", "ec": "none", "alpha": 0.7, "pad": 2.0})
 
     def show(self, t: float) -> None:
-        """Draw the walks at t [s]."""
+        """Draw the walks at t [s], later than at the last call, and the caption of that time."""
         draw.follow(self.axes, self.last, t, *self.around)
         for walk in self.drawn:
             walk.show(t)
@@ -151,10 +157,10 @@ class _Panel:
 
 
 def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
-    """Encode frames (height, width, 3) as a GIF with one palette for all, so that colours do not flicker.
+    """Encode frames (height, width, 3), 0 to 255, as a GIF with one palette, so that colours do not flicker.
 
-    The palette is made from every eighth frame and from bands of the colours MARKED. fps [1/s]; rest [s]: how
-    much longer the last frame is shown.
+    The palette is made from about eight of the frames and from bands of the colours MARKED. fps [1/s]: frames
+    per second. rest [s]: how much longer the last frame is shown.
     """
     some = [frame[::3] for frame in frames[:: max(1, len(frames) // 8)]]
     height, width, _ = some[0].shape
@@ -164,6 +170,7 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
         Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
         for frame in frames
     )
+    # a GIF counts in hundredths of a second: rounded so that errors do not add up; Pillow takes milliseconds
     hundredths = np.diff(np.rint(100.0 * np.arange(len(frames) + 1) / fps))
     hundredths[-1] += round(100.0 * rest)
     buffer, durations = io.BytesIO(), [10 * int(x) for x in hundredths]
@@ -213,10 +220,10 @@ def strip(axes: Axes, walk: Drawable, clip: Clip) -> Axes:
 
 
 def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
-    """Draw one posture at t [s]: a collection of lines for each role, so that each has
-    one entry in the legend.
+    """Draw one posture at t [s]: a collection of lines for each role (stance leg, swing leg, trunk), so that
+    each has one entry in the legend.
 
-    darkness: 0 to 1, sets the opacity. named: whether its lines are named in the legend.
+    darkness: 0 to 1, for an opacity from 0.25 to 1. named: whether its lines are named in the legend.
     """
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
@@ -234,8 +241,10 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
     ground longer on both sides.
     """
     scene = view.scene
+    # at an impact the strip ends with the step before it
     first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
     x, z = scene.footholds[first : last + 1], scene.heights[first : last + 1]
+    # the foothold after the strip, where the swing foot of its last step lands
     reach = scene.footholds[min(last + 1, len(scene.footholds) - 1)]
     aside = max(MARGIN, view.width + 0.05)
     low, high = float(x.min()) - aside, max(float(x.max()), float(reach)) + aside

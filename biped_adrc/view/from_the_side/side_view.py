@@ -1,7 +1,8 @@
 """The robot from the side: its links as lines in the x-z plane, from the primitives of the URDF.
 
 `bones` finds a line for each link in the frame of that link; `SideView` moves these lines with a
-walk. Strips, moving pictures and the scale of the page in Meshcat are made from it.
+walk. Strips, moving pictures and the scale of the page in Meshcat are made from it. A line belongs to the
+"stance" leg, to the "swing" leg, or "" to the trunk; a placement is a homogeneous transform (4, 4).
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ class Bone:
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """Find the lines of a robot, link by link in the order of the file; a wheel has each once a spoke."""
+    """Find the lines of a robot, by links in the order of its URDF; a wheel has them once for each spoke."""
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     result = [
         Bone(name, ends, leg.get(name, ""))
@@ -44,28 +45,30 @@ def bones(biped: Biped) -> list[Bone]:
 
 
 def _lines(tree: Tree, link: Link) -> list[Array]:
-    """Ends (2, 3) [m] of the lines of a link: axes of cylinders and longest sides of boxes.
+    """Ends (2, 3) [m] of the lines of a link, in its frame: axes of cylinders and longest sides of boxes.
 
-    Without such a primitive they go from its origin to the joints below it, or to its COM, as a torso's.
+    Without such a primitive they go from its origin to the joints below it, or, where there is none (a torso),
+    to its COM. A line along y, not seen from the side, is left out.
     """
     axes = [ends for visual in link.visuals if (ends := _axis(visual)) is not None]
-    seen = [j.origin for j in tree.joints_below(link.name) if any(j.origin[::2])]  # not along y
+    # [::2]: x and z
+    seen = [j.origin for j in tree.joints_below(link.name) if any(j.origin[::2])]
     if not seen and link.inertial is not None and any(link.inertial.com[::2]):
         seen = [link.inertial.com]
     return axes or [np.array([(0.0, 0.0, 0.0), end]) for end in seen]
 
 
 def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:
-    """x and z [m] of both ends (2, 2) of every line in the world, from the placement
-    (4, 4) of each link by name.
+    """x and z [m] of both ends (2, 2) of every line in the world; placements: world placement (4, 4) of each
+    link, by name.
     """
     result = ((bone, placements[bone.link]) for bone in lines)
     return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in result]
 
 
 def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:
-    """ "stance", "swing" or "" of every line in single support `step` (from 1): the legs
-    change over at every impact.
+    """ "stance", "swing" or "" (trunk) of every line in single support `step` (from 1): at every impact stance
+    and swing leg are exchanged.
     """
     if not exchanged(biped, step):
         return [bone.leg for bone in lines]
@@ -120,7 +123,9 @@ class SideView:
 
     @cached_property
     def _about_foot(self) -> Array:
-        """x and z [m] of the ends of all lines, relative to the stance foot, at 50 times of the walk (K, 2)."""
+        """x and z [m] of the ends of all lines, relative to the stance foot, at 50 equally spaced times of the
+        walk (K, 2), K = 100 times the number of lines.
+        """
         scene = self.scene
         times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50).tolist()
         feet = [scene.foothold(scene.arc_at(t)) for t in times]

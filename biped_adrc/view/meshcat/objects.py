@@ -2,8 +2,10 @@
 
 Meshcat's scene is a tree of nodes with paths; an object hangs at a node and moves with it. The tree
 here mirrors that of the URDF, a node for each joint, so the player moves a link by one joint value
-and links stay together between frames. Every `add_` function draws below the node it is given;
-`MemoryWindow` collects the commands that come of it, and `view` writes them into the page.
+and links stay together between frames. Every `add_` function draws below its argument `node`;
+`MemoryWindow` collects Meshcat's commands for it, and `view` writes them into the page.
+The player is player.js in the page: it moves, scales, fills in and colours at run time what is drawn here once.
+Lengths are in [m]. y points away from the camera; a placement is a homogeneous transform (4, 4).
 
 The feet are points in the model and balls in the URDF: the ground is drawn one radius below the
 footholds.
@@ -52,12 +54,12 @@ SceneNode: TypeAlias = meshcat.Visualizer
 
 
 def paint(rgb: _Colour, opacity: float = 1.0) -> object:
-    """Meshcat's material of one colour and opacity (0 to 1)."""
+    """Meshcat's material of one colour and opacity (0 to 1); an opacity in `rgb` itself does not count."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
 def colour(rgb: _Colour) -> int:
-    """Convert a colour to Meshcat's whole number 0xRRGGBB."""
+    """Convert a colour to Meshcat's whole number 0xRRGGBB; an opacity in it is left out."""
     red, green, blue = (
         (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
     )
@@ -72,10 +74,10 @@ def joint_path(tree: Tree, joint: Joint) -> str:
 
 
 def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
-    """Draw a robot: a node for each joint, at joint value 0, with the primitives of its child below it.
+    """Draw a robot: a node for each joint, at joint value 0, with the shapes of its child link below it.
 
-    The player moves the joints. The primitives of a wheel are drawn once for every spoke; one at
-    the joint's own origin, the hub, once.
+    opacity: 0 to 1, times that of each shape. The player moves the joints. The shapes of a wheel are drawn once
+    for every spoke; one at the joint's own origin, the hub, once.
     """
     tree = biped.tree
     for joint in tree.joints:
@@ -83,6 +85,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
         here.set_transform(joint_transform(joint, 0.0))
         for k, visual in enumerate(tree.links[joint.child].visuals):
             for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
+                # `visual_links` has the names of the first ones
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
                 part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
                 upright = UPRIGHT if visual.shape == "cylinder" else np.eye(3)
@@ -90,7 +93,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
 
 
 def _shape(visual: Visual) -> object:
-    """Convert a primitive of the URDF to Meshcat's shape."""
+    """Convert a primitive of the URDF to Meshcat's shape; Meshcat's cylinders are along y, not z."""
     if visual.shape == "box":
         return shapes.Box(list(visual.size))
     if visual.shape == "sphere":
@@ -103,16 +106,17 @@ UPRIGHT = turn((1.0, 0.0, 0.0), 0.5 * math.pi)
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
-    """Paths below the robot of the drawn parts of each leg: first the stance leg of odd steps, then the other.
+    """Paths, below the robot's node, of the drawn parts of each leg: first of the leg that carries odd steps,
+    then of the other.
 
-    The player gives them their colours, which change over at impact.
+    The player colours them as stance leg and swing leg, which are exchanged at impact.
     """
     drawn = visual_links(biped.tree)
     return [[path for path, link in drawn if link in leg] for leg in legs(biped)]
 
 
 def visual_links(tree: Tree) -> list[tuple[str, str]]:
-    """(path below the robot, name of the link) of every drawn primitive."""
+    """(path below the robot's node, name of the link) of every primitive, of a wheel only of one spoke."""
     return [
         (f"{joint_path(tree, joint)}/visual_{k}", joint.child)
         for joint in tree.joints
@@ -140,24 +144,27 @@ def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: flo
 
 
 def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0) -> Array:
-    """Placement (4, 4) of an object that lies along the ground, `depth` [m] below a point
-    (x, z) [m] of its surface.
+    """Placement (4, 4) of an object that lies along the ground, `depth` [m] below a point (x, z) [m] of it,
+    measured perpendicular to the ground.
 
-    slope [rad], positive downhill; side [m], away from the camera.
+    slope [rad]: of the ground, positive downhill. side [m]: y of the object.
     """
     R = turn((0.0, 1.0, 0.0), slope)
     return placed(np.array([point[0], side, point[1]]) - depth * R[:, 2], R)
 
 
 def add_trace(node: SceneNode, points: int, rgb: _Colour, opacity: float) -> None:
-    """Add an empty line with room for `points` points; the player fills it in."""
+    """Add an empty line of this colour and opacity (0 to 1) for as many points; the player fills it in."""
+    # both ends of each segment between two points
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
 
 
 def add_arrow(node: SceneNode, rgb: _Colour, opacity: float) -> None:
-    """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, to be scaled by the player."""
+    """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, both from z = 0. The player
+    turns it, scales the shaft and moves the head to its end.
+    """
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
     shaft.set_transform(placed((0.0, 0.0, 0.5), UPRIGHT))
@@ -172,7 +179,8 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: _Colour, opacity: fl
     """
     node.set_transform(placed(origin))
     outline = bent_arrow(1.0)
-    last, n = len(outline) - 1, len(outline) // 2 - 1  # point k of the outer rim is beside last - k
+    # the rim in triangles, point k of its outer side beside last - k of its inner; and the head, a triangle
+    last, n = len(outline) - 1, len(outline) // 2 - 1
     k = np.arange(n - 1)
     rim = np.column_stack((last - k, last - k - 1, k, last - k - 1, k + 1, k)).reshape(-1, 3)
     mesh = np.insert(outline, 1, 0.0, axis=1), np.vstack((rim, (n + 2, n, n + 1)))
@@ -182,7 +190,8 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: _Colour, opacity: fl
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
     """Draw light and dark tiles, from two before to three behind the walks, `depth` [m] below their footholds.
 
-    Each walk has its own ground, as wide as its lane [m].
+    Walk k is at y = k lane, lane in [m]; each has its own ground, which reaches half way to its neighbours, and
+    0.5 m beyond the first and the last walk.
     """
     x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
@@ -212,9 +221,9 @@ def set_stage(viewer: SceneNode) -> None:
 def camera(kind: str, scale: float) -> dict[str, object]:
     """Commands, position and target [m] of a camera, for player.js.
 
-    kind: "side", at the robot's right side with x to the right and z up, or "perspective", before it. scale:
-    how much larger the robot is than RABBIT. Position and target are in the camera's own frame, which has y
-    up and z towards the robot's right.
+    kind: "side", at the robot's right side with x to the right and z up, or "perspective", before it. scale
+    [1]: how much larger the robot is than RABBIT, for which the lengths here are. Position and target, the
+    point looked at, are in the camera's own frame: x forwards, y up, z towards the robot's right.
     """
     window = MemoryWindow(kind)
     node = window.viewer[f"/Cameras/{kind}/rotated"]
@@ -232,8 +241,7 @@ def camera(kind: str, scale: float) -> dict[str, object]:
 class MemoryWindow:
     """A stand-in for Meshcat's window that keeps the commands; it opens no port and starts no process.
 
-    seed: from which the names of objects are drawn, see `send`. packed: the commands in base64.
-    viewer: the root of the tree.
+    seed: the names of objects are drawn from it, see `send`.
     """
 
     def __init__(self, seed: str = "scene") -> None:
@@ -245,7 +253,8 @@ class MemoryWindow:
         self._source = random.Random(seed)
 
     def send(self, command: Any) -> None:
-        """Store a command of Meshcat, packed as its viewer expects it; `lower` makes the command a dictionary.
+        """Store a command of Meshcat, packed as its viewer expects it; `lower` is the command's own method that
+        makes it a dictionary. Meshcat calls this for whatever is done to a node.
 
         Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the order of
         their first use, of the same length, so that the same walk gives the same bytes on any machine.
@@ -254,7 +263,7 @@ class MemoryWindow:
         self.packed.append(base64.b64encode(packed).decode("ascii"))
 
     def _named(self, name: bytes) -> bytes:
-        """The name from the seeded source that replaces this one of Meshcat's."""
+        """The name from the seeded source that replaces this name of Meshcat's, the same one at every use."""
         if name not in self._names:
             number = uuid.UUID(int=self._source.getrandbits(128), version=4)
             self._names[name] = str(number).encode()

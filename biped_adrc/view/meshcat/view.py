@@ -4,10 +4,10 @@
 writes all of it as JSON into the page (`pages.player`); player.js plays it. One walk is solid and followed by
 the camera, the others are ghosts: translucent, each a little farther from the camera.
 
-The player draws a walk at any time by cubic Hermite interpolation between nodes. Nodes are the times of the
-frames, both ends of every single support, the switching times of pushes, and on soft ground the times at which
-the other foot touches or leaves it, or a foot begins or ends to slip. Between the nodes of a walk the error of
-the drawn angles is 1e-5 rad at most.
+The player draws a walk at any time by cubic Hermite interpolation between samples. They are at the times of the
+frames, at both ends of every single support, at the switching times of pushes, and on soft ground at the times
+at which the other foot touches or leaves it, or a foot begins or ends to slip. Between them the error of the
+drawn angles is 1e-5 rad at most. A node is one of Meshcat's tree (`objects`), an arc one single support.
 """
 
 from __future__ import annotations
@@ -50,10 +50,11 @@ def animation_html(
     """Text of a page that shows the walks overlaid, without server or network; equal walks give equal text.
 
     walks: name -> walk, one or more; the last is drawn opaque and followed by the camera, the others are
-    translucent. clip: frames per second and camera. marks: texts beside the clock, with their times.
-    Raises InputError for too many frames.
+    translucent. clip: frames per second and camera are taken of it, the defaults if None. marks: texts beside
+    the clock, with their times. Raises InputError for too many frames.
     """
     clip = Clip() if clip is None else clip
+    # the solid walk, the last one, comes first
     scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
     frames = {name: Frames.of(scene, clip.fps or _FPS) for name, scene in scenes.items()}
     settings = scene_settings(scenes, clip, frames, marks)
@@ -77,9 +78,10 @@ def scene_settings(
 ) -> dict[str, object]:
     """The settings that scene.js and player.js read: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play` has none.
+    scenes: name -> walk, the solid one first. frames: name -> samples of the walk; None for a page in which the
+    walk is simulated while it is shown (`play`).
 
-        walks       for each walk the entry of `_add_walk`, its name, its end [s] and how it ended
+        walks       for each walk the entry of `_add_walk`, its name, its end [s], how it ended, its samples
         follow      the node, of the first walk, that the camera follows
         marks       (start, stop, text); fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
@@ -100,7 +102,7 @@ def scene_settings(
     draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
     draw.set_stage(viewer)
     tree, base = solid.biped.tree, solid.biped.description.base[0]
-    base_x = next(joint for joint in tree.joints if joint.name == base)
+    base_x = next(joint for joint in tree.joints if joint.name == base)  # moves along x alone
     scale = max(1.0, SideView(solid).height / TALL)
     return {
         "walks": described,
@@ -120,13 +122,14 @@ def _add_walk(
 ) -> dict[str, object]:
     """Draw one walk below the node `robot`; returns its entry for player.js, with the paths of its parts.
 
-    path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
+    path: of the node `robot`. opacity: 0 to 1. room: number of points that each trace has room for.
 
         joints        path, type, axis and origin [m] of each moving joint, in the order of the samples
         legs          paths of the parts of either leg; colours: of stance and swing leg, 0xRRGGBB
         rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
-        fall          tan(slope); ground: its level below the footholds [m]; head: length of an arrow's head [m]
+        fall          tan(slope); ground: its height over the footholds [m], negative
+        head          length of an arrow's head [m]
         metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
     """
     biped, depth = scene.biped, draw.sole(scene.biped)
@@ -174,7 +177,7 @@ def _add_walk(
 
 
 def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
-    """Draw the ring that shows the external torque on a joint; returns the path of its node.
+    """Draw the ring that shows the external torque on joint `name`; returns its path below `robot`.
 
     The ring of the unactuated torso is at its centre of mass: at its joint it would cover those of the hips.
     """
@@ -188,7 +191,9 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
-    """The legend of a page as pairs (colour, text); the colour is empty for plain text."""
+    """The legend of a page as pairs (colour "#rrggbb", text); the colour is empty for plain text. scenes: the
+    solid walk first.
+    """
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
@@ -204,7 +209,8 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
 
 
 EPSILON = 1e-6
-"""Half the interval [s] of the central difference that gives the rates of the joints, the base among them."""
+"""Half the interval [s] of the central difference by which the rates of the joints, the base among them, are
+computed."""
 
 
 class Pose(NamedTuple):
@@ -215,47 +221,45 @@ class Pose(NamedTuple):
     rates: Array
     """(J,) rates of these joints [rad/s], [m/s]."""
     loads: Array
-    """(2 + n,): F_T, F_N [N], and the external torque on the drawn joints of q1..qn [N m]."""
+    """(2 + n,): force of the ground on the stance foot along x and z [N], and the external torque on the drawn
+    joints of q1..qn [N m]."""
     points: Array
     """(4,): x and z of the hip and of the swing foot in the world [m]."""
     contact: Array
-    """(5,): x and z of the stance foot [m], F_T and F_N on the other foot [N], and 1 where a foot slips."""
+    """(5,): x, z of the stance foot [m], force on the other foot along x, z [N], and 1 where a foot slips."""
 
 
 @dataclass(frozen=True)
 class Frames:
-    """A walk sampled at its nodes, one in each row (K,); a node at an impact is there
-    twice, before and after it.
-    """
+    """A walk in K samples, one in each row; at an impact there are two, before and after it."""
 
     t: Array
     """Times (K,) [s]."""
     arc: Array
     """(K,) index of the single support, from 0."""
     poses: Pose
-    """The poses at the nodes, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
+    """The poses at these times, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
 
     @classmethod
     def of(cls, scene: WalkScene, fps: float) -> Frames:
-        """Sample a walk at `fps` [1/s] or finer, and at all its nodes. Raises InputError for too many
-        frames.
+        """Sample a walk `fps` [1/s] times per second, and at the other times that the head of this module
+        names. Raises InputError for too many frames.
         """
         placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
-            nodes = _nodes(scene, arc, fps)
-            t.append(nodes)
-            arcs.append(np.full(len(nodes), i))
-            poses += [pose(scene, i, float(node)) for node in nodes]
+            times = _nodes(scene, arc, fps)
+            t.append(times)
+            arcs.append(np.full(len(times), i))
+            poses += [pose(scene, i, float(time)) for time in times]
         columns = map(np.array, zip(*poses, strict=True))
         return cls(np.concatenate(t), np.concatenate(arcs), Pose(*columns))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:
-    """Pose of the robot in arc i at t [s].
+    """Pose of the robot in arc i (from 0) at t [s].
 
-    At the end of the arc it is the state before the impact: the arc after it has a
-    pose of its own for that time.
+    At the end of the arc it is that before the impact: the arc after it has a pose of its own for that time.
     """
     arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foot(i, t)
     n, step = biped.n, arc.mode.step
@@ -266,6 +270,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
         joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
+    # at the end of the arc its own loads, not those after the impact
     acting = placement.loads_at(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
     values, forces = [at[name] for name in moving], (acting.ground_reaction, acting.zeta)
     contact = np.array([*foothold, *acting.other, acting.slips])
@@ -274,11 +279,12 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
 
 
 def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
-    """Times (K,) [s] at which one single support is sampled: frames, both ends, edges of
-    pushes, changes of contact.
+    """Times (K,) [s] at which one single support is sampled: frames, both ends, switching times of pushes,
+    changes of contact.
     """
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start
+    # the frames of the whole walk are equally spaced from its start on
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
     edges = *scene.walker.switching_times(arc.mode), *placement.contact_changes(scene, arc)
     inside = [t for t in (*frames, *edges) if start < t < end]

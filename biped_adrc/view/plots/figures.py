@@ -2,8 +2,9 @@
 
 `Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the time
 around it, and most of them the milliseconds after each of its edges, the times at which it begins and ends, in
-which a fast observer acts. In figures that compare controllers the i-th one has the i-th colour and mark in all
-panels.
+which a fast observer acts. A column is a list of panels above one another with one time axis; the grid `spec`
+of a figure has four places in a row. In figures that compare controllers the i-th one has the i-th colour and
+mark in all panels.
 """
 
 from __future__ import annotations
@@ -49,6 +50,7 @@ def tracking_figure(
     milliseconds. torque_limit [N m]: drawn as a dotted line.
     """
     p = signals.q_d.shape[1]
+    # two panels of angles: of RABBIT hips and knees
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
     angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
     below: list[Panel] = [
@@ -64,7 +66,9 @@ def tracking_figure(
 
 
 def _titled(title: str, s: Signals, push: Window | None) -> str:
-    """The title; with a push, followed by the largest external torque on each joint [N m]."""
+    """The title; with a push followed by the external torque on each joint [N m] where its magnitude is
+    largest, such as "ADRC: 30 N m on $q_1$, $q_2$".
+    """
     if push is None:
         return title
     peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
@@ -76,15 +80,15 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
 
 
 def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
-    """Places in a grid of four columns for one panel that fills a row, or for two that share it."""
+    """Places in a row of the grid `spec`: for one panel that fills it, or for two that share it."""
     return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
 def _column(
     figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Panel]
 ) -> list[Axes]:
-    """Draw panels one above the other that share one time axis, labelled below the lowest; returns
-    their axes.
+    """Draw panels one above the other, draws[i] at places[i], that share one time axis, labelled below the
+    lowest; returns their axes.
     """
     column: list[Axes] = []
     for place, draw in zip(places, draws, strict=True):
@@ -108,14 +112,15 @@ def _around_and_edges(
 
     The columns of the edges of the push have their time axis in [ms] from the edge; the label of their values
     is at the left end of the row. Without a push there is one column, with the whole walk. rows: numbers of the
-    rows of the grid `spec`. Returns the axes by column.
+    rows of the grid `spec`, which has four columns: two for the time around the push, one for either edge.
+    Returns for each column drawn the list of its axes.
     """
     places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
     around, *edges = (
         _column(figure, [spec[row, place] for row in rows], draws) for place in places
     )
     _zoom(around, s, push)
-    at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
+    at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), EDGES, strict=False):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
         for axes in column:
@@ -128,8 +133,8 @@ def _around_and_edges(
 
 
 def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
-    """Limit a column to the time around the push, or of the walk without one, and each value axis to the data
-    shown there.
+    """Set the time axis of a column to the time around the push, of the whole walk if None, and each value axis
+    to the range of the data shown there.
     """
     start, stop = push or (s.t[0], s.t[-1])
     _limits(column, max(start - BEFORE, s.t[0]), min(stop + AFTER, s.t[-1]))
@@ -186,9 +191,9 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
     """Draw the total disturbance of every actuated joint, and the external torque, against their estimates.
 
-    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta and the torque that the
-    estimate amounts to [N m], a colour for each torque; joints with the same torque share the line. push:
-    (start, stop) [s]; the time around it is shown, and below also the milliseconds at either edge.
+    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta on each joint and the torque
+    that its estimate xi^ is equivalent to [N m], a colour for each torque; joints with the same torque share
+    the line. push: (start, stop) [s]; the time around it is shown, below also either edge.
     """
     p = signals.q_d.shape[1]
     with new_figure(10.0, 5.2, _titled(title, signals, push)) as figure:
@@ -235,8 +240,8 @@ def multiplier_figure(
 ) -> Figure:
     """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order.
 
-    multipliers: name of a method -> (k,), complex. published (k,): magnitudes printed in the paper, shown for
-    comparison; see `stability.magnitudes`.
+    multipliers: name of a method or a controller -> (k,), complex. published (k,): magnitudes printed in the
+    paper, shown for comparison; see `stability.magnitudes`.
     """
     with new_figure(9.5, 4.4) as figure:
         circle, sizes = figure.subplots(1, 2)
@@ -249,15 +254,15 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     """Draw controllers side by side: tracking error over time, peak and rms of the
     error, and the peak torques.
 
-    walks: signals by name of the controller. push: (start, stop) [s]; the time around it is shown, and the
-    milliseconds after either edge.
+    walks: name of the controller -> signals. push: (start, stop) [s]; the time around it is shown, and the
+    milliseconds after either edge. The title names the torques of the first walk, the same in all.
     """
     first = next(iter(walks.values()))
     with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
         draw = partial(over_time.error_over_time, walks=walks, push=push)
         (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
-        for (axes,) in edges:
+        for (axes,) in edges:  # the same scale in all three panels
             axes.set_ylim(around.get_ylim())
         sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
         over_time.error_sizes(sizes, walks)
@@ -306,16 +311,20 @@ NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 
 
 def walk_figure(walk: Drawable, title: str = "", push: Window | None = None) -> Figure:
-    """Draw a walk as `tracking_figure` does, and one of a robot without motors as `passive_figure`."""
+    """Draw a walk as `tracking_figure` does, and one of a robot without motors as `passive_figure`.
+
+    push: (start, stop) [s], shaded.
+    """
     if walk.walker.plant.p == 0:
         return passive_figure(walk.signals, title, push)
     return tracking_figure(walk.signals, title, push, walk.walker.torque_limit)
 
 
 def draw(name: str, walks: Mapping[str, Drawable]) -> Figure:
-    """One figure: of the first walk, or of all walks for "phase" and "comparison".
+    """Draw the figure `name`, one of NAMES: of the first walk, of all walks for "phase" and "comparison".
 
-    Raises InputError for an unknown name, or a robot without motors where the figure shows motors.
+    walks: name, for titles and legend -> walk. The time around the first walk's push is shown. Raises
+    InputError for an unknown name, or a robot without motors where the figure shows motors.
     """
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
@@ -340,7 +349,9 @@ def draw(name: str, walks: Mapping[str, Drawable]) -> Figure:
 
 
 def push_window(s: Signals) -> tuple[float, float] | None:
-    """First and last time [s] of the first step in which an external torque acts; None where there is none."""
+    """First and last time [s] at which an external torque acts in the first single support that has one; None
+    where no torque acts. A push that goes on over an impact ends here with that single support.
+    """
     pushed = np.any(s.zeta != 0.0, axis=1)
     if not pushed.any():
         return None

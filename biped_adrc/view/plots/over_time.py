@@ -35,7 +35,7 @@ class OverTime(Protocol):
 
 
 def with_gaps(s: OverTime, y: Array) -> Array:
-    """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
+    """Insert a row of NaN into y (K,) or (K, k) where a new single support begins.
 
     matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
     """
@@ -43,21 +43,20 @@ def with_gaps(s: OverTime, y: Array) -> Array:
 
 
 def line(axes: Axes, s: OverTime, y: Array, i: int, name: str) -> None:
-    """Draw y (K,) over time [s] in the i-th colour and dash."""
+    """Draw y (K,) over time [s] in the i-th colour and dash, broken at impacts; name: in the legend."""
     axes.plot(with_gaps(s, s.t), with_gaps(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
 def curves(axes: Axes, s: OverTime, values: Array, symbol: str) -> None:
-    """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ..."""
+    """Draw the columns of values (K, k) over time [s], named symbol_1, symbol_2, ... in the legend."""
     for i, column in enumerate(values.T):
         line(axes, s, column, i, f"${symbol}_{i + 1}$")
 
 
 def finished(axes: Axes, unit: str, push: Window | None = None) -> Axes:
-    """Shade the time of a push (start, stop) [s], label both axes, and put the legend
-    above them; returns the axes.
+    """Shade the time of a push (start, stop) [s], label the axes, put the legend above; returns the axes.
 
-    unit: label of the axis of values.
+    unit: label of the axis of values, a word and the unit.
     """
     if push is not None:
         axes.axvspan(*push, color=PUSH, alpha=0.3, zorder=0, label="push")
@@ -74,8 +73,8 @@ def legend(axes: Axes) -> Axes:
 
 
 def angle_unit(values: Array) -> tuple[str, float]:
-    """Choose the unit, from rad to nrad, in which the largest of `values` [rad] reads well;
-    returns it and its factor.
+    """Choose the unit, from rad to nrad, in which the largest |value| [rad] is at least 0.5; returns it and its
+    factor, units per rad. NaN does not count.
     """
     largest = np.nanmax(np.abs(values), initial=0.0)
     for unit, factor in (("rad", 1.0), ("mrad", 1e3), ("µrad", 1e6)):
@@ -89,15 +88,15 @@ JOINTS = ("stance hip", "swing hip", "stance knee", "swing knee")
 
 
 def joint_name(s: Signals, i: int) -> str:
-    """Name of actuated joint i (from 0) in a legend: "$q_1$ stance hip" with four
-    actuated joints, else the symbol.
+    """Name of actuated joint i (from 0) in a legend: such as "$q_1$ stance hip" with four actuated joints,
+    which are taken for those of a five-link biped; else the symbol alone.
     """
     known = s.q_d.shape[1] == len(JOINTS)
     return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draw all coordinates q [rad] over time [s]; push: (start, stop) [s], shaded. Returns the axes."""
+    """Draw all coordinates q1..qn [rad] over time [s]; push: (start, stop) [s], shaded. Returns the axes."""
     curves(axes, s, s.q, "q")
     return finished(axes, "angle [rad]", push)
 
@@ -117,14 +116,14 @@ def joint_tracking(
     for i in joints:
         # after a fall the error is NaN, and the reference is not drawn
         on_curve = np.where(np.isnan(s.error[:, i]), np.nan, s.q_d[:, i])
+        # matplotlib leaves "_" out of the legend
         name, y = "references" if i == joints[0] else "_", with_gaps(s, on_curve)
         axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
     return finished(axes, "angle [rad]", push)
 
 
 def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draw q_b - q_d of each joint over time [s], in the unit from rad to nrad in
-    which the largest reads well.
+    """Draw q_b - q_d of each actuated joint over time [s], in the unit from rad to nrad that suits the largest.
 
     push: (start, stop) [s], shaded. Returns the axes.
     """
@@ -134,7 +133,7 @@ def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
-    """Draw the motors' torques u [N m] over time [s]; limit [N m] is drawn as dotted lines. Returns the axes.
+    """Draw the motors' torques u [N m] over time [s]; limit [N m]: dotted, with both signs. Returns the axes.
 
     push: (start, stop) [s], shaded.
     """
@@ -148,8 +147,8 @@ def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | N
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
     """Draw xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
 
-    joint: index from 0. Without an observer the panel says so. push: (start, stop)
-    [s], shaded. Returns the axes.
+    The model is the controller's nominal one. joint: index from 0. Without an observer the panel says so. push:
+    (start, stop) [s], shaded. Returns the axes.
     """
     names = f"\\xi_{joint + 1}", f"\\hat{{\\xi}}_{joint + 1}"
     _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, PALETTE[0])
@@ -157,12 +156,14 @@ def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | Non
 
 
 def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draw the external torque on each actuated joint and the torque that the estimate xi^ amounts to [N m].
+    """Draw the external torque [N m] on each actuated joint, and the torque to which its xi^ is equivalent.
 
-    Broad: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal); it
-    also holds the unmatched part and errors of the model, so the lines differ by those. Joints with the same
-    torque share the first one's lines. push: (start, stop) [s], shaded. Returns the axes.
+    Broad: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal),
+    with xi_nominal of the model without zeta; it also holds the unmatched part and errors of the model, so the
+    lines differ by those. Joints with the same torque share the first one's lines. push: (start, stop) [s],
+    shaded. Returns the axes.
     """
+    # joints by the bytes of their torque over time
     alike: dict[bytes, list[int]] = {}
     for i in range(s.q_d.shape[1]):
         alike.setdefault(s.zeta[:, i].tobytes(), []).append(i)
@@ -176,7 +177,8 @@ def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> A
 def _pair(
     axes: Axes, s: Signals, true: Array, estimate: Array, names: tuple[str, str], colour: str
 ) -> None:
-    """Draw a signal and its estimate, both (K,), over time, or say on the axes that there is no observer.
+    """Draw a signal and its estimate, both (K,), over time. An estimate that is all NaN is that of a controller
+    without an observer: the axes then say so.
 
     names: symbols of both in TeX. colour: of the signal; the estimate is dashed in black.
     """
@@ -195,8 +197,8 @@ def say_no_observer(axes: Axes) -> None:
 
 
 def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draw kinetic, potential and total energy [J] over time [s], the potential energy
-    counted from its least value.
+    """Draw kinetic, potential and total energy [J] over time [s], the potential energy counted from its least
+    value in the walk.
 
     At an impact only the kinetic energy falls. push: (start, stop) [s], shaded. Returns the axes.
     """
@@ -231,8 +233,8 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
 
 
 def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: float = 0.0) -> Axes:
-    """Draw F_T and F_N [N] over time [s], along and perpendicular to ground of this
-    slope [rad], positive downhill.
+    """Draw F_T and F_N [N] over time [s], the force of the ground on the robot along and perpendicular to
+    ground of this slope [rad], positive downhill.
 
     push: (start, stop) [s], shaded. Returns the axes.
     """
@@ -243,8 +245,8 @@ def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: f
 
 
 def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) -> Axes:
-    """Draw Theta' [rad/s] over Theta [rad]: solid in single support, dotted across
-    impacts, with a dot at the start.
+    """Draw Theta' [rad/s] over Theta [rad]: solid in single support, dotted from before an impact to after it,
+    with a dot at the start of the walk.
 
     name: in the legend. colour: index in the palette. Returns the axes.
     """
@@ -266,7 +268,8 @@ FLOOR = 1e-13
 
 
 def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
-    """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
+    """Draw max_i |q_i - q_di| [rad] of the actuated joints over time [s], a line for each walk, on a
+    logarithmic scale.
 
     walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break at impacts. Errors
     below FLOOR are drawn there, as a logarithmic scale has no 0. Returns the axes.
@@ -280,10 +283,10 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
 
 
 def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
-    """Draw peak and root mean square of the tracking error [rad] by controller, with their
-    numbers; returns the axes.
+    """Draw peak and root mean square of the tracking error [rad] of all joints up to a fall, a mark for each
+    controller, with the numbers beside them; returns the axes.
 
-    walks: name of the controller -> signals. The scale is logarithmic.
+    walks: name of the controller -> signals. The scale is logarithmic, so that less than FLOOR is drawn there.
     """
     for i, (name, s) in enumerate(walks.items()):
         past = s.before_fall
@@ -302,8 +305,10 @@ def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
 
 
 def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
-    """Draw the peak torque [N m] of every motor as bars, a colour and hatch for each
-    controller; returns the axes.
+    """Draw the peak torque max |u_i| [N m] of every motor as bars, side by side for each controller in a colour
+    and hatch of its own; returns the axes.
+
+    walks: name of the controller -> signals, all with the same motors.
     """
     width = 0.8 / len(walks)
     for i, (name, s) in enumerate(walks.items()):

@@ -39,8 +39,8 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
 def magnitudes(
     axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Axes:
-    """Draw |lambda| of multipliers, in decreasing order, on a logarithmic scale; returns
-    the axes. Below 1 is stable.
+    """Draw |lambda| of multipliers, in decreasing order, on a logarithmic scale; returns the axes. A walk is
+    stable when all are below 1.
 
     found: name of a method -> its multipliers (k,), dimensionless. Zeros have no place on that scale:
     the legend counts them. published (k,): magnitudes printed in the paper; they come from a regression
@@ -64,16 +64,16 @@ def magnitudes(
 
 
 def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) -> None:
-    """Draw y (k,) over x (k,) as open marks of the i-th kind and colour, `size` [pt] large,
-    with a name in the legend.
+    """Draw y (k,) over x (k,) as open marks of the i-th kind and colour, `size` [pt] large, so that marks at
+    the same place are seen; name: in the legend.
     """
     marker, colour = _MARKERS[i % 4], PALETTE[i]
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
 def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
-    """Draw successive values `way` (k,) of a return map as stairs: up or down to the map,
-    then across to the diagonal.
+    """Draw successive values `way` (k,) of a return map as stairs over (value, next value), from the diagonal
+    at way[0]: up or down to the map, then across to the diagonal, and so on.
 
     way: in the unit of the map. name: in the legend.
     """

@@ -1,7 +1,8 @@
 """Figures of a study, one for each question: dots with intervals, maps and paths.
 
-They take plain values and draw any study: rows and columns are names, numbers come with the ends of an
-interval of 95 %, which are NaN where there is none. What is not finite has no mark.
+They take plain values and draw any study: rows and columns are names, numbers come with the ends of a
+confidence interval of 95 %, which are NaN where there is none. A number that is not finite has no mark. A field
+is a value of the scenario that a study varies, its levels the values that it takes.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _WRITTEN = 120
 """Cells of a panel up to which their numbers are written in them."""
 
 _Numbers = Mapping[tuple[str, str], Sequence[float]]
-"""By row and series a number with the ends of its interval."""
+"""(row, series) -> a number with the lower and the upper end of its interval."""
 
 
 def dots_figure(
@@ -55,6 +56,7 @@ def dots_figure(
                 if of == name and math.isfinite(x[0])
             ]
             y, x, low, high = np.array(here).reshape(-1, 4).T
+            # lengths of the bars to either side; an end that is NaN or infinite has none
             ends = np.nan_to_num([x - low, high - x], posinf=0.0, neginf=0.0).clip(0.0)
             mark, colour = _MARKERS[i % len(_MARKERS)], PALETTE[i % len(PALETTE)]
             text = literal(name) or None
@@ -75,11 +77,13 @@ def map_figure(
 ) -> Figure:
     """Draw a number as colour over two fields of a study, in one panel for each case.
 
-    panels: name -> (x (N,), y (N,), numbers (N,)) of its N walks, with the levels of both fields. Numbers in
-    the same cell are averaged, infinite ones left out. names: labels of x and y, with units. title: of the
-    colour bar. log: logarithmic scale of colour; otherwise it goes from 0 to 1.
+    panels: name -> (x (N,), y (N,), numbers (N,)) of its N walks, x and y the levels of both fields. Numbers in
+    the same cell are averaged, those that are not finite left out. Only the first MOST_PANELS are drawn. names:
+    labels of x and y, with units. title: of the colour bar. log: logarithmic scale of colour; otherwise it goes
+    from 0 to 1.
     """
     shown = dict(list(panels.items())[:MOST_PANELS])
+    # all panels have the same cells: each axis is cut once for the walks of all, one panel after the other
     xs, ys = (cut([x for panel in shown.values() for x in panel[i]]) for i in (0, 1))
     means, begin = [], 0
     for panel in shown.values():
@@ -113,12 +117,11 @@ def map_figure(
 def path_figure(
     paths: Mapping[str, Sequence[tuple[int, float, bool]]], title: str, less: bool
 ) -> Figure:
-    """Draw how a search went: the objective of each candidate over its number, a cross
-    where it breaks a limit.
+    """Draw how a search went: the objective of each candidate over its number as a dot, as a cross where it
+    breaks a limit. A line follows the best objective so far of those that keep all limits.
 
-    paths: case -> (number of the candidate, objective, whether it keeps all limits) of each. title: of the
-    axis of the objective, with its unit. A line is the best one so far that keeps all limits. less:
-    whether a smaller objective is better.
+    paths: case, in a colour of its own -> (number of the candidate, objective, whether it keeps all limits) of
+    each. title: of the axis of the objective, with its unit. less: whether a smaller objective is better.
     """
     with new_figure(6.5, 3.2) as figure:
         axes = figure.subplots()
@@ -140,10 +143,12 @@ def path_figure(
 
 
 def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
-    """Sort values (N,) into cells; returns the index of the cell of each (N,), and the names of the cells.
+    """Sort values (N,) into the cells of an axis; returns the cell's index of each (N,), and the cells' names.
 
-    Each level is a cell; more than MOST_LEVELS numbers are cut into `CELLS` intervals of equal width.
+    Each level is a cell; more than MOST_LEVELS numbers are cut into `CELLS` intervals of equal width, with the
+    middles as names.
     """
+    # numbers first, then None, then texts, which cannot be compared with one another
     levels = sorted(set(values), key=lambda x: (isinstance(x, str), x is None, x or 0))
     if len(levels) <= MOST_LEVELS or not all(isinstance(x, int | float) for x in levels):
         places = {x: i for i, x in enumerate(levels)}
@@ -161,7 +166,7 @@ def _text(x: Any) -> str:
 def _means(
     x: NDArray[np.intp], y: NDArray[np.intp], numbers: Array, shape: tuple[int, int]
 ) -> Array:
-    """Mean of the finite numbers (N,) in each cell, (cells of y, cells of x); NaN in a cell without one.
+    """Mean of the finite numbers (N,) in each cell, (cells of y, cells of x); NaN where a cell has none.
 
     x, y (N,): index of the cell of each number along both axes. shape: (cells of y, cells of x).
     """
@@ -173,8 +178,11 @@ def _means(
 
 
 def _cells(axes: Axes, values: Array, texts: Sequence[Sequence[str]], norm: Normalize) -> Any:
-    """Draw a table of values (rows, columns) as coloured cells, cell (i, j) at x = j,
-    y = i, with texts on them; returns matplotlib's mesh.
+    """Draw a table of values (rows, columns) as coloured cells, cell (i, j) at x = j, y = i, with texts on
+    them, white on dark cells.
+
+    texts: by row and column, () for none. norm: maps values to the range 0 to 1 of colours. Returns
+    matplotlib's mesh, for a colour bar.
     """
     edges = [np.arange(count + 1) - 0.5 for count in reversed(values.shape)]
     image = axes.pcolormesh(*edges, values, cmap="cividis", norm=norm, ec="white", lw=0.3)

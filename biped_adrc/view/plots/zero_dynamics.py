@@ -4,7 +4,8 @@ On the zero dynamics the angular momentum sigma about the stance foot obeys a sc
 support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves of that sum.
 zeta = sigma^2 / 2 at the end of a walking step is mapped by the impact and the next step to rho(zeta) =
 delta^2 zeta - V_zero(Theta-): a straight line, whose fixed point zeta* is the gait. In its plot every walking
-step is a pair of corners between this line and the diagonal.
+step is a pair of corners between this line and the diagonal. Signs - and + mean before and after an impact,
+delta = sigma+ / sigma-, V_max is the largest V_zero of a step.
 
 `biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
 The domain is the range of zeta from which walks come back to the orbit and keep the limits.
@@ -33,7 +34,9 @@ DOMAIN = "#DDEBF4"
 
 
 def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
-    """Draw I(Theta) [kg m^2], the inertia sigma / Theta', which must not change its sign; returns the axes."""
+    """Draw I(Theta) [kg m^2], the inertia sigma / Theta', whose sign must not change in a step; returns the
+    axes.
+    """
     theta = grid(orbits.zero)
     axes.plot(theta, orbits.inertia(theta), color=PALETTE[0])
     axes.axhline(0.0, color="black", lw=0.8)
@@ -42,10 +45,9 @@ def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
 
 
 def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """Draw V_zero(Theta) [kg^2 m^4/s^2], its largest value, and sigma+^2 / 2 of the
-    orbit, which has to be above it.
-
-    Where it is below, the robot does not come over the top of its step and falls back. Returns the axes.
+    """Draw V_zero(Theta) [kg^2 m^4/s^2], its largest value V_max, and sigma+^2 / 2 of the periodic orbit, which
+    has to be above V_max: else the robot does not come over the top of its step and falls back. Returns the
+    axes.
     """
     o = report.orbits
     theta = grid(o.zero)
@@ -59,11 +61,10 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """Draw the phase plane (Theta [rad], sigma [kg m^2/s]): level curves, the domain shaded,
-    the orbit, its impact dotted.
+    """Draw the phase plane (Theta [rad], sigma [kg m^2/s]): the domain shaded, the periodic orbit, its impact
+    dotted, and level curves of sigma^2 / 2 + V_zero(Theta), which are other steps.
 
-    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of
-    the domain. Returns the axes.
+    The sigma axis reaches a little past the fastest step of the domain. Returns the axes.
     """
     o, theta = report.orbits, grid(report.orbits.zero)
     low, high = _shown(report)
@@ -74,6 +75,7 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     axes.plot(theta, orbit, color=PALETTE[1], lw=2.0, label="orbit")
     ends = [theta[-1], theta[0]], [orbit[-1], orbit[0]]
     axes.plot(*ends, color=PALETTE[1], ls=":", label="impact")
+    # sigma is negative in a walk towards +x; some of the other sign shows steps that turn round
     far = max((fastest[-1], orbit[-1]), key=abs)
     axes.set_ylim(min(1.1 * far, -0.4 * far), max(1.1 * far, -0.4 * far))
     _level_curves(axes, report)
@@ -83,8 +85,8 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """Draw the return map rho(zeta), the diagonal, zeta*, the domain, and STAIRS steps of
-    the map from either end of it.
+    """Draw the return map rho(zeta), the diagonal, zeta*, the domain, and STAIRS walking steps from either end
+    of the domain.
 
     zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as its ends
     do not belong to it, and run towards zeta* where the gait is stable. Returns the axes.
@@ -112,8 +114,8 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
-    """Draw inertia, potential, phase portrait and return map of a gait's zero dynamics;
-    the title names its bounds.
+    """Draw inertia, potential, phase portrait and return map of a gait's zero dynamics; the title has the ends
+    of the domain and what bounds it.
     """
     with new_figure(9.0, 6.6) as figure:
         (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
@@ -126,9 +128,9 @@ def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
 
 
 def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
-    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round.
+    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes: a step below V_max turns round.
 
-    The levels are V_max and others, whose distance from it is a share of that of the periodic orbit.
+    The levels are V_max and others above and below it, by multiples of how far the periodic orbit is above.
     """
     o = report.orbits
     theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
@@ -136,12 +138,13 @@ def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
     levels = o.v_max + above * np.array([-1.0, -0.5, 0.0, 0.5, 2.0, 4.0])
     constant = 0.5 * sigma**2 + o.potential(theta)
     axes.contour(theta, sigma, constant, levels, colors=GREY, linewidths=0.6, linestyles="-")
+    # an empty line with the legend's entry for the contours, which have none
     axes.plot([], [], color=GREY, lw=0.6, label="other steps")
 
 
 def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
-    """The range of zeta [kg^2 m^4/s^2] to draw: the domain, or from the lowest zeta to
-    the orbit's if it is empty.
+    """The range of zeta [kg^2 m^4/s^2] to draw: the domain, to WIDE zeta* where it has no upper end; if it is
+    empty, from the lowest zeta whose step is completed to zeta* of the orbit.
     """
     low, high = report.domain
     if report.domain.empty:
@@ -150,12 +153,12 @@ def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
 
 
 def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
-    """sigma [kg m^2/s] over theta (K,) [rad] in the step that follows zeta, NaN where
-    the step does not arrive.
+    """sigma (K,) [kg m^2/s] at the phases theta (K,) [rad] of the step that begins after zeta [kg^2 m^4/s^2];
+    NaN where sigma^2 would be negative, as the step does not get there.
     """
     square = orbits.sigma_squared(theta, zeta)
     size = np.sqrt(np.where(square >= 0.0, square, np.nan))
-    return math.copysign(1.0, orbits.sigma(1.0)) * size
+    return math.copysign(1.0, orbits.sigma(1.0)) * size  # the sign of a walk, the same for any zeta
 
 
 def _title(report: ZeroDynamicsReport) -> str:
@@ -169,8 +172,8 @@ def _title(report: ZeroDynamicsReport) -> str:
 
 
 def _walking_order(axes: Axes, theta: Array) -> Axes:
-    """Limit the Theta axis to the phases of a step, turned so that its start is at the left; returns
-    the axes.
+    """Limit the Theta axis to the phases of a step, from theta[0] at its start, left, to theta[-1] at its end,
+    also where Theta falls in a step; returns the axes.
     """
     axes.set_xlim(theta[0], theta[-1])
     return axes
