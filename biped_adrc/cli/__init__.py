@@ -23,7 +23,7 @@ from biped_adrc.core.errors import BipedError, OutputError
 __all__ = ["app", "main"]
 
 COMMANDS = ("controller", "gait", "robot", "study", "walk")
-"""Modules, each of which adds its commands to the app, in the order of the help."""
+"""Modules, each of which adds its commands to the app when it is imported, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")
 
@@ -31,31 +31,36 @@ for _module in COMMANDS:
 def main() -> None:
     """Entry point: run the command; an error becomes one message and an exit code.
 
-    A reader that closes the pipe early, such as `head`, is no error: the rest of the output goes to
-    nowhere. Where it cannot be written for another reason, that is said once all is done.
+    A reader that closes the pipe early, such as `head`, is no error: the rest of the output is dropped.
+    Where the output cannot be written for another reason, an error says so once all is done. Warnings are
+    printed as one line each.
     """
+    # a stream is None where Python runs without a console; `Lasting` never raises when it cannot write
     for name in ("stdout", "stderr"):
         if (stream := getattr(sys, name)) is not None:
             setattr(sys, name, Lasting(stream))
-    # as Ctrl-C: workers are ended, and where the work stands is said
+    # a request to end raises KeyboardInterrupt as Ctrl-C does: workers are ended, and how far it got is said
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     warnings.showwarning = lambda message, *_: errors.say(f"warning: {message}")
     code, lost = _run(), getattr(sys.stdout, "lost", None)
     if lost is not None and not isinstance(lost, BrokenPipeError):
         what = f"what was printed cannot be written: {lost.strerror}"
         errors.say(f"error: {what}; files that were to be written are complete")
-        code = code or OutputError.exit_code
+        code = code or OutputError.exit_code  # an error of the command itself counts more
     sys.exit(code)
 
 
 def _run() -> int:
-    """Run the command; its exit code. After Ctrl-C it says that no half-written file is left."""
+    """Run the command and return its exit code. An error of the package is printed as one line; after Ctrl-C a
+    line says that no half-written file is left.
+    """
     try:
         app(standalone_mode=True)
     except BipedError as error:
         errors.say(f"error: {error}")
         return error.exit_code
     except SystemExit as stop:
+        # typer's end of a command; its code is a number, None (0) or a text (1)
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
         code = EXIT_INTERRUPTED

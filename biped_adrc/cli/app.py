@@ -47,6 +47,7 @@ app = typer.Typer(
 
 
 def _say_version(flag: bool) -> None:
+    """Print the version and end the command, if --version is there."""
     if flag:
         typer.echo(f"biped-adrc {biped_adrc.__version__}")
         raise typer.Exit
@@ -59,11 +60,11 @@ def _of_every_command(
         typer.Option("--version", callback=_say_version, is_eager=True, help="Print the version."),
     ] = False,
 ) -> None:
-    """Options of the command itself."""
+    """Options of `biped-adrc` itself, before the name of a command; typer acts on them."""
 
 
 def group(name: str, text: str) -> typer.Typer:
-    """A group of commands under one name, such as `gait`; text: its help."""
+    """Add a group of commands under one name, such as `gait`, to the app; returns it. text: its help."""
     result = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help=text)
     app.add_typer(result, name=name)
     return result
@@ -78,7 +79,9 @@ class Terminal(Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> Iterable[Segment]:
-        """The segments that are printed, all that is text made printable."""
+        """rich's method that returns what is printed, in segments; here with unprintable characters of texts as
+        \\x1b. Control segments are rich's own commands to the terminal, such as those of a progress bar.
+        """
         for segment in super().render(renderable, options):
             text = one_line(segment.text, keep="\n\t")
             yield segment if segment.control else segment._replace(text=text)
@@ -88,14 +91,16 @@ class Terminal(Console):
         self.print(text, highlight=False, soft_wrap=True)
 
     def written(self, *paths: Path | None) -> None:
-        """Say which files were written; nothing for None."""
+        """Print a line for each file that was written; none for None."""
         for path in filter(None, paths):
             self.say(f"written to {path}")
 
     def table(
         self, header: Iterable[str | Column], rows: Iterable[Iterable[str]], **style: Any
     ) -> None:
-        """Print a table. style: more arguments of rich's, such as its title."""
+        """Print a table: texts of its header and of each row. style: more arguments of rich's `Table`, such as
+        title.
+        """
         table = Table(*header, title_justify="left", **style)
         for row in rows:
             table.add_row(*row)
@@ -103,7 +108,11 @@ class Terminal(Console):
 
     @contextmanager
     def bar(self, name: str) -> Iterator[Callable[[int, int | None, str], None]]:
-        """Context with a progress bar, from its first call: shown(done, of how many, what is done now)."""
+        """Context of a progress bar; its value is a function f(done, total, now) that moves the bar.
+
+        The bar appears at the first call. total: of what is counted; None while it is not known. now: text of
+        what is done at the moment. name: text before the first call.
+        """
         text = progress.TextColumn("{task.description:<44.44}", markup=False)
         counts = progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn()
         left = progress.TextColumn("left"), progress.TimeRemainingColumn()
@@ -115,28 +124,35 @@ class Terminal(Console):
 
 
 class Lasting:
-    """A stream to print to that never raises: when nobody reads or the disk is full, the text is dropped."""
+    """A text stream around another one, `stream`, whose writing never raises: when nobody reads or the disk is
+    full, the text is dropped. All but `write` is that of `stream`.
+    """
 
     lost: OSError | None = None
-    """Why something could not be written; None while all was."""
+    """First error in writing; None while all was written."""
 
     def __init__(self, stream: TextIO) -> None:
         self.stream = stream
+        # characters that the terminal's encoding lacks are escaped; a pipe that is full is waited for
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
             with suppress(OSError):  # no file of the operating system
                 os.set_blocking(stream.fileno(), True)
 
     def __getattr__(self, name: str) -> Any:
+        """What this class does not have itself is the stream's."""
         return getattr(self.stream, name)
 
     def write(self, text: str) -> int:
-        """Write what can be written, and once something was lost nothing more; the length of the text."""
+        """Write the text, or drop it and all later ones if that fails; returns the length of the text, as the
+        caller of a stream expects, in either case.
+        """
         try:
             self.stream.write(text)
             self.stream.flush()
         except OSError as error:
             self.lost = self.lost or error
+            # the stream's own file becomes the null device, so that nothing later fails, not even its closing
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
         return len(text)
 
@@ -146,7 +162,7 @@ console, errors = Terminal(), Terminal(stderr=True)
 
 
 def command_line() -> str:
-    """The command line as a shell takes it, for reports and provenance: the reader can repeat it."""
+    """The command line of this run, quoted for a shell, for reports and provenance: a reader can repeat it."""
     return shlex.join(["biped-adrc", *sys.argv[1:]])
 
 
@@ -155,9 +171,10 @@ FIGURES, GAITS = (".png", ".svg"), (".json",)
 
 
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
-    """The files that a robot and gaits are read from, so that no output may take their place; none for names.
+    """The files that robot and gaits are read from, which no output may overwrite (`target`).
 
-    Raises ModelError for an unknown robot.
+    robot, others: names, or paths of files. A path that is a file counts; a name of a stored gait has no file
+    here. The robot's URDF is always in it. Raises ModelError for an unknown robot.
     """
     from biped_adrc.model.robots.robot_toml import load_description
 
@@ -166,7 +183,7 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 
 
 def target(out: _P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> _P:
-    """The path of an output file, checked before anything is computed; None stays None.
+    """The path of an output file, checked before anything is computed; None (no output) stays None.
 
     A name without a suffix gets the first of the suffixes. read: files that are read, and so cannot be written.
     Raises InputError for another suffix or a file that is read, and OutputError.

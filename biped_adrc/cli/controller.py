@@ -3,7 +3,11 @@
 `observer` prints what an observer asks of encoders, clock and motors, from the linear loop of one joint
 (`analysis.observer.report`). `export` writes the controller of a scenario as C (`extras.export.export`); where
 there is a C compiler the files are compiled once, so that what is printed has been seen. `replay` shows a
-robot's log to the controller of a scenario (`extras.logs.replay`).
+robot's log to the controller of a scenario: measurements and torques are those of the log, so the controller
+does not move the robot (`extras.logs.replay`).
+
+A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
+scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """
 
 from __future__ import annotations
@@ -27,7 +31,7 @@ from biped_adrc.core.types import PlainRecord
 def observer_command(
     values: PlainRecord, sets: list[str] | None = None, out: Path | None = None
 ) -> None:
-    """Say what an observer asks of encoders, clock and motors, and which one a robot allows.
+    """Say what an observer asks of encoders, clock and motors, and which observer a robot allows.
 
     Encoders and clock are RABBIT's if not said otherwise.
     """
@@ -37,10 +41,13 @@ def observer_command(
     from biped_adrc.scenario.controllers import controller
 
     out = target(out, FIGURES)
+    # RABBIT's hardware, unless --set names the hardware as a whole or its profile; options come on top
     if not {"hardware", "hardware.profile"} & assignments(sets).keys():
         values = {"hardware.profile": "rabbit", **values}
     s = scenario_from(values, sets)
+    # None for continuous time and exact encoders, of which there is no report: 1 ms and 8192 counts instead
     h, scene = s.hardware, RobotAndGait.of(s)
+    # a controller without a GPI observer is refused
     law: Any = controller(s, scene.walked, scene.biped)
     observer: Any = getattr(law, "observer", None)
     check_part(observer, f"the observer of '{s.controller.name}'", ba.GPIObserver)
@@ -98,6 +105,7 @@ def export_command(
         files.append(f"{source.prefix}.fmu")
         console.say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
     console.say(f"written to {out}: {', '.join(files)}")
+    # growth of the controller's state at the start of the gait, while the measured state stays the same
     scene = RobotAndGait.of(s)
     if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
         console.say(
@@ -115,7 +123,7 @@ def replay_command(
     window: float = 0.02,
     out: Path | None = None,
 ) -> None:
-    """Show a robot's log to a controller and its observer, and print what they make of it."""
+    """Run a controller and its observer on a robot's log, and print estimates and torques of each step."""
     from biped_adrc.extras.logs.replay import HEADER, cells
     from biped_adrc.view.style import write_figure
 
@@ -125,7 +133,7 @@ def replay_command(
         read = (log, *inputs(s.robot.name, s.gait.name))
         names = ("replay.csv", "steps.txt", "replay.svg")
         paths = [target(out / name, (Path(name).suffix,), read) for name in names]
-    result = ba.replay(log, s, window)
+    result = ba.replay(log, s, window)  # window [s]: after a touchdown
     if paths:
         result.to_csv(paths[0])
         write_text(paths[1], f"{result.text()}\n")

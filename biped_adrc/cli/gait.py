@@ -3,6 +3,12 @@
 Each command checks the name of its output first, then loads robot and gait and calls one function:
 `analysis.gait_design`, which solves the programme with IPOPT and certifies the gait by
 walking it; `gait.exchange` for files of other programs; `analysis.zero_report` for the zero dynamics.
+
+A *library* is a folder of gaits, one per speed; a *family* (`gait.family`) is a smooth map from speed and step
+length to gaits, in one file.
+
+A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
+of --set.
 """
 
 from __future__ import annotations
@@ -44,9 +50,11 @@ def gait_design(
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
     from biped_adrc.gait.design.request import GaitRequest, Objective
 
+    # --set limits.NAME=VALUE sets a limit, any other NAME a field of the request
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     others = [text for text in sets or () if text not in of_limits]
     limits = with_sets(ba.StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    # --steps: a family; --speeds alone: a library; neither: one gait
     if steps is not None:
         if others:
             raise InputError(f"--set {others[0]}: a family takes limits, as limits.torque=100")
@@ -57,6 +65,7 @@ def gait_design(
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = ba.Biped.load(robot, preset)
+    # request(speed=.., step=..) makes a request; --set may not name what is in `fixed`
     fixed: dict[str, Any] = {"slope": slope, "objective": Objective(minimise), "limits": limits}
     request = partial(with_sets, GaitRequest, others, **fixed)
     if speeds is not None:
@@ -70,7 +79,9 @@ def gait_design(
 
 
 def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
-    """The gait that is asked for, certified, with this command line in its provenance."""
+    """Design the gait of a request and certify it by walking; returns it with this command line in its
+    provenance. Raises GaitError where there is none.
+    """
     from biped_adrc.analysis.gait_design import certify
     from biped_adrc.gait.design.optimise import optimise
 
@@ -81,7 +92,12 @@ def _design(biped: ba.Biped, request: GaitRequest) -> DesignedGait:
 
 
 def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], out: Path) -> None:
-    """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
+    """Design a gait for every speed, each from a cold start, store those that were found in the folder `out`,
+    and print a table of them.
+
+    speeds [m/s]: a text that `_numbers` reads. request: makes the request of a speed and a free step length.
+    Raises GaitError at the end that names the speeds without a gait.
+    """
     check_folder(out)
     rows, missed = [], []
     for speed in _numbers(speeds):
@@ -93,6 +109,7 @@ def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], 
         result.gait.save(out / result.gait.file_name)
         c = result.certificate
         forces, delta = (c.peak_torque, c.friction), (result.multiplier, c.cost_of_transport)
+        # in the order of `header`
         numbers = (result.speed, c.step_length, *forces, *delta, result.seconds)
         rows.append([f"{x:.4g}" for x in numbers])
     if rows:
@@ -106,7 +123,11 @@ def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], 
 def _family(
     biped: ba.Biped, speeds: str | None, steps: str, limits: ba.StepLimits | None, out: Path | None
 ) -> None:
-    """Design a gait for every pair of speed and step length, and store the family through them in a file."""
+    """Design a gait for every pair of speed and step length, fit a family to them, and store it in a file.
+
+    speeds [m/s], steps [m]: texts that `_numbers` reads. limits: None for RESERVE, which leaves room for steps
+    from one gait of the family to another. out: None for family.json. Raises InputError without speeds.
+    """
     from biped_adrc.analysis.gait_design import RESERVE, design_family, library
 
     if speeds is None:
@@ -114,6 +135,7 @@ def _family(
     path = target(out or Path("family.json"), GAITS)
     gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=console.say)
     with console.status("fitting the family"):
+        # the file is NAME-PRESET.json where it is stored with the package
         name = path.stem.removesuffix(f"-{biped.preset}")
         family = design_family(name, biped, gaits, {"command": command_line()})
     family.save(path)
@@ -121,12 +143,15 @@ def _family(
 
 
 def _numbers(text: str) -> tuple[float, ...]:
-    """Numbers from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+    """Numbers from a text "0.4,0.5", or "0.4:1.1:0.1" for first:last:distance, the last one included where the
+    distance leads to it. Raises InputError for any other text.
+    """
     try:
         if ":" in text:
             first, last, by = (float(word) for word in text.split(":"))
             if not (by > 0.0 and last >= first):
                 raise ValueError
+            # 1e-9 and 9 digits: against round-off
             count = math.floor((last - first) / by + 1e-9) + 1
             return tuple(round(first + k * by, 9) for k in range(count))
         return tuple(float(word) for word in text.split(","))
@@ -153,6 +178,7 @@ def gait_show(
     result = ba.load_gait(gait, biped)
     _say_origin(result)
     console.print(f"period {result.period:.6f} s, slope {result.slope:g} rad", highlight=False)
+    # limits of the domain of attraction, where --set has none
     usual = {"friction": biped.description.friction_coefficient, "slope": result.slope}
     report = ba.zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
     console.say(report.text())
@@ -165,19 +191,19 @@ def gait_show(
 
 
 def _say_origin(gait: ba.Gait) -> None:
-    """Print the origin of a gait, and what an import changed or left out."""
+    """Print the provenance of a gait, a line each: its origin, and what an import changed or left out."""
     for key, value in gait.provenance.items():
         console.say(f"{key}: {value}")
 
 
 def _list(biped: ba.Biped) -> None:
-    """Print the stored gaits of a robot in its preset."""
+    """Print a table of the stored gaits of a robot in its preset."""
     from biped_adrc.gait.gait import gait_names
 
     rows = []
     for name in gait_names(biped.description.name, biped.preset):
         result = ba.load_gait(name, biped)
-        length = float(biped.swing_foot(result.q_minus)[0])
+        length = float(biped.swing_foot(result.q_minus)[0])  # horizontal, also on a slope
         numbers = (length / result.period, length, result.period, result.slope)
         rows.append((name, *(f"{x:.4g}" for x in numbers)))
     console.table(("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]"), rows)
@@ -212,10 +238,11 @@ def gait_import(
     slope: float = 0.0,
     out: Path | None = None,
 ) -> None:
-    """Bring along a gait, or fit one to samples of a step; check that it closes, and store it for the robot."""
+    """Import a gait, or fit one to samples of a step; check that its end is its start, and store it."""
     read = (file, *inputs(robot))
     out = target(out, GAITS, read)
     biped = ba.Biped.load(robot, preset)
+    # names: our name of an entry -> the file's
     names = assignments(
         name, "--name", "OURS=THEIRS, such as coefficients=R.alpha or theta_minus=p(1)"
     )

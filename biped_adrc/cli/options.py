@@ -1,9 +1,10 @@
 """Options of commands, without writing each of them out in every command.
 
-`options` puts the help texts of options.toml on the parameters of a command, and short options in front for
-values of a scenario, with the value's own text. `scenario_from` joins a scenario file, what was on the command
-line, pushes, and --set NAME=VALUE with the dotted names that values have everywhere. All of them read units:
-`--period "1 ms"`.
+A command is a Python function, which typer calls with what was on the command line. A *short option*, such as
+--period, stands for one value of a scenario, here hardware.period. `options` puts the help texts of
+options.toml on the parameters of a command, and its short options in front, with the scenario's text on that
+value. `scenario_from` joins a scenario file, short options, pushes, and --set NAME=VALUE with dotted names such
+as hardware.delay. All of them read units: `--period "1 ms"`.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.scenario import Scenario, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
-"""The content of options.toml."""
+"""The content of options.toml: help texts by command, "every" (those of all commands), and "values" (short
+option -> dotted name of the value)."""
 WALKS = ("controller", "gait", "preset", "robot")
-"""Options of all commands that take a scenario: what walks."""
+"""Short options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
 _T = TypeVar("_T")
 
@@ -35,22 +37,26 @@ _T = TypeVar("_T")
 def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
     """Decorator that gives a command its options and arguments, for typer.
 
-    place: of their help texts in options.toml, such as "gait.design". names: short options for values of a
-    scenario (keys of the table `values` there); the command gets them in its argument `values`, as texts by
-    dotted name. usual: short option -> default that the help shows.
+    place: table of their help texts in options.toml, such as "gait.design". names: short options of the command
+    (keys of the table `values` there); the command gets those that were used in its argument `values`, as texts
+    by dotted name. usual: short option -> default that the help shows in place of the scenario's.
     """
     words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
-        """The command behind a signature, made here, from which typer reads options, types and help texts."""
+        """Wrap the command in a function `run` whose signature has the short options in place of `values`;
+        typer reads options, types and help texts from that signature.
+        """
 
         @wraps(command)
         def run(**arguments: Any) -> None:
+            # short options that were not used are None
             texts = {TEXTS["values"][name]: arguments.pop(name) for name in names}
             if names:
                 arguments["values"] = {name: x for name, x in texts.items() if x is not None}
             command(**arguments)
 
+        # short options first, then the command's own parameters, each with its help text, but for `values`
         parameters = [_option(name, usual.get(name)) for name in names]
         for p in signature(command, eval_str=True).parameters.values():
             text = [_shown(words[p.name])] if p.name in words else []
@@ -58,14 +64,16 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
             own = p.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
             parameters += [own] if p.name != "values" else []
         run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
-        run.__annotations__ = {}
+        run.__annotations__ = {}  # else typer would take the types of the command's annotations
         return run
 
     return decorate
 
 
 def _shown(text: str | PlainRecord) -> object:
-    """An option, or an argument, for typer from its entry in options.toml: a text, or a table with flags."""
+    """typer's option, or argument, from its entry in options.toml: a help text, or a table with `argument`, or
+    with `help` and perhaps `flags`.
+    """
     entry = {"help": text} if isinstance(text, str) else text
     if "argument" in entry:
         return typer.Argument(help=entry["argument"])
@@ -73,10 +81,13 @@ def _shown(text: str | PlainRecord) -> object:
 
 
 def _option(name: str, usual: str | None) -> Parameter:
-    """The parameter, for typer, of one value; usual: what the help shows as its default."""
+    """The parameter, for typer, of a short option; usual: what the help shows as its default, None for the
+    default of the scenario's value.
+    """
     what = Scenario.field_of(TEXTS["values"][name])
     text, default = what.text.removesuffix("."), what.default
     if usual is not None:
+        # the value's text may state its own default, which is not true here
         text, default = text.partition("; by default")[0], usual
     text = f"{text}{what.in_brackets}."
     flag = "--" + name.replace("_", "-")
@@ -94,9 +105,11 @@ def scenario_from(
 ) -> Scenario:
     """The scenario of a file, with the values of options, pushes and --set in place of the file's.
 
-    A value of a class of the user's has no declared type: its text is read as TOML.
-    usual: the controller where none of them names one; a robot without motors has "passive". Raises InputError
-    for a text or a file that cannot be read, and for a value that is given twice.
+    values: texts by dotted name, from short options. sets: texts NAME=VALUE; a value of a class of the user's
+    has no declared type, so its text is read by `_own`. file: None for a scenario of defaults. push: texts of
+    pushes, in place of all of the file's. usual: the controller where none of them names one; a robot without
+    motors has "passive". Raises InputError for a text or a file that cannot be read, and for a value that is
+    set twice.
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
     for name, x in assignments(sets, taken=values).items():
@@ -108,15 +121,19 @@ def scenario_from(
 
 
 def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
-    """The controller's name, as a value by dotted name, if none is chosen: `usual`, or "passive" for a robot
+    """{"controller.name": name} with the controller if none is chosen: `usual`, or "passive" for a robot
     without motors. Empty if the scenario file chose one.
+
+    base: the scenario of the file. values: those in place of the file's.
     """
     from biped_adrc.core.registry import is_own
     from biped_adrc.model.robots.robot_toml import load_description
 
+    # neither the default controller nor `usual` counts as a choice of the file
     if base.controller.name != usual and base.controller != Scenario().controller:
         return {}
     robot = str(values.get("robot.name", base.robot.name))
+    # a robot of the user's own class is taken to have motors
     motors = is_own(robot) or load_description(robot).actuated
     return {"controller.name": usual if motors else "passive"}
 
@@ -127,9 +144,11 @@ def assignments(
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
     taken: Collection[str] = (),
 ) -> dict[str, str]:
-    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice.
+    """The texts VALUE by NAME of an option NAME=VALUE. Raises InputError for another form, or a name that comes
+    twice.
 
-    taken: names that other options have given already.
+    sets: what the option had, each time that it was used. option, form: its name and its form, for messages.
+    taken: names whose values other options have set already.
     """
     result: dict[str, str] = {}
     for text in sets or ():
@@ -143,8 +162,8 @@ def assignments(
 
 
 def _own(text: str) -> object:
-    """The text of a value that only the user's part knows, as a number, truth value or list if it reads as
-    one.
+    """The value in a text for a field of a user's own class, whose type is not known: a number, truth value or
+    list if it reads as JSON, as 1,2 does for [1, 2]; else the text itself.
     """
     for candidate in (text, f"[{text}]"):
         with suppress(ValueError):
@@ -157,8 +176,9 @@ def with_sets(
 ) -> _T:
     """An object of the dataclass `make`, with values from --set NAME=VALUE, read by the types of its fields.
 
-    usual: values for fields that --set does not name; fixed: values of fields that --set may not name. Raises
-    InputError for an unknown name, and a text of another type.
+    The text "none" is None, and a tuple is written with commas. usual: values for fields that --set does not
+    name; fixed: values of fields that --set may not name. Raises InputError for an unknown name, and a text of
+    another type.
     """
     hints, values = get_type_hints(make), dict(usual or {})
     known = [name for name in signature(make).parameters if name not in fixed]

@@ -3,6 +3,12 @@
 `check` and `new` derive a biped from a URDF (`model.robot_import.derive`): what the file does not say is
 guessed, each guess is printed, and the model is checked against laws of mechanics. `list` prints
 the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extras.mujoco.mjcf`).
+
+n is the number of coordinates, p that of motors. A *law* is a law of mechanics by which `model.physical`
+checks the model.
+
+A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
+of --set.
 """
 
 from __future__ import annotations
@@ -28,7 +34,7 @@ robot_app = group("robot", "Show the robots there are, or bring one's own from a
 @robot_app.command("list")
 @options("robot.list")
 def robot_list(robot: str | None = None, preset: str | None = None) -> None:
-    """The robots of the package, and all values of a scenario that --set takes; or the record of one robot."""
+    """List the robots of the package and all values of a scenario that --set takes; or describe one robot."""
     from biped_adrc.model.robots.robot_toml import load_description, robot_names
 
     if robot is not None:
@@ -49,7 +55,7 @@ def robot_list(robot: str | None = None, preset: str | None = None) -> None:
 
 
 def _print_values() -> None:
-    """Print what a scenario may say: names, units, ranges, defaults and texts."""
+    """Print all values of a scenario, a line each: name, unit, default, range and text."""
     console.say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
     for what in map(ba.Scenario.field_of, ba.Scenario.names()):
         default = "" if what.default in (None, {}) else f"{what.default}"
@@ -97,6 +103,7 @@ def robot_new(
     sets: list[str] | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
+    # nothing is written for a model that breaks a law of mechanics
     check_folder(out)
     derived = _derived(file, feet, actuated, torque, sets)
     if derived.broken:
@@ -122,6 +129,7 @@ def robot_export(
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else ba.load_gait(gait, biped)
+    # slope [rad] of the scenario's ground, else of the gait's, else level
     slope = g.slope if g.slope is not None else start.slope if start else 0.0
     console.written(write_mjcf(MuJoCoPlant(biped, ground, slope, h=g.engine_step), path, start))
 
@@ -130,7 +138,11 @@ def robot_export(
 def _derived(
     file: Path, feet: str | None, actuated: str | None, torque: float | None, sets: list[str] | None
 ) -> Derived:
-    """The robot of a URDF, with what the options say about it, so that it need not be guessed."""
+    """The robot of the URDF `file`, with its notes and checks; what the options say of it is not guessed.
+
+    feet, actuated: names of two links and of the joints with motors, between commas; torque [N m]: limit of
+    every motor; sets: other fields of `Hints`. What is None is guessed.
+    """
     from biped_adrc.model.robot_import.import_robot import Hints, derive
 
     links, joints = _names(feet), _names(actuated)
@@ -138,12 +150,14 @@ def _derived(
 
 
 def _names(text: str | None) -> tuple[str, ...] | None:
-    """Names between commas; an empty text is no name, None leaves them to be guessed."""
+    """The names between the commas of a text: () for an empty text (there are none), None for None (they will
+    be guessed).
+    """
     return None if text is None else tuple(filter(None, map(str.strip, text.split(","))))
 
 
 def _explain(derived: Derived) -> None:
-    """Print the robot, what was read, assumed and left out, and whether each law holds."""
+    """Print the robot, what was read, assumed and left out of its URDF, and whether each law holds."""
     _describe(derived.biped)
     for note in derived.notes:
         console.say(f"{note.kind:<8} {note.text}")
@@ -152,9 +166,12 @@ def _explain(derived: Derived) -> None:
 
 
 def _describe(biped: ba.Biped) -> None:
-    """Print coordinates and their joints, Theta, feet, section, limits of joints, motors and ground, masses."""
+    """Print n, p and mass; coordinates and their joints; the phase Theta; feet; section; limits of the joints,
+    torque limit and friction; and the inertia of each link, about its COM.
+    """
     d = biped.description
     console.say(f"n = {biped.n} coordinates, p = {biped.p} motors, {biped.mass:.6g} kg")
+    # a coordinate that is no joint's angle is the absolute pitch of a link
     roles = dict.fromkeys(d.passive, "free") | dict.fromkeys(d.actuated, "motor")
     for i, joint in enumerate(d.joints, 1):
         console.say(f"  q{i} = {joint} ({roles.get(joint, 'absolute pitch')})")
@@ -162,7 +179,7 @@ def _describe(biped: ba.Biped) -> None:
     feet = f"stance foot {d.stance_foot}, swing foot {d.swing_foot}"
     console.say(f"{feet}, hip {d.hip}, trunk {d.trunk}")
     console.say(f"section: foot strike, where the height of {d.swing_foot} comes down to zero")
-    for j in biped.motor_joints[1]:
+    for j in biped.motor_joints[1]:  # of the first single support
         rate = f"{j.speed:g} rad/s" if j.speed < math.inf else "not stated"
         ends = "{:g} to {:g} rad".format(*j.range) if j.range[1] < math.inf else "not stated"
         console.say(f"  {j.name}: rate {rate}, range {ends}")
@@ -170,5 +187,6 @@ def _describe(biped: ba.Biped) -> None:
     console.say(f"{limit}friction {d.friction_coefficient:g}, gravity {d.gravity:g} m/s^2")
     for name, link in biped.tree.links.items():
         if link.inertial is not None:
+            # inertia is (ixx, ixy, ixz, iyy, iyz, izz) of a URDF; motions are in the x-z plane
             mass, (x, _, z), iyy = link.inertial.mass, link.inertial.com, link.inertial.inertia[3]
             console.say(f"  {name}: {mass:.6g} kg, COM ({x:.6g}, {z:.6g}) m, iyy {iyy:.6g} kg m^2")

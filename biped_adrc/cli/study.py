@@ -4,6 +4,8 @@
 makes a `paper.scenarios.Plan` of the options, runs it (`paper.reproduction`), and prints ten lines: the checks,
 the tally of claims, and the main findings. A check that does not hold is said by name, and decides the exit
 code; all else is in report.html. Joints of a push are checked before the first walk.
+
+A command's docstring is its help text; its arguments are described in options.toml.
 """
 
 from __future__ import annotations
@@ -37,11 +39,12 @@ def study(
     table: Path | None = None,
     dry_run: bool = False,
 ) -> None:
-    """Walk a study: cases, conditions, grids, draws, or a search; killed, the same command goes on."""
+    """Walk a study: cases, conditions, grids, random draws, or a search; the same command resumes it."""
     from biped_adrc.studies.study import read_study
 
     result, table = read_study(study), target(table, (".csv",))
     if dry_run:
+        # pairs (case, condition) in which nothing is drawn from the seed, so that one walk stands for all seeds
         undrawn = result.rehearse()
         most = "at most " if result.search else ""
         over = f", over {', '.join(result.axes)}" if result.axes else ""
@@ -57,17 +60,20 @@ def study(
         with console.bar(result.name) as shown:
 
             def progress(p: StudyProgress) -> None:
+                """Move the bar, and print a remark on the walk that ended, if there is one."""
                 shown(p.done, p.total, result.name)
                 if p.note:
                     console.print(p.note)
 
             done = ba.study(result, out, workers, progress=progress)
     except KeyboardInterrupt:
+        # a second Ctrl-C must not cut off this message
         for each in (signal.SIGINT, signal.SIGTERM):
             signal.signal(each, signal.SIG_IGN)
         begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
         console.say(f"{begun} {out}; the same command goes on from there")
         raise typer.Exit(EXIT_INTERRUPTED) from None
+    # the results by case, remarks, and of a search the values that it chose
     console.table(headings(done), (texts(line, short=True) for line in done.table()))
     for note in done.notes:
         console.say(note)
@@ -80,6 +86,7 @@ def study(
     if table is not None:
         done.export(table)
     console.written(write_page(done), table)
+    # NO_WALK: statuses of rows for which no walk could be made
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
 
@@ -98,7 +105,7 @@ def reproduce(
     quick: bool = False,
     workers: int | None = None,
 ) -> None:
-    """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a word for each claim."""
+    """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability; and say which claims hold."""
     from biped_adrc.model.robots.robot_toml import load_description
     from biped_adrc.paper.reproduction import reproduce as run
     from biped_adrc.paper.scenarios import PAPER_PUSH, Plan
@@ -118,7 +125,11 @@ def reproduce(
 
 
 def lines(summary: dict[str, Any], out: Path) -> list[str]:
-    """What the command prints, one thing a line."""
+    """The lines that `reproduce` prints. summary: the content of summary.json. out: folder of the report.
+
+    They are the number of checks that hold, at most SHOWN that do not, the tally of claims, the main findings,
+    what was left out, and where the report is.
+    """
     checks = summary["checks"]
     broken = [check for check in checks if not check["holds"]]
     sentences = [f"does not hold: {x['name']}: {x['value']} {x['limit']}" for x in broken[:SHOWN]]

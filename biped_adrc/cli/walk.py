@@ -7,6 +7,9 @@ stores the run. `poincare` finds the fixed point of the return map and its multi
 `animate` draws the robot (`view.export`), `plot` its signals (`view.plots`). Runs are read as they
 are, without walking again, also runs of a user's own controller that is not at hand. The page of
 `play` is that of `extras.play.page`.
+
+A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
+scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """
 
 from __future__ import annotations
@@ -59,11 +62,13 @@ def simulate(
 def _walk(
     s: ba.Scenario, limits: ba.Limits, end_infeasible: bool, out: Path | None, log: Path | None
 ) -> None:
-    """Walk a scenario, print the walk, and write it to `out` and `log`; raises the exit if the robot fell.
+    """Walk a scenario, print the walk, and write it to `out` and `log`; None for no file. Ends the command with
+    EXIT_FELL if the robot fell.
 
-    A walk with motors is made again at half the integration step, for the error of integration, and from a
-    start that differs by ASIDE, to see whether rounding decides it. Only the first walk is stored, before the
-    others begin.
+    limits: of ground and motors, for the judgement of each step; with end_infeasible the walk is cut where it
+    first breaks one. A walk with motors is made again at half the integration step, for the error of
+    integration, and from a start that differs by ASIDE, to see whether rounding decides it. Only the first walk
+    is stored, before the others begin.
     """
     from biped_adrc.scenario.integration import ASIDE, DECIDES
     from biped_adrc.scenario.walk import halved
@@ -71,6 +76,7 @@ def _walk(
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with console.bar(name) as shown:
         full = ba.walk_scenario(s, lambda t, n: shown(n, total, name))
+        # half: the walk at half the step; near: what the other start changes [rad, s]; whole: before it is cut
         half, near, run, whole = None, 0.0, full.trajectory, full
         if run.status is ba.Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
@@ -82,7 +88,7 @@ def _walk(
             from biped_adrc.extras.logs.robot_log import logged
 
             write_log(logged(full), log, full.walker.nominal)
-        if full.gait is not None:
+        if full.gait is not None:  # a robot without motors has no gait
             finer, text = halved(s, full.walker), "the same at half the step"
             half = ba.walk_scenario(finer, lambda t, n: shown(n, total, text))
             near = whole.rounding() if whole.parts else 0.0
@@ -106,6 +112,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     """Print what every step needed of ground and motors, and how the walk ended.
 
     half: the same walk at half the integration step; None without motors, where there is no tracking error.
+    limits: by which each step is judged.
     """
     from biped_adrc.analysis.signals import FALLS
     from biped_adrc.paper.two_steps import error_text
@@ -127,8 +134,11 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
 
 
 def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate]) -> None:
-    """Print what walking steps needed of ground and motors, a row each. A step that was not finished has no
-    certificate, and so no length and no impact.
+    """Print a table of what walking steps needed of ground and motors, a row each, and the limits that each
+    breaks.
+
+    supports: numbers of each single support; certificates: of those that ended in an impact. The last step of a
+    walk may have none, and so no length and no impact; on soft ground no step has one.
     """
     from biped_adrc.analysis.certificate import ratio_text
 
@@ -155,10 +165,11 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
 
 
 def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
-    """Print what the feet did on soft ground, a row for each single support; nothing without."""
+    """Print a table of what the feet did on soft ground, a row per single support; nothing for no steps."""
     header = "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
     rows = []
     for k, s in enumerate(steps, 1):
+        # slip: of the foot that slips more
         slip, depth = f"{1e3 * max(s.slip):.2g}", f"{1e3 * s.depth:.2g}"
         flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
         rows.append((f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}"))
@@ -167,7 +178,7 @@ def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
 
 
 def _named(letter: str, x: Array) -> str:
-    """Numbers with their names: "q1 = 0.123000, q2 = .."."""
+    """Text of the numbers x (K,) with their names, a letter and a count from 1: "q1 = 0.123000, q2 = .."."""
     return ", ".join(f"{letter}{i} = {value:.6f}" for i, value in enumerate(x, 1))
 
 
@@ -179,7 +190,7 @@ def poincare(
     scenario: Path | None = None,
     observer_states: bool = True,
 ) -> None:
-    """Fixed point of the return map, and its multipliers by every method beside each other."""
+    """Find the fixed point of the return map, and print its multipliers by every method side by side."""
     from biped_adrc.analysis.stability import nominal_step
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.cycle import cycle_of
@@ -190,12 +201,13 @@ def poincare(
         result = ba.cycle_stability(cycle)
     walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
+    # x-: (q-, q'-), before the states of controller and observer
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
     about = f"{s.robot.name}, {walker.plant.preset}, {law}"
     console.say(f"{about}, slope {walker.ground_slope:g} rad, {cycle.P.method.label}")
     console.say(f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]")
     step = nominal_step(cycle, o, limits(s))
-    _print_steps([step], [step])
+    _print_steps([step], [step])  # a certificate is a support too
     console.say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
 
 
@@ -210,7 +222,7 @@ def animate(
     stop: float | None = None,
     sets: list[str] | None = None,
 ) -> None:
-    """Write the walk as a page, a picture or a strip."""
+    """Write a stored walk as an HTML page, a moving picture, or a strip of poses."""
     from biped_adrc.scenario.stored import load_walks
     from biped_adrc.view.export import SUFFIXES, export
     from biped_adrc.view.placement import Clip
@@ -258,8 +270,10 @@ def play_command(
     s = scenario_from(values, sets, scenario)
     if s.hardware.period is None:
         s = s.replace({"hardware.period": 1e-3})
+    # the walk beside: another controller than the scenario's
     ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")
     others = {ghost: {"controller.name": ghost}, **OTHERS}
+    # without a name a page in a temporary folder, opened in the browser
     path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out
     ba.play(path, s, others)
     console.written(path)

@@ -5,10 +5,11 @@
     q_d'  = h' Theta'
     q_d'' = h'' Theta'^2 + h' c q''
 
+q (n,) are the coordinates, of which the p = n - 1 actuated ones follow q_d; c is the row of the phase Theta.
 Theta+ is the phase just after impact, Theta- just before the next one; ' on h is d/dTheta.
 
 Outside [Theta+, Theta-] the curve goes on as the polynomial it is, and soon grows steeply. A *continued*
-constraint goes on smoothly instead: at a distance y past an end with h_0, h_0', h_0'' there,
+constraint goes on smoothly instead: at a signed distance y past an end with h_0, h_0', h_0'' there,
 
     h = h_0 + h_0' y + h_0'' (l |y| - l^2 (1 - exp(-|y| / l)))
 
@@ -52,7 +53,7 @@ class VirtualConstraint(Reference):
     (4,)
     """
 
-    SUCH_AS = "gait.constraint"
+    SUCH_AS = "gait.constraint"  # an example of such an object, for error messages
 
     curve: Curve
     """h over s in [0, 1], p rows."""
@@ -73,6 +74,7 @@ class VirtualConstraint(Reference):
         )
 
     def __post_init__(self) -> None:
+        """Check the fields, and keep the phase as a read-only array."""
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
         fade = FADE if self.fade is None else self.fade
@@ -85,14 +87,15 @@ class VirtualConstraint(Reference):
 
     @derived
     def rate(self) -> float:
-        """1 / (Theta- - Theta+) [1/rad]."""
+        """ds/dTheta = 1 / (Theta- - Theta+) [1/rad]."""
         return float(1.0 / (self.theta_minus - self.theta_plus))
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
-        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,); past its ends
-        continued if `fade` is set.
+        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,). theta may lie outside of the range:
+        there the polynomial goes on if `fade` is None, else the module's continuation by `fade`.
         """
         s = self.rate * (theta - self.theta_plus)
+        # np.minimum and np.maximum, since symbols run through this method too
         inside = s if self.fade is None else np.minimum(np.maximum(s, 0.0), 1.0)
         h, dh, ddh = self.curve(inside)
         if self.fade is not None:
@@ -110,12 +113,12 @@ class VirtualConstraint(Reference):
 
 
 def past_end(y: float, fade: float, h: Array, dh: Array, ddh: Array) -> tuple[Array, Array, Array]:
-    """The module's continuation, and two derivatives, at a distance y [1] in the normalised phase s past an
-    end.
+    """The module's continuation of h past an end: h, dh/ds, d2h/ds2, each (p,) [rad].
 
-    fade [1]: l, in s. h, dh, ddh (p,) [rad]: h and its derivatives by s at that end.
+    y [1]: signed distance past that end, in the normalised phase s: below 0 before s = 0, above 0 after s = 1,
+    0 inside, where all stays as it is. fade [1]: l, in s. h, dh, ddh (p,) [rad]: h, dh/ds, d2h/ds2 at that end.
     """
-    left = np.exp(-abs(y) / fade)
+    left = np.exp(-abs(y) / fade)  # share of the curvature that is left at y
     h = h + y * dh + (fade * abs(y) - fade * fade * (1.0 - left)) * ddh
     return h, dh + np.sign(y) * fade * (1.0 - left) * ddh, left * ddh
 
@@ -149,6 +152,9 @@ class CorrectedConstraint(Reference):
         return self.base if isinstance(self.base, VirtualConstraint) else self.base.constraint
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at q (n,) [rad], v (n,) [rad/s]: that of `base` plus the correction's terms, by the
+        chain rule.
+        """
         r, phase = self.base(t, q, v), self.constraint.phase
         rate = float(phase @ v)
         c, dc, ddc = self.correction(float(phase @ q))

@@ -36,7 +36,7 @@ from biped_adrc.model.biped import Biped
 
 _KNEES = (2, 3)  # places of the knees among the paper's coordinates
 _PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2
-_RELABELLING = (1, 0, 3, 2, 4)
+_RELABELLING = (1, 0, 3, 2, 4)  # q+ = q-[_RELABELLING]: the impact exchanges the legs
 
 
 @dataclass(frozen=True)
@@ -53,12 +53,12 @@ class AngleMap:
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def angles(self, q: Array) -> Array:
-        """Map angles q (n,) [rad], or each row of (K, n): A q + b [rad]."""
+        """A q + b [rad] of angles q (n,) [rad], or of each row of q (K, n)."""
         return self.rates(q) + self.b
 
     def rates(self, v: Array) -> Array:
-        """Map rates [rad/s] or accelerations (n,), or each row of (K, n): A v."""
-        return v @ self.A.T
+        """A v of rates v (n,) [rad/s] or accelerations, or of each row of v (K, n)."""
+        return v @ self.A.T  # A v, row by row
 
     @cached_property
     def inverse(self) -> AngleMap:
@@ -77,7 +77,7 @@ class Convention:
     to_paper: AngleMap
     """q of the paper from q' of this convention."""
     outputs: Array
-    """H0 (rows, n): the rows of a gait are H0 q', unless the gait says otherwise."""
+    """H0 (rows, n): the rows of a gait's curve are the outputs H0 q', unless the gait says otherwise."""
     sense: float
     """+1 if its phase falls while the robot walks to +x, as the paper's Theta, -1 if it grows."""
     paper_phase: Array
@@ -91,7 +91,7 @@ class Convention:
     @cached_property
     def phase(self) -> Array:
         """Row c' (n,) of this convention's own phase: c' q' = sense (Theta - paper_phase b) [rad]."""
-        return self.sense * self.paper_phase @ self.to_paper.A + 0.0
+        return self.sense * self.paper_phase @ self.to_paper.A + 0.0  # + 0.0 makes -0.0 to 0.0
 
 
 OWN = "own"
@@ -99,8 +99,8 @@ OWN = "own"
 
 
 def own_convention(biped: Biped) -> Convention:
-    """The convention of a robot's own coordinates; `to_paper` is then the identity, and
-    the phase is its record's.
+    """The convention of a robot's own coordinates: `to_paper` is the identity, the outputs are its p actuated
+    joints, and the phase is that of its record (robot.toml), with its sign (`sense` 1).
     """
     n, p, d = biped.n, biped.p, biped.description
     same = AngleMap(np.eye(n), np.zeros(n))
@@ -108,17 +108,18 @@ def own_convention(biped: Biped) -> Convention:
 
 
 def of_the_paper(biped: Biped) -> bool:
-    """Whether phase and relabelling of a robot are those of the conventions, with knees or without."""
+    """Whether phase and relabelling of a robot are the paper's, with knees (n = 5) or without (n = 3)."""
     if biped.n not in (3, 5):
         return False
     paper = [i for i in range(5) if biped.n == 5 or i not in _KNEES]
     R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
     same = np.array_equal(biped.R, R) and np.array_equal(biped.phase, np.array(_PHASE)[paper])
+    # relabelling is q+ = R q- + r: of q- = 0 it gives r, which is zero in the paper
     return bool(same and not np.any(biped.relabel(np.zeros(biped.n))))
 
 
 def layout_of(name: str, biped: Biped) -> Convention:
-    """The convention of this name for a robot; "own" for its coordinates as they are.
+    """The convention of this name for a robot; the name "own" means the robot's coordinates as they are.
 
     Raises GaitError for an unknown name, or a robot with other coordinates or another phase.
     """
@@ -136,12 +137,14 @@ def layout_of(name: str, biped: Biped) -> Convention:
 
 
 def convention(name: str, knees: bool = True) -> Convention:
-    """The convention of this name, for a walker with knees or without. Raises GaitError with the
-    known names.
+    """The convention of this name from the file, for a walker with knees (5 coordinates) or without (3).
+
+    Raises GaitError with the known names.
     """
     if name not in CONVENTIONS:
         raise GaitError(f"there is no angle convention '{name}'; choose one of {list(CONVENTIONS)}")
     d = _definitions[name]
+    # places of the coordinates that this walker has: in the paper's order, and in the convention's own
     paper = [i for i in range(5) if knees or i not in _KNEES]
     own = [i for i in range(5) if knees or i not in d["knees"]]
     rows = [r for r in d["outputs"] if r in own]

@@ -4,12 +4,16 @@
     h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k)      Bezier
     h(s) = sum_k alpha_k N_k(s)                           BSpline
 
+A curve has p rows, one per joint, with M + 1 coefficients each. As polynomials it has J pieces, each with K
+coefficients a_k per row, of s^0 to s^(K-1).
+
 Outside [0, 1] the curve goes on as the polynomial it is, its first or last piece: after a push a step may end
 late, and the reference must not stop there.
 
 Every curve gives its own representation as polynomials by pieces, from which its values are computed in
-Python, machine code, the zero dynamics and the optimisation of gaits. A curve of another basis is a class with
-`pieces` and the coefficients of a straight line, `ramp`, and a line of the registry.
+Python, machine code, the zero dynamics and the optimisation of gaits. A curve of another basis is a new class
+with `pieces` and `ramp` (the coefficients of a straight line), and a line in the registry of names
+(`core/registry.toml`).
 """
 
 from __future__ import annotations
@@ -52,16 +56,17 @@ class Curve(Shown, ABC):
 
     @property
     def degree(self) -> int:
-        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the
-        degree of the polynomial.
+        """M, one less than the number of coefficients of a joint: for `Bezier` and `Polynomial` the degree, for
+        `BSpline`, whose pieces are cubic, only a count.
         """
         return int(self.coefficients.shape[1]) - 1
 
     @property
     @abstractmethod
     def pieces(self) -> tuple[Array, Array]:
-        """Breaks (J - 1,) in (0, 1), increasing, where pieces join, and coefficients a (J, p,
-        K) of h(s) = sum_k a_jk s^k.
+        """Breaks (J - 1,) in (0, 1), increasing, where pieces join, and coefficients a (J, p, K) [rad].
+
+        On piece j h(s) = sum_k a_jk s^k, where s is the phase in the whole curve, not in the piece.
 
         Values and derivatives follow from this: a new kind of curve need not define its derivatives.
         """
@@ -69,10 +74,11 @@ class Curve(Shown, ABC):
     @classmethod
     @abstractmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
-        """Coefficients (M + 1,) of the straight line start + s (end - start)."""
+        """Coefficients (M + 1,) in this basis of the straight line start + s (end - start); degree: M."""
 
     def shifted(self, b: Array) -> Array:
         """Coefficients (p, M + 1) of h(s) + b, for b (p,) [rad]."""
+        # the ramp from 1 to 1 is the constant 1
         return np.asarray(self.coefficients + np.outer(b, self.ramp(self.degree, 1.0, 1.0)))
 
     @property
@@ -95,7 +101,9 @@ class Curve(Shown, ABC):
 
     @derived
     def stacked(self) -> Array:
-        """Power coefficients of h, h', h'' stacked, (J, 3 p, K): one product with the powers of s gives all."""
+        """Power coefficients of h, dh/ds, d2h/ds2 stacked, (J, 3 p, K) [rad]: one product with the powers of s
+        gives all three.
+        """
         a = self.pieces[1]
         k = np.arange(a.shape[2])
         first, second = np.zeros_like(a), np.zeros_like(a)
@@ -114,6 +122,7 @@ class Curve(Shown, ABC):
         A row has the K coefficients of s^0 .. s^(K-1). At a break they are those of the later piece.
         """
         a = self.stacked[0]
+        # np.where, not an index, since s may be a symbol
         for j in range(len(self.breaks)):
             a = np.where(s >= self.breaks[j], self.stacked[j + 1], a)
         return a
@@ -147,9 +156,9 @@ class Polynomial(Curve):
 class ControlledCurve(Curve):
     """Base of curves that go from their first to their last coefficient, in a basis that adds up to one.
 
-    The basis is symmetric. Such a curve is designed from its ends: the impact gives both ends and
-    their slopes, and the optimisation moves the coefficients between. A polynomial in powers has
-    no coefficient that is its end.
+    The basis is symmetric in s and 1 - s. Gaits are designed with such curves: the state before impact gives
+    the last value and slope, the state after it the first ones, hence the two outer coefficients at either end,
+    and the optimisation moves those between. `Polynomial` is none: its last coefficient is not h(1).
     """
 
     @classmethod
@@ -165,13 +174,13 @@ class ControlledCurve(Curve):
 
     @classmethod
     def between(cls, begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
-        """Coefficients (p, M + 1) of a curve from `begin` to `end` with slopes dh/ds
-        `first` and `last`, each (p,).
+        """Coefficients (p, M + 1) of a curve from `begin` to `end` [rad] with the slopes dh/ds `first` and
+        `last` [rad] there, each (p,); degree: M.
 
-        Those between lie on a straight line. The search for a gait starts from this curve: with ends and
-        slopes that make the constraint invariant under the impact.
+        The slopes fix alpha_1 and alpha_(M-1); the coefficients between these lie on a straight line. The
+        search for a gait starts from this curve, with ends and slopes that make it hybrid-invariant.
         """
-        inner = np.linspace(0.0, 1.0, degree - 1)
+        inner = np.linspace(0.0, 1.0, degree - 1)  # from alpha_1 to alpha_(M-1)
         reach = cls.abscissae(degree)[1]
         ends = begin + reach * first, end - reach * last
         middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
@@ -197,27 +206,29 @@ class Bezier(ControlledCurve):
 
 
 def bernstein_to_power(degree: int) -> Array:
-    """Matrix T (M + 1, M + 1) from Bezier to power coefficients: sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
+    """Matrix T (M + 1, M + 1) from Bezier to power coefficients: sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j,
+    with B_k the Bernstein polynomials of degree M.
 
     Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
     """
     powers = range(degree + 1)
+    # row k, column j; comb(j, k) is 0 for j < k
     T = [[(-1) ** (j - k) * comb(degree, j) * comb(j, k) for j in powers] for k in powers]
     return np.array(T, dtype=float)
 
 
 def basis_at(kind: type[Curve], degree: int, s: Array) -> tuple[Array, ...]:
-    """The basis of a kind of curve at s (K,), its first and second derivatives, each (K, M + 1).
+    """The M + 1 basis functions of a kind of curve at the phases s (K,), and their first and second derivatives
+    by s: three arrays (K, M + 1); degree: M.
 
-    It is the curve whose coefficients are the identity matrix.
+    They are the rows of the curve whose coefficients are the identity matrix.
     """
     return tuple(map(np.array, zip(*map(kind(np.eye(degree + 1)), s), strict=True)))
 
 
 def curve_kind(name: str) -> type[Curve]:
-    """The class of a curve by its name in the registry, imported now.
-
-    Raises GaitError with the known names.
+    """The class of a curve by its name in the registry, such as "bezier". Raises GaitError with the known
+    names.
     """
     if name not in REGISTRY["curve"]:
         raise GaitError(
@@ -244,28 +255,31 @@ class BSpline(ControlledCurve):
 
         N_k,d = (s - t_k) / (t_k+d - t_k) N_k,d-1 + (t_k+d+1 - s) / (t_k+d+1 - t_k+1) N_k+1,d-1
 
-    with N_k,0 one on [t_k, t_k+1) and zero elsewhere, and 0 for what is divided by 0. The third derivative
-    jumps at the knots. de Boor, A Practical Guide to Splines, Springer, 1978. `scipy.interpolate.BSpline` has
-    the same values; here they are needed as polynomials by pieces, of symbols too.
+    with N_k,0 one on [t_k, t_k+1) and zero elsewhere; t_k are the knots, and a term divided by 0 counts as 0.
+    The third derivative jumps at the knots. de Boor, A Practical Guide to Splines, Springer, 1978.
+    `scipy.interpolate.BSpline` has the same values; here they are needed as polynomials by pieces, of symbols
+    too.
 
     Raises GaitError for fewer than 4 coefficients per joint.
     """
 
-    least = CUBIC + 1
+    least = CUBIC + 1  # coefficients of a joint
 
     @property
     def pieces(self) -> tuple[Array, Array]:
+        # the knots between the ends are the breaks
         return knots(self.degree)[CUBIC + 1 : -CUBIC - 1], self.coefficients @ basis(self.degree)
 
     @classmethod
     def abscissae(cls, degree: int) -> Array:
         t = knots(degree)
+        # Greville abscissae: alpha_k = mean of t_k+1 .. t_k+3 gives h(s) = s
         return np.array([np.mean(t[k + 1 : k + 1 + CUBIC]) for k in range(degree + 1)])
 
 
 def knots(degree: int) -> Array:
-    """Knots t (M + 5,) in [0, 1] for M = `degree`, the ends four times: so the curve begins and
-    ends in its outer coefficients.
+    """Knots t (M + 5,) in [0, 1] of a `BSpline` with M = `degree`: equally spaced, 0 and 1 four times each, so
+    that the curve begins and ends with its outer coefficients.
     """
     inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
     return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
@@ -283,20 +297,24 @@ def basis(degree: int) -> Array:
     table = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
     for j in range(len(table)):
         N = np.zeros((len(t) - 1, CUBIC + 1))
-        N[CUBIC + j, 0] = 1.0
+        N[CUBIC + j, 0] = 1.0  # N_k,0 is 1 on piece j for k = CUBIC + j alone, as t_0 .. t_3 are 0
         for d in range(1, CUBIC + 1):
             N = np.array([_raised(t, N, k, d) for k in range(len(N) - 1)])
         table[j] = N
-    table.setflags(write=False)
+    table.setflags(write=False)  # all callers share the cached array
     return table
 
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:
-    """Coefficients (4,) of N_k,d in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
+    """Coefficients (4,) of N_k,d in powers of s, by one step of the recursion of `BSpline`.
+
+    t: knots. N (., 4): coefficients of all functions of degree d - 1, one row each.
+    """
     result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]
         if width > 0.0:
+            # adds sign (s - at) / width N_i,d-1; a factor s moves the coefficients up by one
             result[1:] += sign / width * N[i, :-1]
             result -= sign * at / width * N[i]
     return result

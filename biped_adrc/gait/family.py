@@ -2,14 +2,17 @@
 
     (alpha, Theta-) = polynomials in (v, L),   h = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
 
-The map is fitted to a library of designed gaits (`analysis.gait_design`). Theta+ is where a step begins, so
-that a step may follow one of another length. With sigma the angular momentum about the stance foot,
-y = sigma^2 at the *decision*, a share DECISION of the step, goes from step to step by
+v [m/s] is the speed and L [m] the step length; the gait at one (v, L) is a *member* of the family. The map is
+fitted to a library of designed gaits (`analysis.gait_design`). Theta+ is where a step begins, so that a step
+may follow one of another length. In each step the controller `control.footstep` decides on which member the
+step ends; the *decision* falls at the share DECISION of the step. With sigma = I Theta' the angular momentum
+about the stance foot, y = sigma^2 at the decision goes from step to step by
 
-    y_next = delta^2 (y + 2 W + 2 r J) + 2 W' + 2 r J',   J = int I dTheta
+    y_next = delta^2 (y + 2 W + 2 r J) + 2 W' + 2 r J',   W = int -G_N I dTheta,   J = int I dTheta
 
-where r is a constant torque from outside on the unactuated row, W and J are of the way from the decision to the
-impact, W' and J' of the way from there to the next decision. `StepMap` has them as polynomials too.
+where r is a constant torque from outside on the unactuated row, G_N gravity's torque there, and delta =
+sigma+ / sigma- at the impact. W and J are integrals from the decision to the impact, W' and J' from there to
+the next decision. `StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too.
 """
 
 from __future__ import annotations
@@ -60,15 +63,16 @@ class PolynomialMap(Part):
         for exponents in self.powers:
             term = 1.0
             for z_i, e in zip(z, exponents, strict=True):
-                term = term * z_i**e if e else term
+                term = term * z_i**e if e else term  # z^0 = 1 is left out of the product
             terms.append(term)
         return np.array(terms) @ self.coefficients
 
     @classmethod
     def fit(cls, x: Array, y: Array, degree: int) -> Self:
-        """The least-squares fit to points x (N, d), y (N, m), with all monomials up to a degree."""
+        """The least-squares fit to N points x (N, d), y (N, m), with all monomials up to a total degree."""
         low, high = x.min(axis=0), x.max(axis=0)
         powers = tuple(e for e in product(range(degree + 1), repeat=x.shape[1]) if sum(e) <= degree)
+        # coefficients I give the values of the monomials themselves
         monomials = cls(powers, np.eye(len(powers)), 0.5 * (low + high), 0.5 * (high - low))
         c = np.linalg.lstsq(np.array([monomials(row) for row in x]), y, rcond=None)[0]
         return cls(powers, c, monomials.centre, monomials.scale)
@@ -85,25 +89,27 @@ class StepMap(Part):
     J' [kg m^2], and dq_b/dTheta (p,) [rad/rad] just after the impact."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
-        """y [kg^2 m^4/s^2] at the next decision.
+        """y [kg^2 m^4/s^2] at the next step's decision, from y at this step's decision.
 
-        begin: (v at the start, L of the step before). end: (v, L) of the step. ahead: L of the next step
-        [m]. r: torque on the unactuated row [N m].
+        begin: (speed of the member on which this step begins [m/s], length of the step before [m]). end: (speed
+        of the member on which it ends, its length). ahead: length of the next step [m]. r: constant torque from
+        outside on the unactuated row [N m].
         """
-        W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
+        twice_W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
         after = self.to_decision(np.array((end[0], begin[1], end[1], ahead)))
-        delta2, W_next, J_next = after[0], after[1], after[2]
-        return delta2 * (y + W + 2.0 * r * J) + W_next + 2.0 * r * J_next
+        delta2, twice_W_next, J_next = after[0], after[1], after[2]
+        return delta2 * (y + twice_W + 2.0 * r * J) + twice_W_next + 2.0 * r * J_next
 
     def cycle_square(self, v: float, L: float, r: float = 0.0) -> float:
         """y [kg^2 m^4/s^2] at the decision in the periodic walk of the member (v [m/s], L [m]) under the torque
         r [N m]: the fixed point of `next_square`.
         """
         mu = np.array((v, L))
+        # next_square is y -> delta^2 y + next_square(0), whose fixed point is next_square(0) / (1 - delta^2)
         return self.next_square(0.0, mu, mu, L, r) / (1.0 - self.delta_squared(v, L))
 
     def delta_squared(self, v: float, L: float) -> float:
-        """delta^2 of the impact of the periodic walk of the member (v, L)."""
+        """delta^2 [1] of the impact in the periodic walk of the member (v [m/s], L [m])."""
         return self.to_decision(np.array((v, L, L, L)))[0]
 
 
@@ -111,7 +117,8 @@ class StepMap(Part):
 class GaitFamily(Part):
     """Gaits of one robot by mu = (speed [m/s], step length [m]) between `low` and `high`.
 
-    Raises GaitError for a member outside of them.
+    p motors, n = p + 1 coordinates; alpha (p, M + 1) are the Bezier coefficients of h. `member` and `check`
+    raise GaitError for a mu out of this range; `curve` and `h` do not check it.
     """
 
     name: str
@@ -121,6 +128,7 @@ class GaitFamily(Part):
     curves: PolynomialMap
     """mu -> Bezier coefficients alpha (p, M + 1) in one row, Theta+ of the periodic gait, Theta- [rad]."""
     steps: StepMap
+    """sigma^2 from decision to decision."""
     phase: Array
     """c (n,) of Theta = c q."""
     low: Array
@@ -137,16 +145,19 @@ class GaitFamily(Part):
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def curve(self, mu: Array) -> tuple[Array, float, float]:
-        """alpha (p, M + 1) [rad], Theta+ and Theta- [rad] of the member mu."""
+        """alpha (p, M + 1) [rad], Theta+ and Theta- [rad] of the member mu, in its periodic gait."""
         y = self.curves(mu)
         return y[:-2].reshape(len(self.phase) - 1, -1), y[-2], y[-1]
 
     def h(self, mu: Array, plus: float, theta: float) -> tuple[Array, Array, Array]:
-        """h [rad], dh/dTheta, d2h/dTheta2 (p,) at theta [rad] of a step along mu that began at plus [rad]."""
+        """h [rad], dh/dTheta, d2h/dTheta2, each (p,), at theta [rad], in a step along the member mu that began
+        at Theta = plus [rad] and ends at the member's Theta-; past both ends as in `constraint.continued`.
+        """
         alpha, _, minus = self.curve(mu)
         a, rate = alpha @ bernstein_to_power(alpha.shape[1] - 1), 1.0 / (minus - plus)
         k, s = np.arange(a.shape[1]), rate * (theta - plus)
         x = np.minimum(np.maximum(s, 0.0), 1.0)
+        # h = sum_k a_k x^k and its derivatives; x is s, kept in [0, 1]
         dh, ddh = a[:, 1:] @ (k[1:] * x ** k[:-1]), a[:, 2:] @ (k[2:] * k[1:-1] * x ** k[:-2])
         h, dh, ddh = past_end(s - x, FADE, a @ x**k, dh, ddh)
         return h, rate * dh, rate * rate * ddh
@@ -161,7 +172,7 @@ class GaitFamily(Part):
         """Raise GaitError, with the nearest member, for a speed [m/s] or step length [m] out of range."""
         mu = np.array((speed, step))
         near = np.minimum(np.maximum(mu, self.low), self.high)
-        if not np.all(np.abs(mu - near) <= 1e-9):
+        if not np.all(np.abs(mu - near) <= 1e-9):  # round-off is no error
             raise GaitError(
                 f"family '{self.name}' has no member of {speed:g} m/s with a step of {step:g} m; the nearest "
                 f"has {near[0]:g} m/s and {near[1]:g} m"
@@ -183,6 +194,7 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
     if path.suffix.lower() != ".json":
         path = data_file("gaits", robot, "families", f"{family}-{preset}.json")
         known = sorted(x.stem.removesuffix(f"-{preset}") for x in folder.glob(f"*-{preset}.json"))
+    # a missing file elsewhere was named by its path: `reading` reports it
     if path.parent == folder and not path.is_file():
         raise GaitError(
             f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, and "
@@ -199,7 +211,9 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
 
 
 def _from_record(record: dict[str, Any]) -> GaitFamily:
-    """The family in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
+    """The family from the content of its file, which is changed here. Raises GaitError for another format, and
+    KeyError or TypeError for damaged entries.
+    """
     if record.pop("format") != _FORMAT:
         raise GaitError(f"it is no family, whose format is '{_FORMAT}'")
 

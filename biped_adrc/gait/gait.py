@@ -4,7 +4,8 @@ Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, wh
 fields of `Gait` with the constraint taken apart, in rad, rad/s and s. Files are read by people and compared by
 version control, so keys and order are fixed and numbers have all digits. `load_gait` finds it by name or path
 and checks it against the robot (`Gait.check`): shapes, direction, foot on the ground, and closure, that is,
-the relabelled end of the step is its start.
+the relabelled end of the step is its start (relabelled: with the coordinates of the two legs exchanged, as the
+impact does).
 
 `published` and `design` make gaits, `exchange` imports them; `scenario` walks them, and controllers use
 their constraints as references.
@@ -54,7 +55,7 @@ class Gait(Shown):
     0.416
     """
 
-    SUCH_AS = "load_gait('published', biped)"
+    SUCH_AS = "load_gait('published', biped)"  # an example of such an object, for error messages
 
     name: str
     """Name by which `load_gait` finds its file."""
@@ -87,15 +88,16 @@ class Gait(Shown):
         return impact.q, impact.v
 
     def step_length(self, biped: Biped) -> float:
-        """Distance between the feet at the end of a step of the orbit [m]."""
+        """Distance between the feet just before impact on the orbit [m]."""
         return float(np.hypot(*biped.swing_foot(self.q_minus)))
 
     @classmethod
     def of_cycle(
         cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, object], slope: float = 0.0
     ) -> Gait:
-        """The gait of a constraint with the periodic orbit of its zero dynamics, on ground of `slope` [rad].
+        """The gait of the constraint of `zero` with the periodic orbit of its zero dynamics.
 
+        name, provenance: as the fields. slope [rad]: of the ground, positive downhill; only stored.
         Raises GaitError when there is no orbit.
         """
         q, v = zero.end_state(zero.sigma_minus)
@@ -113,8 +115,9 @@ class Gait(Shown):
         return self
 
     def check(self, biped: Biped) -> Gait:
-        """The gait itself, after a check that it fits the robot and its curve closes. Raises
-        GaitError, with the joint.
+        """The gait itself, after a check that it fits the robot and its curve closes: all that `_laws` lists.
+
+        Raises GaitError for the first condition that does not hold.
         """
         for fits, text in self._laws(biped):
             if not fits:
@@ -122,7 +125,10 @@ class Gait(Shown):
         return self
 
     def _laws(self, biped: Biped) -> Iterator[tuple[bool, str]]:
-        """Iterate over the conditions on a gait of this robot: whether each holds, and the sentence if not."""
+        """Iterate over the conditions on a gait of this robot: (whether it holds, the message if it does not).
+
+        Later ones use the shapes that the first one asks for, so they must not be evaluated after it fails.
+        """
         c, q, d = self.constraint, self.q_minus, biped.description
         p, n = c.curve.coefficients.shape[0], len(c.phase)
         expected = f"robot '{d.name}' has {biped.p} motors and {biped.n} coordinates"
@@ -132,8 +138,9 @@ class Gait(Shown):
         yield below, f"the slope is {self.slope} rad, a right angle or more"
         ends = ("end", c.theta_minus, q), ("start", c.theta_plus, biped.relabel(q))
         for end, theta, pose in ends:
+            # p joint angles and Theta: as the curve has them, and as the pose has them
             angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
-            # of equal gaps a joint, before Theta
+            # the largest gap; rounded, so that of equal gaps a joint is named and not Theta, which is last
             k = int(np.argmax(np.round(np.abs(angles - goals), 9)))
             yield (
                 bool(abs(angles[k] - goals[k]) <= CLOSES),
@@ -157,7 +164,9 @@ class Gait(Shown):
 
     @property
     def file_name(self) -> str:
-        """Name of its file. Raises GaitError for a name that no file may have, or that is a path."""
+        """Name of its file, without folder. Raises GaitError for a gait's name that no file may have, or that
+        is a path.
+        """
         name = f"{self.name}-{self.preset}.json"
         if CONTROL.search(name) or name != Path(name).name:
             raise GaitError(f"{name!r} is no name of a file; say where to write the gait")
@@ -179,6 +188,7 @@ class Gait(Shown):
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:
     """Names of the stored gaits of a robot and preset, sorted; files are called NAME-PRESET.json."""
     end = f"-{preset}.json"
+    # the name of the file does not matter here, only its folder
     files = data_file("gaits", robot, end).parent.glob("*.json")
     return tuple(sorted(x.name.removesuffix(end) for x in files if x.name.endswith(end)))
 
@@ -212,7 +222,9 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
 
 
 def _from_record(record: Mapping[str, Any]) -> Gait:
-    """The gait of a file's content. Raises GaitError, or KeyError and TypeError for damaged entries."""
+    """The gait from the content of its file, not yet checked against a robot. Raises GaitError for another
+    format or numbers that are not finite, and KeyError or TypeError for damaged entries.
+    """
     if record["format"] != FORMAT:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
     n = len(record["phase"])
@@ -226,7 +238,8 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
 
 
 def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
-    """The configuration (n,) [rad] near q (n,) whose swing foot is on ground of `slope` [rad].
+    """The configuration (n,) [rad] near q (n,) whose swing foot is on ground of `slope` [rad], positive
+    downhill: on the Poincare section.
 
     Newton's method on the foot's height moves the actuated joints q_b only, by the least change; the last
     coordinate q_N is kept. Raises GaitError when no configuration near q reaches the ground.
@@ -236,6 +249,7 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
     for _ in range(30):
         height = float(normal @ biped.swing_foot(q))
         row = (normal @ biped.swing_foot_jacobian(q))[:-1]
+        # on the ground [m], or no actuated joint moves the height of the foot
         if abs(height) < 1e-15 or not row @ row > 1e-12:
             break
         q[:-1] -= row * height / (row @ row)
@@ -247,7 +261,9 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:
-    """The numbers (length,) under a key of a record. Raises GaitError unless there are `length` finite ones."""
+    """The numbers (length,) that a file's content `record` has under a key. Raises GaitError unless there are
+    `length` finite ones.
+    """
     value = np.array(record[key], dtype=float)
     if value.shape != (length,) or not np.all(np.isfinite(value)):
         raise GaitError(f"{key} is {record[key]}, expected {length} finite numbers")

@@ -4,6 +4,8 @@
     y'  = J q' + dy/dt
     y'' = J q'' + drift
 
+q (n,) are the coordinates, q_b the p = n - 1 actuated ones, and q_d their reference.
+
 Linear outputs follow a curve over the phase, y = H0 q - h_d(Theta), Theta = c q (Westervelt, Grizzle,
 Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtual constraint in other words:
 
@@ -62,11 +64,11 @@ class OutputPoint(NamedTuple):
 class Outputs(Shown, ABC):
     """Base of all outputs: y as a pure function of (t, q, q').
 
-    The result of a subclass is checked at every call: InputError, or NotFiniteError,
-    with the name of the class.
+    What a subclass returns is checked at every call. Raises InputError for wrong shapes, or NotFiniteError,
+    with the name of that class.
     """
 
-    SUCH_AS = "LinearOutputs(H0, gait.constraint)"
+    SUCH_AS = "LinearOutputs(H0, gait.constraint)"  # an example, for error messages
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -100,17 +102,18 @@ class LinearOutputs(Outputs):
         object.__setattr__(self, "H0", H0)
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
-        r = self.desired(t, q, v)
+        r = self.desired(t, q, v)  # q_d is h_d(Theta) here, with q_d'' = H q'' + drift
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
 
 def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, float]) -> Curve:
-    """The curve q(s) of all n coordinates, from the curve of the outputs y by [H0; c] q = [y; Theta].
+    """The curve q(s) [rad] of all n coordinates from that of n - 1 outputs y(s), by [H0; c] q = [y; Theta].
 
-    phase: c (n,). ends: Theta+ and Theta- [rad]. Raises GaitError where outputs and phase
-    together are not n independent rows.
+    H0: output matrix (n - 1, n). phase: c (n,). ends: Theta+ and Theta- [rad], at s = 0 and 1. Raises GaitError
+    where outputs and phase together are not n independent rows.
     """
     n = len(phase)
+    # a matrix of zeros where the shapes do not fit, so that the test of the rank refuses it
     H = np.vstack((H0, phase)) if H0.shape == (n - 1, n) else np.zeros((n, n))
     if np.linalg.matrix_rank(H) < n:
         raise GaitError(
@@ -118,6 +121,7 @@ def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, fl
             f"{n} coordinates, expected {n} independent rows; give a phase that moves with the coordinate that "
             "has no row, or one row per coordinate"
         )
+    # Theta(s) is a straight line; a linear map of curves is that of their coefficients
     ramp = type(curve).ramp(curve.degree, *ends)
     q = np.linalg.solve(H, np.vstack((curve.coefficients, ramp)))
     return type(curve)(np.asarray(q, dtype=np.float64))
@@ -129,10 +133,10 @@ class FunctionOutputs(Outputs):
 
         height = FunctionOutputs(lambda q: np.array([biped.hip(q)[1] - 0.78, q[4]]))
 
-    Its derivatives are central differences of order 4. For a function and derivatives of order one, J is
-    within 1e-11 and the drift within 1e-10 |v|^2 of the truth. Raises InputError or NotFiniteError, at a call,
-    for a result of the wrong shape or not finite. Outputs with derivatives of their own are a subclass of
-    `Outputs`.
+    Its derivatives are central differences of order 4. Where the function and its derivatives are about 1 in
+    size, J is within 1e-11 and the drift within 1e-10 |v|^2 of the truth. Raises InputError or NotFiniteError,
+    at a call, for a result of the wrong shape or not finite. Outputs with derivatives of their own are a
+    subclass of `Outputs`.
     """
 
     function: Callable[[Array], Array]
@@ -144,8 +148,9 @@ class FunctionOutputs(Outputs):
         return OutputPoint(y, J @ v, J, self._bend(q, v))
 
     def _bend(self, q: Array, v: Array) -> Array:
-        """J' v (p,), with J' = dJ/dt: the second derivative of y along v. The points of the difference are _H
-        apart, whatever the speed; v = 0 has none.
+        """The drift J' v (p,), with J' = dJ/dt: the second derivative of y along v, in the unit of y per s^2.
+
+        Its points q + k h v are _H apart, k = -2 .. 2, whatever the speed |v| is; for v = 0 the drift is 0.
         """
         speed = math.sqrt(v.dot(v))
         h = _H / np.where(speed > 0.0, speed, 1.0)
@@ -153,7 +158,9 @@ class FunctionOutputs(Outputs):
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:
-    """Finite difference of f along dq (n,): sum_k w_k f(q + k dq), k = -2 .. 2, with weights w (5,)."""
+    """Finite difference of f along dq (n,): sum_k w_k f(q + k dq), k = -2 .. 2, with weights w (5,), of which
+    those that are 0 cost no call of f.
+    """
     return np.asarray(
         sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
     )

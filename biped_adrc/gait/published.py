@@ -2,9 +2,9 @@
 
 x* is the state just before impact of the paper's periodic walk (its section VI). Gait (a), the stored gait
 "published", is the virtual constraint of least torque whose orbit passes through it; `design_gait(through=)`
-finds it again within its flat minimum. As printed, x* puts the swing foot 0.13 mm under the ground. So q1..q4
-are moved until the foot is on the ground (`gait.onto_section`), by less than half a unit of their last printed
-digit; q5, printed with four decimals, and the rates are kept.
+finds it again, as closely as a cost that is flat near its minimum lets it. As printed, x* puts the swing foot
+0.13 mm under the ground. So q1..q4 are moved until the foot is on the ground (`gait.onto_section`), by less
+than half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.
 
 A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
 readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published; they
@@ -44,6 +44,7 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
     Raises GaitError that names the file, what was found and what was expected.
     """
     robot, preset = biped.description.name, biped.preset
+    # basename, since a preset's name must not lead out of the folder
     own = biped.description.urdf.with_name(os.path.basename(f"{preset}.toml"))
     path = own if os.path.isfile(own) else data_file("gaits", robot, f"{preset}.toml")
     if not path.is_file():

@@ -47,7 +47,7 @@ class ReferencePoint(NamedTuple):
 
 
 class Reference(Part):
-    """Base class: q_d as a pure function of (t, q, q').
+    """Base of all references: q_d as a pure function of (t, q, q'). What a subclass returns is checked.
 
     >>> @dataclass(frozen=True)
     ... class Still(ba.Reference):
@@ -60,7 +60,7 @@ class Reference(Part):
     array([0., 0., 0., 0.])
     """
 
-    SUCH_AS = "gait.constraint"
+    SUCH_AS = "gait.constraint"  # an example of such an object, for error messages
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -86,5 +86,5 @@ class TimeReference(Reference):
     function: Callable[[float], tuple[Array, Array, Array]]
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
-        q_d, dq_d, ddq_d = self.function(t)
+        q_d, dq_d, ddq_d = self.function(t)  # q_d'' does not depend on q'', so it is all drift
         return ReferencePoint(q_d, dq_d, ddq_d, np.zeros((len(q_d), len(q))))

@@ -12,7 +12,7 @@ On the constraint each force of the ground and each torque, here F, is affine in
 
     F(Theta) = F_0(Theta) + F_1(Theta) Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I(Theta)^2
 
-So each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(Theta) zeta > 0, with the normal
+So each of F_N > 0, mu F_N -+ F_T > 0, u_max -+ u_i > 0 reads A(Theta) + B(Theta) zeta > 0, with the normal
 and tangential force F_N and F_T [N], the friction mu [1], and the torques u_i and their limit u_max [N m]. All
 Theta of a step together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
 around zeta* stays inside it: the interval is a domain of attraction that the ground and the motors allow.
@@ -40,7 +40,7 @@ from biped_adrc.model.ground import Slope, ground_axes
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"
-"""Name of the bound by the highest point of V_zero, which the step has to pass."""
+"""Name of the lower bound by the highest point of V_zero, which the step has to pass."""
 UNLIMITED = "no limit"
 """Name of the upper bound where nothing limits zeta."""
 
@@ -72,14 +72,14 @@ class Bound(NamedTuple):
 
 
 class Domain(NamedTuple):
-    """The interval lower.zeta < zeta < upper.zeta [kg^2 m^4/s^2]."""
+    """The interval lower.zeta < zeta < upper.zeta [kg^2 m^4/s^2] in which the next step keeps all limits."""
 
     lower: Bound
     upper: Bound
 
     @property
     def empty(self) -> bool:
-        """Whether no speed keeps all limits."""
+        """Whether no zeta, and so no speed, keeps all limits."""
         return not self.lower.zeta < self.upper.zeta
 
     def holds(self, zeta: float) -> bool:
@@ -88,10 +88,10 @@ class Domain(NamedTuple):
 
 
 def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
-    """The interval of zeta whose next step is completed and keeps the limits; only F_N > 0 if limits is None.
+    """The interval of zeta from which the next step is completed and keeps the limits; with None only F_N > 0.
 
-    It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction: each limit leaves
-    an interval, and the domain is their intersection.
+    Each limit leaves an interval, and the domain is their intersection. It contains zeta* when the periodic
+    orbit keeps the limits, and is then a domain of attraction.
     """
     lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
     upper = Bound(math.inf, UNLIMITED, math.nan)
@@ -102,8 +102,8 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
 
 
 class Margin(NamedTuple):
-    """One limit as a condition still + moving Theta'^2 > 0, at the K Gauss nodes; forces [N] or
-    torques [N m].
+    """One limit as the condition still + moving Theta'^2 > 0 on the distance to it, at the K Gauss nodes of the
+    zero dynamics: a force [N] or a torque [N m].
     """
 
     cause: str
@@ -115,14 +115,17 @@ class Margin(NamedTuple):
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits of the domain, each as a `Margin`; at a given Theta, forces and torques are affine in
-    Theta'^2, so two rates give them at all speeds.
+    """All limits of the domain as `Margin`, one for each sign where a limit has two.
+
+    At one Theta forces and torques are affine in Theta'^2, so the model at two rates, 0 and 1 rad/s, gives them
+    at all speeds.
     """
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))
     F_0, F_1 = (np.array([result[2] for result in rows]) for rows in (rest, moving))
     along, across = ground_axes(limits.slope)
+    # of each condition row @ F > 0 on the ground reaction F: its name and row
     rows = [(LIFT_OFF, across)]
     if limits.friction is not None:
         rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
@@ -136,11 +139,18 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
 
 
 def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin: the extreme of -A / B over Theta."""
+    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin: of all Theta of a step the strictest
+    zeta = -A / B at which A + B zeta = 0.
+
+    The bound is -inf (lower) or inf (upper) where the margin limits zeta nowhere from this side.
+    """
     still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
 
     def reach(theta: Array) -> Array:
-        """sign * zeta of the crossing; -inf where this end is not limited, inf where nothing helps."""
+        """sign * zeta at which the margin is 0, at each theta; -inf where the margin does not limit this end,
+        inf where no zeta keeps it. The largest one is the strictest, for either sign.
+        """
+        # moving Theta'^2 = gain (delta^2 zeta - V_zero)
         gain = 2.0 * moving(theta) / orbits.inertia(theta) ** 2
         A, B = still(theta) - gain * orbits.potential(theta), sign * orbits.delta**2 * gain
         crossing = -A / np.where(B > 0, B, 1.0)
@@ -149,6 +159,7 @@ def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
     theta = grid(orbits.zero)
     result = reach(theta)
     k = int(np.argmax(result))
+    # the maximum is searched further between the neighbours on the grid
     near = slice(max(k - 1, 0), k + 2)
     where, most = float(theta[k]), float(result[k])
     if np.all(np.isfinite(result[near])):

@@ -1,7 +1,8 @@
 """The zero dynamics of a virtual constraint on a robot with one unactuated coordinate, by quadrature.
 
-On the constraint q_b = h(Theta), Theta = c q, the configuration is q(Theta). With sigma = D_N(q) q' the
-angular momentum about the stance foot (row of q_N of D_s q'),
+On the constraint q_b = h(Theta), Theta = c q, the configuration is q(Theta): q_b are the p actuated joints, q_N
+is the last coordinate, without a motor. With sigma = D_N(q) q' the angular momentum about the stance foot (D_N
+is the row of q_N of the inertia matrix, G_N the entry of gravity),
 
     sigma  = I(Theta) Theta',   I = D_N(q) dq/dTheta
     sigma' = -dV/dq_N = -G_N
@@ -44,20 +45,22 @@ _NODES = 40
 def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
     """Gauss-Legendre nodes (K,) and weights (K,) on [0, 1], and the matrix C (K, K) of running integrals.
 
-    C f is the integral from 0 to each node of the polynomial through the values f (K,) at the nodes: exact for
-    polynomials of degree below K, by their Legendre coefficients.
+    K = count. C f is the integral from 0 to each node of the polynomial through the values f (K,) at the nodes:
+    exact for polynomials of degree below K, by their Legendre coefficients.
     """
     x, w = legendre.leggauss(count)
+    # to_coefficients @ f: its Legendre coefficients; integral: those of P_0 .. P_K-1 from -1 to each x
     to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
     to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
     integrals = (legendre.legint(row, lbnd=-1) for row in np.eye(count))
     integral = np.array([legendre.legval(x, row) for row in integrals]).T
+    # from [-1, 1] to [0, 1]
     return 0.5 * (x + 1.0), 0.5 * w, 0.5 * integral @ to_coefficients
 
 
 @dataclass(frozen=True)
 class ZeroDynamicsOrbit(Shown):
-    """One step of the zero dynamics at K nodes; n coordinates, p motors."""
+    """One step of the zero dynamics at K Gauss nodes (phases); n coordinates, p motors."""
 
     theta: Array
     """Phases (K,) [rad]."""
@@ -72,14 +75,14 @@ class ZeroDynamicsOrbit(Shown):
     ground_reaction: Array
     """Ground reaction (F_T, F_N) (K, 2) [N]."""
     time_weights: Array
-    """Weights (K,) [s]: time_weights @ f is the integral of f over the time of the step."""
+    """Weights (K,) [s]: time_weights @ f, f (K,) at the nodes, is the integral of f over the step's time."""
     period: float
     """Duration of the step [s]."""
 
 
 @dataclass(frozen=True)
 class ZeroDynamics(Shown):
-    """The model along one constraint at K Gauss nodes, with orbits by quadrature. Make it by `of`.
+    """The model along one constraint at K Gauss nodes (phases), with orbits by quadrature. Make it by `of`.
 
     >>> zero = ba.ZeroDynamics.of(biped, gait.constraint)
     >>> zero.delta**2 < 1.0  # the cycle is stable
@@ -89,7 +92,7 @@ class ZeroDynamics(Shown):
     biped: Biped
     """The robot."""
     constraint: VirtualConstraint
-    """h over the phase."""
+    """The virtual constraint q_b = h(Theta)."""
     theta: Array
     """Phases of the nodes (K,) [rad]."""
     weights: Array
@@ -109,8 +112,9 @@ class ZeroDynamics(Shown):
 
     @classmethod
     def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = _NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint at `nodes` Gauss nodes. Raises
-        InputError for other arguments.
+        """Evaluate the model along the constraint at `nodes` Gauss nodes.
+
+        Raises InputError where biped is no `Biped` or constraint no `VirtualConstraint`.
         """
         check_part(biped, "biped", Biped)
         check_part(constraint, "constraint", VirtualConstraint)
@@ -127,22 +131,24 @@ class ZeroDynamics(Shown):
 
     @property
     def work(self) -> float:
-        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], by which gravity changes
-        sigma^2 / 2 from start to end.
+        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], by which gravity changes sigma^2 / 2 from the
+        start to the end of the step; positive where it speeds the step up.
         """
         return float(self.weights @ (-self.gravity * self.inertia))
 
     @cached_property
     def _end(self) -> tuple[Array, Array]:
-        """State (q-, q'-) on the constraint at |Theta'-| = 1 rad/s, in the direction of the walk."""
+        """State (q-, q'-), each (n,) [rad, rad/s], at the end of the step on the constraint, at |Theta'-| = 1
+        rad/s in the direction of the walk; other speeds only scale q'-.
+        """
         h = self.constraint
         q, dq, _ = configuration(h.phase, h.h, h.theta_minus)
         return q, np.sign(h.theta_minus - h.theta_plus) * dq
 
     @property
     def delta(self) -> float:
-        """Ratio sigma+ / sigma- of the angular momenta after and before the impact that ends the
-        step; the same at every speed.
+        """Ratio sigma+ / sigma- [1] of the angular momenta after the impact (about the new foot) and before it
+        (about the old one); the impact is linear in the rates, so it is the same at every speed.
         """
         impact = self.biped.impact(*self._end)
         after = self.biped.angular_momentum(impact.q, impact.v)
@@ -164,16 +170,15 @@ class ZeroDynamics(Shown):
         return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
-        """State (q-, q'-), each (n,) [rad, rad/s], on the constraint; its angular momentum is sigma_minus
-        [kg m^2/s].
+        """State (q-, q'-), each (n,) [rad, rad/s], at the end of the step on the constraint, with the angular
+        momentum sigma_minus [kg m^2/s].
         """
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
 
     def sigma_squared(self, sigma_plus: float) -> Array:
-        """sigma^2 at the nodes (K,) [kg^2 m^4/s^2] for a step that starts with sigma_plus [kg m^2/s].
-
-        Negative from the phase on at which the step comes to a stop.
+        """sigma^2 at the nodes (K,) [kg^2 m^4/s^2] of a step that starts with sigma_plus [kg m^2/s]; a
+        negative value means that the step has stopped before that node.
         """
         return sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
 
@@ -195,19 +200,20 @@ class ZeroDynamics(Shown):
         rate = sigma / self.inertia
         v = self.dq * rate[:, np.newaxis]
         rows = zip(*(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True)
-        time = self.weights / rate
+        time = self.weights / rate  # dt = dTheta / Theta'
         a, u, reaction = map(np.array, rows)
         return ZeroDynamicsOrbit(self.theta, self.q, v, a, u, reaction, time, float(np.sum(time)))
 
     @cached_property
     def cycle(self) -> ZeroDynamicsOrbit:
-        """The periodic orbit. Raises GaitError when there is none."""
+        """The walking step of the periodic orbit. Raises GaitError when there is none."""
         return self.orbit(self.sigma_minus * self.delta)
 
     def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array]:
-        """q'' (n,) [rad/s^2], u (p,) [N m] and ground reaction (2,) [N] at node k.
+        """q'' (n,) [rad/s^2], u (p,) [N m] and ground reaction (F_T, F_N) (2,) [N] at node k, for Theta' = rate
+        [rad/s].
 
-        rate: Theta' [rad/s]; Theta'' follows from the unactuated row of D q'' + Omega = (u, 0).
+        Theta'' (rate2) follows from the unactuated row of D q'' + Omega = (u, 0), u from the others.
         """
         q, dq, ddq, b = self.q[k], self.dq[k], self.ddq[k], self.biped
         v = dq * rate
@@ -221,7 +227,8 @@ class ZeroDynamics(Shown):
 def configuration(c: Array, curve: JointCurve, theta: float) -> tuple[Array, Array, Array]:
     """q [rad], dq/dTheta and d2q/dTheta2 at theta [rad], each (n,), where q_b = h(Theta) and Theta = c q.
 
-    curve: h as a function of theta. The last coordinate comes from Theta = c q: q_N = (Theta - c_b h) / c_N.
+    c (n,): row of the phase, [c_b c_N]. curve: h as a function of theta. The last coordinate follows from
+    Theta = c q: q_N = (Theta - c_b h) / c_N.
     """
     h, dh, ddh = curve(theta)
     c_b, c_N = c[:-1], c[-1]
@@ -235,10 +242,11 @@ def configuration(c: Array, curve: JointCurve, theta: float) -> tuple[Array, Arr
 def impact_jump(
     biped: Biped, constraint: VirtualConstraint, q: Array, v: Array
 ) -> tuple[Array, Array]:
-    """Distance from a constraint after an impact at (q-, q'-) (n,) [rad, rad/s].
+    """Distance from a constraint just after an impact from the state (q-, q'-), each (n,) [rad, rad/s].
 
-    Returns q_b+ - h(Theta+) [rad] and q_b'+ - h'(Theta+) Theta'+ [rad/s], each (p,). Zero for a
-    hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
+    Returns q_b+ - h(Theta+) [rad] and q_b'+ - h'(Theta+) Theta'+ [rad/s], each (p,), with Theta+ = c q+. Both
+    are zero for a state on a hybrid-invariant constraint; otherwise each impact disturbs the tracking
+    controller by this much.
     """
     after, c, p = biped.impact(q, v), constraint.phase, biped.p
     h, slope, _ = constraint.h(float(c @ after.q))
@@ -251,11 +259,13 @@ def invariant_constraint(
     """The hybrid-invariant constraint of a step that ends in the pre-impact pose q (n,) [rad] with the slope
     dq = dq/dTheta (n,), and so begins in the relabelled pose.
 
-    kind, degree: of its curve. The slope at the start is that after the impact, which is linear in the rates,
-    so that dq can stand for them; the coefficients between lie on a straight line.
+    kind, degree: of its curve. The slope at the start is that after the impact: the impact is linear in the
+    rates, so dq stands for q' at Theta' = 1 rad/s. The inner coefficients, which invariance leaves free, lie on
+    a straight line.
     """
     p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
     plus, minus = float(c @ impact.q), float(c @ q)
+    # dh/ds = dh/dTheta (Theta- - Theta+), at the start and at the end
     slopes = impact.v[:p] / float(c @ impact.v) * (minus - plus), dq[:p] * (minus - plus)
     alpha = kind.between(impact.q[:p], *slopes, q[:p], degree)
     return VirtualConstraint(kind(alpha), c, plus, minus)

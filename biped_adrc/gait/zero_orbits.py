@@ -8,7 +8,7 @@ negative in a walk towards +x),
 
 so one number determines a step: zeta = sigma-^2 / 2 [kg^2 m^4/s^2] just before the impact that begins it. With
 delta = sigma+ / sigma-, which does not depend on the speed, the step begins with sigma+^2 / 2 = delta^2 zeta
-and is completed if that exceeds V_max = max V_zero. rho gives zeta of the next step:
+and is completed if that exceeds V_max = max V_zero. The return map rho gives zeta of the next step:
 
     rho(zeta) = delta^2 zeta - V_zero(Theta-)   for   zeta > V_max / delta^2
     zeta* = -V_zero(Theta-) / (1 - delta^2)     exists if  delta^2 / (1 - delta^2) V_zero(Theta-) + V_max < 0
@@ -55,9 +55,10 @@ as an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
-    """The polynomial in Theta [rad] that has the values (K,) at the Gauss nodes of `zero`."""
+    """The Legendre series in Theta [rad] of degree K - 1 with the values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
+    # coefficient j: (j + 1/2) int P_j f dx over x in [-1, 1], by Gauss's rule, whose weights there are 2 w
     products = legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)
     coefficients = products * (np.arange(len(x)) + 0.5)
     return Legendre(coefficients, domain=[c.theta_plus, c.theta_minus])
@@ -70,7 +71,8 @@ def grid(zero: ZeroDynamics) -> Array:
 
 @dataclass(frozen=True)
 class ZeroOrbits(Shown):
-    """The restricted return map rho of one constraint, its fixed point and its domain. Make it by `of`.
+    """The return map rho of one constraint, restricted to the zero dynamics, its fixed point and its domain.
+    Make it by `of`.
 
     zeta is always sigma-^2 / 2 before an impact [kg^2 m^4/s^2].
     """
@@ -88,7 +90,7 @@ class ZeroOrbits(Shown):
 
     @classmethod
     def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
-        """Compute the map of a constraint.
+        """Compute the map of the constraint of `zero`.
 
         Raises GaitError when I changes its sign (Theta is no phase), or when the impact reverses the motion.
         """
@@ -110,7 +112,7 @@ class ZeroOrbits(Shown):
     # -- the numbers of the literature -------------------------------------------------------------
     @property
     def v_end(self) -> float:
-        """Potential V_zero(Theta-) at the end of a step [kg^2 m^4/s^2]; negative when
+        """Potential V_zero(Theta-) at the end of a step [kg^2 m^4/s^2], against 0 at its start; negative when
         gravity speeds the step up.
         """
         return float(self.potential(self.zero.constraint.theta_minus))
@@ -124,24 +126,25 @@ class ZeroOrbits(Shown):
 
     @property
     def existence(self) -> float:
-        """Number that is negative if a periodic orbit exists: delta^2 / (1 - delta^2)
-        V_zero(Theta-) + V_max [kg^2 m^4/s^2].
-
-        Infinite for delta = 1.
+        """delta^2 / (1 - delta^2) V_zero(Theta-) + V_max [kg^2 m^4/s^2]: negative if a periodic orbit exists,
+        then V_max less the start delta^2 zeta* of its step; infinite for delta = 1.
         """
         d2 = self.delta**2
         return d2 / (1.0 - d2) * self.v_end + self.v_max if d2 != 1.0 else math.inf
 
     @property
     def lowest(self) -> float:
-        """Lower end V_max / delta^2 [kg^2 m^4/s^2] of the return map: above this zeta
-        the next step is completed.
+        """Lower end V_max / delta^2 [kg^2 m^4/s^2] of the domain of rho: above this zeta the next step is
+        completed.
         """
         return self.v_max / self.delta**2
 
     @property
     def zeta_star(self) -> float:
-        """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit."""
+        """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit.
+
+        Raises GaitError, with what to change, where there is no stable orbit.
+        """
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
         wrong = ""
         if not d2 < 1.0:
@@ -165,12 +168,13 @@ class ZeroOrbits(Shown):
         Its sign is that of the direction of the walk.
         """
         c = self.zero.constraint
+        # sigma = I Theta', and Theta' has the sign of Theta- - Theta+
         forward = (c.theta_minus - c.theta_plus) * float(self.inertia(c.theta_minus))
         return math.copysign(math.sqrt(2.0 * zeta), forward)
 
     # -- the return map ----------------------------------------------------------------------------
     def rho(self, zeta: float) -> float:
-        """The return map: zeta one step later [kg^2 m^4/s^2]. Raises GaitError for a
+        """The return map: zeta of the next impact [kg^2 m^4/s^2], from zeta of this one. Raises GaitError for a
         step that is not completed.
         """
         begin = self.delta**2 * zeta
@@ -182,7 +186,8 @@ class ZeroOrbits(Shown):
         return begin - self.v_end
 
     def iterate(self, zeta: float, steps: int) -> Array:
-        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2] of so many walking steps.
+        """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]: zeta at the start and after each of
+        `steps` walking steps.
 
         Raises GaitError for a step that is not completed.
         """
@@ -192,8 +197,8 @@ class ZeroOrbits(Shown):
         return np.array(result)
 
     def steps_to(self, zeta: float, closeness: float) -> int:
-        """Number of walking steps until |zeta_k - zeta*| <= closeness zeta*, from |zeta_k - zeta*| ~ delta^(2
-        k).
+        """Number k of walking steps until |zeta_k - zeta*| <= closeness zeta*, as |zeta_k - zeta*| falls with
+        delta^(2 k); closeness is a share [1] of zeta*.
 
         Raises GaitError for a first step that is not completed, or if there is no stable orbit.
         """
@@ -205,31 +210,34 @@ class ZeroOrbits(Shown):
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step that begins after zeta; where it is
-        negative, the step has stopped before.
+        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step that begins after the impact with
+        zeta; where it is negative, the step has stopped before.
         """
         return 2.0 * (self.delta**2 * zeta - self.potential(theta))
 
     def period(self, zeta: float) -> float:
-        """Duration [s] of the step that begins after zeta = sigma-^2 / 2: the integral of |I / sigma| over
+        """Duration [s] of the step that begins after the impact with zeta: the integral of |I / sigma| over
         Theta.
 
-        Also for zeta = V_max / delta^2, the lower end of the domain, where sigma is 0 at V_max and rho is not
-        defined. The quadrature is adaptive, since sigma may be near 0 at V_max. Raises GaitError for a step
-        that is not completed, and for one that nearly comes to rest: where the quadrature's own estimate of its
-        error exceeds the share _DURATION of the duration.
+        It is defined for zeta = V_max / delta^2 too, the lower end of the domain, where sigma is 0 at the phase
+        of V_max and rho is not defined. The quadrature is adaptive, since sigma may be near 0 there. Raises
+        GaitError for a step that is not completed, and for one that nearly comes to rest: where the
+        quadrature's own estimate of its error exceeds the share _DURATION of the duration.
         """
         if zeta != self.lowest:
             self.rho(zeta)  # raises for a step that is not completed; its value is not needed
         c, low = self.zero.constraint, self.lowest
 
         def slowness(theta: float) -> float:
+            """|dt/dTheta| = |I / sigma| [s/rad] at theta [rad]."""
             rise = max(0.0, self.v_max - float(self.potential(theta)))
-            # sigma^2 = 2 (delta^2 zeta - V_zero), from V_max on: no difference of large numbers
+            # sigma^2 = 2 (delta^2 zeta - V_zero), as the sum of two distances to V_max: this keeps the digits
+            # of a sigma near 0, which the difference of two large numbers would lose
             square = 2.0 * (self.delta**2 * (zeta - low) + rise)
             return abs(float(self.inertia(theta))) / math.sqrt(square)
 
         ends = sorted((c.theta_plus, c.theta_minus))
+        # `quad` divides the interval at the phase of V_max, where the integrand is largest
         peak = [self.theta_max] if ends[0] < self.theta_max < ends[1] else None
         time, error, *_ = quad(
             slowness, *ends, points=peak, limit=400, epsabs=1e-12, epsrel=1e-10, full_output=1
@@ -245,12 +253,12 @@ class ZeroOrbits(Shown):
     @cached_property
     def step_length(self) -> float:
         """Distance between the feet at impact [m], along the ground where that has a slope."""
-        q, _ = self.zero.end_state(0.0)
+        q, _ = self.zero.end_state(0.0)  # the pose does not depend on the speed
         return float(np.linalg.norm(self.zero.biped.swing_foot(q)))
 
     def speed(self, zeta: float) -> float:
-        """Average speed [m/s] of the step that begins after zeta; at the lower end of the domain its limit,
-        which is 0 where the step comes to rest at V_max.
+        """Average speed [m/s] of the step that begins after the impact with zeta. At the lower end of the
+        domain, zeta = V_max / delta^2, it is 0 where the step comes to rest at V_max for ever.
         """
         if zeta == self.lowest and self._slows_down_for_ever:
             return 0.0
@@ -258,19 +266,22 @@ class ZeroOrbits(Shown):
 
     @cached_property
     def _slows_down_for_ever(self) -> bool:
-        """Whether V_max is an equilibrium (dV_zero/dTheta = 0): a step at the lower end comes to rest there."""
+        """Whether the phase of V_max is an equilibrium (dV_zero/dTheta = 0): a step at the lower end of the
+        domain then approaches it and never passes; else V_max is at an end of the step, which is left or
+        reached in finite time.
+        """
         slope = self.potential.deriv()
         largest = float(np.max(np.abs(slope(grid(self.zero)))))
         return abs(float(slope(self.theta_max))) < _SADDLE * largest
 
     def kinetic_energy(self, zeta: float) -> float:
-        """Kinetic energy [J] just before an impact with zeta."""
+        """Kinetic energy [J] just before the impact with zeta."""
         return self.zero.biped.kinetic_energy(*self.zero.end_state(self.sigma(zeta)))
 
 
 def _highest(potential: Legendre, theta: Array) -> float:
-    """Phase [rad] at which V_zero is largest: an end of the grid theta (K,), or a zero of its
-    slope next to the maximum on it.
+    """Phase [rad] at which V_zero is largest: a zero of its slope beside the largest value on the grid theta
+    (K,), or that grid point where the slope has no change of sign, as at an end.
     """
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()

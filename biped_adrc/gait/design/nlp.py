@@ -10,8 +10,9 @@ alpha, the phases Theta+ and Theta-, the state and impulse after an impact at Th
     alpha_0, alpha_1 from the impact of alpha_M, alpha_(M-1)   the impact keeps to the constraint
 
 Everything else (torque, ground reaction, foot height) is an explicit function of the unknowns, so that CasADi's
-derivatives are exact and nothing is integrated in time. All rows are dimensionless: lengths over the leg,
-forces over the weight, speeds over sqrt(g leg), torques over their limit.
+derivatives are exact and nothing is integrated in time. All rows (constraints of the programme) are
+dimensionless: lengths over the leg, forces over the weight, speeds over sqrt(g leg), torques over their limit;
+angles are in rad. In the functions below k is the `SymbolicStep`, and x its `Unknowns`.
 
 `transcribe` writes it. `solve_nlp` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same
 programme with a slack variable s >= 0 in each limit and sum s minimised (an elastic, or l1, relaxation): a
@@ -41,7 +42,7 @@ _SHORTEST = 0.05
 PASSED = 0.5
 """Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
 LATE = f"the swing foot above the ground after {PASSED:.0%} of the step"
-"""Name of the limit on a foot without a required clearance."""
+"""Name of the limit on the swing foot where no clearance is required."""
 _SMOOTH = 1e-2
 """Width of the smoothed |power| in the cost of transport, as a share of the torque limit times 1 rad/s."""
 CALM = 1e-2
@@ -64,16 +65,18 @@ INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
 
 
 class Bounded(NamedTuple):
-    """Constraint low <= value <= high, dimensionless, or [rad] for angles; an equality if low = high."""
+    """One constraint (row, or several rows) low <= value <= high, dimensionless, or [rad] for angles; an
+    equality if low = high.
+    """
 
     name: str
     """Name of the constraint in error messages; several rows may share one."""
     value: ca.MX
-    """Expressions, one column: the same limit at all nodes."""
+    """Expressions, one column: often the same limit at all nodes."""
     low: float
     high: float
     unit: str = ""
-    """Unit or reference of the value, such as "of the weight", for messages."""
+    """What the value is a share of, such as "of the weight", or its unit; for messages."""
 
 
 @dataclass(frozen=True)
@@ -88,8 +91,8 @@ class NonlinearProgram:
     """Equality and inequality constraints."""
 
     def missed(self, x: Array) -> dict[str, float]:
-        """By name of a constraint, the largest violation of its rows by x (nx,), dimensionless or [rad]; 0 if x
-        keeps them.
+        """By name of a constraint, the largest violation of its rows by the decision vector x (nx,),
+        dimensionless or [rad]; 0 if x keeps them.
         """
         values = ca.Function("rows", [self.x], [row.value for row in self.rows]).call([x])
         result = dict[str, float]()
@@ -100,7 +103,7 @@ class NonlinearProgram:
         return result
 
     def in_words(self, missed: Mapping[str, float]) -> list[str]:
-        """A text for each violated limit, with its violation and unit, the largest violation first."""
+        """A text for each limit in `missed` (name -> violation), with violation and unit, the largest first."""
         units = {row.name: row.unit for row in self.rows}
         ordered = sorted(missed.items(), key=lambda pair: -pair[1])
         return [f"{name} by {amount:.3g} {units[name]}".rstrip() for name, amount in ordered]
@@ -109,10 +112,10 @@ class NonlinearProgram:
 def transcribe(
     biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
 ) -> tuple[NonlinearProgram, Unknowns[ca.MX]]:
-    """Write the nonlinear programme of a request; also returns the symbols of its unknowns.
+    """Write the nonlinear programme of a request; returns it and the symbols of its unknowns.
 
-    direction: sign of Theta' in the walk, from the first guess: Theta falls in a walk to +x with the paper's
-    phase, but grows with the phase of other robots.
+    limits: the request's, completed by the robot's own. direction: sign of Theta' in the walk, from the first
+    guess: Theta falls in a walk to +x with the paper's phase, but grows with the phase of other robots.
     """
     step = SymbolicStep(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))
@@ -126,16 +129,20 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
 
     The end of the curve is the pre-impact state, its start the state after the impact with the legs relabelled,
     in value and in slope; the angular momentum follows the quadrature to each node and closes over the step.
+    Each row is an expression that has to be zero.
     """
     x, p, M = k.x, k.p, k.request.degree
+    # |sigma-| and |sigma+| over sigma_scale, but for the sign of Theta', which the squares below do not see
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
     sigma_plus = k.sigma(k.q_plus, k.v_plus) * x.rate
     sigma2 = (k.node.inertia * x.rates / k.sigma_scale) ** 2
+    # slopes at the ends: dh/ds = (alpha_1 - alpha_0) / reach, and likewise at the end
     reach = float(k.request.kind.abscissae(M)[1])
     begin, end = x.alpha[:, 1] - x.alpha[:, 0], x.alpha[:, M] - x.alpha[:, M - 1]
     zero: list[tuple[str, ca.MX] | tuple[str, ca.MX, str]] = [
         ("the swing foot on the ground", k.out @ k.foot / k.leg),
         ("the constraint before impact", x.alpha[:, M] - x.q[:p]),
+        # dh/ds = (Theta- - Theta+) dq_b/dTheta; after impact multiplied by Theta'+, which is not divided by
         ("the slope before impact", end / reach - k.span * x.slope),
         ("the constraint after impact", x.alpha[:, 0] - k.q_plus[:p]),
         ("the slope after impact", begin / reach * (k.phase @ k.v_plus) - k.span * k.v_plus[:p]),
@@ -152,12 +159,12 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 
 def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
-    """Inequality rows at the nodes and both ends: contact, torque, lift-off,
-    stability, clearance, ranges and rates of the joints.
+    """Inequality rows, at the nodes and both ends of the step: contact, torque, lift-off, stability, clearance,
+    ranges and rates of the joints.
 
-    Friction, torque and rates keep `limits.reserve` for the phases between the nodes. The clearance
-    required is a hump 16 h (s (1 - s))^2 over the normalised phase, which is h in the middle of the
-    step and 0, with slope 0, at its ends.
+    Friction, torque, rates and ranges keep the share `limits.reserve` back for the phases between the nodes;
+    of the torque `x.peak` has it. The clearance required is a hump 16 h (s (1 - s))^2 over the normalised
+    phase, which is h in the middle of the step and 0, with slope 0, at its ends.
     """
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
@@ -168,13 +175,14 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     P_T, P_N = (
         k.direction * x.rate * (row @ x.impulse) / (k.mass * speed) for row in (k.along, k.out)
     )
+    # speeds out of the ground: of the swing foot before the impact, of the old stance foot after it
     before = k.direction * x.rate * (k.out @ k.J_2 @ k.dq)
     after = k.direction * x.rate * (k.out @ x.after[k.n :])
     torque = node.u / limits.torque
     lift = limits.lift_off / speed
     mu, mu_i = kept * limits.friction, kept * limits.impulse_friction
     weights, legs, speeds = "of the weight", "of the leg", "of sqrt(g leg)"
-    ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2
+    ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2  # delta^2
     rows = [
         Bounded("the normal force", F_N, limits.normal_force, infinite, weights),
         Bounded("friction", mu * F_N - F_T, 0.0, infinite, weights),
@@ -184,6 +192,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
         Bounded("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
         Bounded("the swing foot coming down", before / speed, -infinite, -lift, speeds),
         Bounded("the old foot lifting off", after / speed, lift, infinite, speeds),
+        # Theta goes one way all along and goes on so after impact, some way off a span or a rate of zero
         Bounded("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
         Bounded("one way of Theta after impact", k.phase @ k.v_plus, 0.02, infinite),
         Bounded(
@@ -197,6 +206,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
+    # nodes at which the foot has to be above the ground: without a clearance those after PASSED alone
     above = [
         i for i, x in enumerate(s) if x > (PASSED if limits.clearance is None else 0.0) and x < 1.0
     ]
@@ -216,10 +226,10 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 
 def _objective(k: SymbolicStep) -> ca.MX:
-    """The cost (1, 1), scaled to about 1.
+    """The cost (1, 1) of the request's objective, made dimensionless so that it is about 1 in size.
 
-    Objectives other than torque have a little torque squared added (CALM), since they leave the torque
-    undetermined where it costs nothing.
+    Objectives other than torque have a little torque squared (`calm`) added, CALM times, since they leave the
+    torque undetermined where it costs nothing.
     """
     u = k.node.u / k.limits.torque
     calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.gravity)
@@ -227,6 +237,7 @@ def _objective(k: SymbolicStep) -> ca.MX:
         case Objective.TORQUE:
             return calm
         case Objective.TRANSPORT:
+            # |x| as sqrt(x^2 + e^2) - e, which has a derivative at 0
             power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + _SMOOTH**2) - _SMOOTH)
             work = ca.sum2(power * k.dt) * k.limits.torque
             return work / (k.biped.weight * k.length) + CALM * calm
@@ -250,7 +261,7 @@ class IpoptResult(NamedTuple):
 def solve_nlp(
     programme: NonlinearProgram, x0: Array, bounds: Bounds, strategy: str = "adaptive"
 ) -> IpoptResult:
-    """Run IPOPT from x0 (nx,) within bounds of the decision vector.
+    """Run IPOPT once from the first guess x0 (nx,), within bounds of the decision vector, solved or not.
 
     strategy: how IPOPT lowers its barrier parameter, "adaptive" (fast) or "monotone" (more robust). Raises
     KeyboardInterrupt on Ctrl-C, which CasADi notices at its next evaluation.
@@ -284,7 +295,7 @@ def solve_nlp(
 def relaxed(
     programme: NonlinearProgram, request: str, x0: Array, bounds: Bounds, status: str
 ) -> Array:
-    """Find a decision vector (nx,) that keeps all limits, by a relaxation with slacks s from x0 (nx,).
+    """Find a decision vector (nx,) that keeps all limits, from x0 (nx,), by a relaxation with slacks s.
 
         minimise  w . s + 1e-6 f(x)   subject to  low - s <= g(x) <= high + s,  s >= 0
 
@@ -292,8 +303,8 @@ def relaxed(
     objective keeps the solution unique. The equations of the model have no slack; the requested speed and step
     length have one of weight w = ASKED_WEIGHT, all other limits w = 1.
 
-    request, status: the request in words and IPOPT's status, for the message. Raises GaitError naming the
-    limits whose slack stays above _MISSED.
+    bounds: of x. request, status: the request in words, and the status with which IPOPT failed before, for the
+    message. Raises GaitError naming the limits whose slack stays above _MISSED.
     """
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
@@ -320,4 +331,4 @@ def relaxed(
         raise GaitError(
             f"no gait with {request} keeps the limits{reason if result.solved else unknown}"
         )
-    return result.x[:-count]
+    return result.x[:-count]  # without the slacks

@@ -71,24 +71,27 @@ BEND = 0.2
 def standing(robot: PlanarRobot) -> Array:
     """Configuration (n,) with both legs stretched downwards and all other links upwards [rad].
 
-    Link directions are complex numbers, of which `robot` knows the vectors to feet and hip; absolute angles are
-    kept in (-pi, pi].
+    In the plane as complex numbers, a point lies at sum_i d_i exp(i a_i) from the stance foot, with the
+    absolute angles a = A q of the links and vectors d_i that `robot.K` has for the swing foot and the hip. So
+    each link is turned until its vector points upwards. Angles are kept in (-pi, pi].
     """
     K = robot.K
     foot, hip, w = K.foot_re + 1j * K.foot_im, K.hip_re + 1j * K.hip_im, K.w_re + 1j * K.w_im
     leg = foot - hip
+    # d of a link of the stance leg (towards the hip), of the swing leg (from foot to hip), else its mass moment
     vector = np.where(np.abs(hip) > 0, hip, np.where(np.abs(leg) > 0, -leg, w))
     a = np.pi / 2 - np.angle(vector)
+    # into (-pi, pi]; round-off may leave -pi, which becomes pi
     a = np.pi - np.mod(np.pi - a, 2.0 * np.pi)
     a = np.where(np.abs(a + np.pi) < 1e-9, np.pi, a)
     return np.asarray(np.linalg.solve(robot.A, a), dtype=np.float64)
 
 
 def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
-    """Move the joints of q (n,) [rad] that have a range a little inside of it; returns the configuration.
+    """A copy of q (n,) [rad] whose joints with a range are moved a little inside of it.
 
-    ranges: (low, high) [rad] by joint; the distance from an end is BEND or a quarter of the range. A guess at
-    a bound would have no direction to move in.
+    ranges: (low, high) [rad] by joint; the distance from an end is then at least BEND, or a quarter of the
+    range if that is less. A guess at a bound would have only one direction to move in.
     """
     q = q.copy()
     for joint, (low, high) in ranges.items():
@@ -101,9 +104,11 @@ def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -
 def apart(
     biped: Biped, step: float, slope: float, ranges: Mapping[str, tuple[float, float]]
 ) -> Array:
-    """Pre-impact configuration (n,) [rad] with the swing foot `step` [m] ahead on ground of `slope` [rad].
+    """Pre-impact configuration (n,) [rad] with the swing foot `step` [m] ahead on ground of `slope` [rad],
+    found by least squares.
 
-    Least squares: the foot weighs most, then the hip half way between the feet, then nearness to `standing`.
+    The foot's distance from its place weighs most, then that of the hip from half way between the feet, then
+    that of the angles from `standing`. ranges: (low, high) [rad] by joint, kept as bounds.
     """
     robot = robot_of(biped)
     near, K = _inside(standing(robot), biped, ranges), robot.K
@@ -113,7 +118,7 @@ def apart(
         bounds[:, biped.description.joint_index(joint)] = ends
 
     def miss(q: Array) -> Array:
-        """Residuals (n + 3,): foot from its target, hip from half way [m], q from standing [rad], weighted."""
+        """Weighted residuals (n + 3,): of foot (2,) and hip (x alone) [m], and of the angles (n,) [rad]."""
         t = turned(robot.A, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(
@@ -124,7 +129,8 @@ def apart(
 
 
 def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:
-    """(q-, q'-) of a requested state (2 n,), with q- moved onto the ground by at most MOVED [rad].
+    """(q-, q'-), each (n,), of a requested state (2 n,) [rad, rad/s], with the swing foot of q- put onto ground
+    of `slope` [rad], by a change of at most MOVED [rad].
 
     Raises GaitError for a state that is not just before the impact of a walk forwards.
     """
@@ -144,7 +150,7 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
 
 
 def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unknowns[Array]:
-    """First guess of the unknowns of a request.
+    """First guess of the unknowns of a request, by the module's steps 1 to 3.
 
     The rate |Theta'| is constant over the step: the span of Theta over the duration that follows from speed
     and step. Raises GaitError for a speed or a step that legs of this length cannot walk.
@@ -169,6 +175,7 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
         q, v = _given_state(biped, np.array(request.through), request.slope)
         dq, rate = v / float(c @ v), abs(float(c @ v))
     h = invariant_constraint(request.kind, biped, q, dq, request.degree)
+    # 0.5: a guess of the largest torque over its limit
     return at_gait(biped, h, q, dq, rate, np.full(request.nodes, rate), 0.5)
 
 
@@ -185,12 +192,11 @@ WINDING = 1.5
 
 
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:
-    """Sentences on the limits that the periodic step of a gait violates at the nodes of its orbit; empty for
-    none.
+    """Texts on the limits that the periodic step of a gait, `orbit`, violates at its nodes; empty for none.
 
     Friction, torque, ranges and rates are compared with the limits themselves, since the programme kept a
     reserve to them. It kept none to F_N, clearance, lift-off and slowest rate, so these may fall short of their
-    limits by the reserve's share.
+    limits by the reserve's share. The requested speed and step length may be missed by SPEED.
     """
     limits, c = request.limits.of(biped), gait.constraint
     names = ("normal_force", "clearance", "lift_off", "slowest")
@@ -199,6 +205,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     loose = replace(limits, reserve=0.0, **left)
     rate = float(c.phase @ gait.v_minus)
     rates = np.abs(orbit.v @ c.phase)
+    # 1.0: the largest torque allowed is the limit itself
     x = at_gait(biped, c, gait.q_minus, gait.v_minus / rate, abs(rate), rates, 1.0)
     finer = replace(request, nodes=len(rates))
     programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
@@ -239,8 +246,9 @@ class Optimum:
 def optimise(biped: Biped, request: GaitRequest) -> Optimum:
     """Find the gait of least objective from a cold start; as in every nonlinear programme the optimum is local.
 
-    Raises GaitError naming the limits that would have to be relaxed, or the robot that has no such gait
-    (exactly one unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
+    Where the exact gait misses a limit between the nodes, it is designed once more with twice the nodes. Raises
+    GaitError naming the limits that would have to be relaxed, or the robot that has no such gait (exactly one
+    unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """
     begin, spent, missed = perf_counter(), 0, list[str]()
     if biped.p != biped.n - 1 or biped.p == 0:
@@ -266,8 +274,8 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
 
 
 def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]:
-    """Solve the stages of the request one after the other; returns the last solution and
-    the number of iterations.
+    """Solve the stages of the request (`GaitRequest.stages`) one after the other; returns the solution of the
+    last one and the number of all iterations.
 
     IPOPT lowers its barrier parameter in the adaptive and, if that fails, in the monotone way. After a stage
     that is not solved, the next one starts from the same guess. If the last stage is not solved, `relaxed`
@@ -301,8 +309,9 @@ def _bounds(
 ) -> Bounds:
     """Lower and upper bounds (nx,) of the decision vector.
 
-    Rates are positive, coefficients stay within WINDING of the guess (angles repeat every 2 pi), the peak
-    torque is fixed at its limit unless it is the objective, and a given pre-impact state is fixed.
+    Rates are positive, coefficients stay within WINDING of the guess (angles repeat every 2 pi), the unknown
+    `peak` is fixed at 1 less the reserve unless it is the objective, and a requested pre-impact state is fixed.
+    All other unknowns are free.
     """
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
     one, all_nodes = np.ones(1), np.ones(request.nodes)
@@ -325,7 +334,7 @@ def _bounds(
 def exact_gait(
     biped: Biped, request: GaitRequest, x: Unknowns[Array]
 ) -> tuple[Gait, ZeroDynamicsOrbit]:
-    """The gait of a solution x, hybrid-invariant and periodic to round-off, and its periodic step.
+    """The gait of a solution x, hybrid-invariant and periodic to round-off, and its step at _NODES nodes.
 
     Of x only q- (n,), the slopes (p,) and the inner coefficients (p, M - 3) are used; the outer coefficients
     follow from Pinocchio's impact, the orbit from the quadrature of the zero dynamics. Raises GaitError

@@ -26,6 +26,7 @@ MOST_NODES = 100
 FrictionFloat = Annotated[float, Range("a number above 0, or infinity", lambda x: x > 0.0)]
 SlopeFloat = Annotated[float, Range("below 0.5 rad either way", lambda x: abs(x) < 0.5)]
 DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4, 13))]
+# more than MOST_NODES are accepted too, for the requests with more nodes that `optimise` makes itself
 NodesInt = Annotated[
     int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
 ]
@@ -59,13 +60,14 @@ class StepLimits(Checked, Shown):
     - normal_force [1]: least F_N, as a share of the weight.
     - clearance [1]: least height of the swing foot in mid-step, as a share of the leg; None: it may scuff at
       first, as a leg without knees does.
-    - lift_off [m/s]: least vertical speed of the old foot after impact, and of the swing foot before it.
+    - lift_off [m/s]: least speed of the old foot out of the ground after impact, and of the swing foot into it
+      before.
     - ranges [rad]: of joints, (low, high) by name of the coordinate, besides those of the record and the URDF.
     - multiplier [1]: largest delta^2 of the zero dynamics; the orbit is stable below 1.
     - slowest [1]: least |Theta'| in the step, as a share of that before impact: a walk that nearly stops is
       easily stopped.
-    - reserve [1]: share of friction, torque, rates and a quarter radian of ranges that is kept back between
-      the nodes.
+    - reserve [1]: share of friction, torque, rates and of a quarter radian (or half the range) at either end of
+      the ranges that is kept back at the nodes, for the phases between them.
 
     Raises InputError for a limit that is negative, zero where it divides, or a range without extent.
 
@@ -86,7 +88,9 @@ class StepLimits(Checked, Shown):
     reserve: NonNegativeFloat = 0.02
 
     def of(self, biped: Biped) -> RobotLimits:
-        """These limits with the robot's own in place of None, and what its URDF states of either leg's joints.
+        """These limits with the robot's own in place of None, with the ranges of its record for joints that
+        `ranges` does not name, and cut to the ranges and rates that its URDF states for the joints of both
+        legs.
 
         Raises GaitError for a joint that the robot does not have.
         """
@@ -98,6 +102,7 @@ class StepLimits(Checked, Shown):
             )
         mu = d.friction_coefficient if self.friction is None else self.friction
         own = {"friction": mu, "impulse_friction": mu, "torque": d.peak_torque}
+        # a clearance of None is a value: no clearance is required
         given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
         ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
         # a coordinate is the angle of either leg's joint in turn
@@ -118,6 +123,7 @@ class RobotLimits(StepLimits):
     rates: Mapping[str, float] = field(default_factory=dict)
     """Largest |q_i'| [rad/s] by name of the coordinate."""
 
+    # as in StepLimits, but never None
     friction: FrictionFloat
     impulse_friction: FrictionFloat
     torque: PositiveFloat
@@ -149,10 +155,11 @@ class GaitRequest(Checked, Shown):
 
     @property
     def kind(self) -> type[ControlledCurve]:
-        """The class of the curves."""
+        """The class of the curves that `curve` names."""
         return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
+        # exactly one of the two: speed or step, or a state
         targets = self.speed is not None or self.step is not None
         for fits, expected in (
             (targets != bool(self.through), "a speed, a step length or both, or a state"),
@@ -162,9 +169,10 @@ class GaitRequest(Checked, Shown):
                 raise GaitError(f"no gait can be designed for {self!r}: expected {expected}")
 
     def stages(self) -> tuple[GaitRequest, ...]:
-        """Requests from an easy one to this one, each the first guess of the next.
+        """Requests from an easy one to this one; the solution of each is the first guess for the next.
 
-        Least torque on level ground, least torque on the slope, this one; equal ones are left out.
+        They are least torque on level ground, least torque on the slope, and this one; equal ones are left out,
+        and a state to pass through has only this one.
         """
         if self.through is not None:
             return (self,)

@@ -48,8 +48,8 @@ class Unknowns(NamedTuple, Generic[_T]):
     theta: _T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
     after: _T
-    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s]; it is linear in
-    Theta'-."""
+    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s]: q' and the velocity of
+    the old stance foot; it is linear in Theta'-."""
     impulse: _T
     """(F_T, F_N) of that impact (2,) [N s]."""
     rate: _T
@@ -61,7 +61,7 @@ class Unknowns(NamedTuple, Generic[_T]):
 
     def split(self, x: Array) -> Unknowns[Array]:
         """Split a decision vector x (nx,) into the unknowns, in the shapes of the symbols in `self`, such as
-        (n, 1) and (p, M + 1).
+        (n, 1) and (p, M + 1); matrices stand in x column by column.
         """
         cuts = np.split(np.ravel(x), np.cumsum([np.prod(part.shape) for part in self])[:-1])
         both = zip(cuts, self, strict=True)
@@ -78,15 +78,16 @@ def at_gait(
 ) -> Unknowns[Array]:
     """The unknowns of a step on the constraint h that ends in q (n,) [rad] with slope dq/dTheta = dq (n,).
 
-    rate, rates (K,): |Theta'| before impact and at the nodes [rad/s]. peak: largest torque over its limit.
+    rate, rates (K,): |Theta'| before impact and at the nodes [rad/s]. peak [1]: largest torque over its limit.
     """
+    # dq is q' at Theta' = 1 rad/s
     impact, ends = biped.impact(q, dq), np.array([h.theta_plus, h.theta_minus])
     about = dq[: biped.p], h.curve.coefficients, ends, impact.v_e, impact.impulse
     return Unknowns(q, *about, np.array(rate), rates, np.array(peak))
 
 
 class Node(NamedTuple):
-    """The model at K Gauss nodes, one column each; the fields are in the order of the rows of
+    """The model at K nodes (phases of the step), one column each; the fields are in the order of the rows of
     `node_function`.
     """
 
@@ -99,26 +100,28 @@ class Node(NamedTuple):
     v_b: ca.MX
     """Joint rates (p, K) [rad/s]."""
     force: ca.MX
-    """Ground reaction on the stance foot (2, K), horizontal and vertical [N]."""
+    """Ground reaction on the stance foot (2, K), horizontal and vertical also on a slope [N]."""
     foot: ca.MX
-    """Position of the swing foot from the stance foot (2, K) [m]."""
+    """Position (x, z) of the swing foot from the stance foot (2, K) [m]."""
     q: ca.MX
     """Configuration (n, K) [rad]."""
 
 
 def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: float) -> ca.Function:
-    """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
+    """Make a CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked,
+    at one node.
 
-    phase: c (n,), Theta = c q. direction: sign of Theta'. s: normalised phase of the node; b, b', b'' (M + 1,):
-    basis functions of the curve and their derivatives there, inputs so that one function serves all nodes.
+    phase: c (n,), Theta = c q. degree: M of the curve. direction: sign of Theta'. Arguments of the result are
+    alpha (p (M + 1),), column by column; s: normalised phase of the node; b, b', b'' (M + 1,): basis functions
+    of the curve and their derivatives by s there, inputs so that one function serves all nodes.
     """
-    n, K = robot.n, robot.K
+    n, K = robot.n, robot.K  # K: the robot's constants here, not the number of nodes
     p, M = n - 1, degree
     alpha, theta, s, r = (ca.SX.sym(*a) for a in (("a", p * (M + 1)), ("t", 2), ("s"), ("r")))
     basis = [ca.SX.sym(f"b{k}", M + 1) for k in range(3)]
     span, c_b, c_N = theta[1] - theta[0], phase[:p], phase[p]
     h, dh, ddh = (ca.reshape(alpha, p, M + 1) @ b for b in basis)
-    dh, ddh = dh / span, ddh / span**2
+    dh, ddh = dh / span, ddh / span**2  # derivatives by Theta from here on
     q = ca.vertcat(h, (theta[0] + s * span - ca.dot(c_b, h)) / c_N)
     dq = ca.vertcat(dh, (1.0 - ca.dot(c_b, dh)) / c_N)
     ddq = ca.vertcat(ddh, -ca.dot(c_b, ddh) / c_N)
@@ -126,6 +129,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     x, v = entries(q), entries(dq * rate)
     D, Omega = map(together, robot.inertia_and_bias(x, v))
     inertia = D[p, :] @ dq
+    # Theta'' from the row without a motor
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
@@ -136,7 +140,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
 
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
-    """New symbols for n coordinates, Bezier curves of this degree, and `nodes` Gauss nodes."""
+    """New CasADi symbols of all unknowns, for n coordinates, curves of this degree, and `nodes` Gauss nodes."""
     p, scalar = n - 1, (1, 1)
     sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar
     named = zip(Unknowns._fields, sizes, strict=True)
@@ -146,12 +150,13 @@ def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
 class SymbolicStep:
     """The walking step as CasADi expressions of the unknowns x, from which `nlp` builds cost and constraints.
 
-    node: the model at the K Gauss nodes; everywhere: there and at both ends of the step, at the normalised
-    phases `places`. work: W (1, 1) = int -G_N I dTheta over the step, until (1, K): the same up to each node
-    [kg^2 m^4/s^2]. dt (1, K): time of each node's share of the step, duration: their sum [s]. length: distance
-    of the feet along the ground [m]. along, out (1, 2): unit vectors of the ground and of its normal. dq (n,):
-    dq/dTheta before impact. q_plus, v_plus (n,): state after the impact at Theta'- = 1, legs relabelled.
-    D, J_m, J_2, foot: inertia matrix, Jacobians of m p_com and of the swing foot, and its place, at q-.
+    direction: sign of Theta' in the walk. span: Theta- - Theta+ [rad]. node: the model at the K Gauss nodes;
+    everywhere: there and at both ends of the step, (K + 2) columns, at the normalised phases `places`. work: W
+    (1, 1) = int -G_N I dTheta over the step, until (1, K): the same up to each node [kg^2 m^4/s^2]. dt (1, K):
+    time of each node's share of the step, duration: their sum [s]. length: distance of the feet along the
+    ground at q- [m]. along, out (1, 2): unit vectors of the ground and of its normal. dq (n,): dq/dTheta before
+    impact. q_plus, v_plus (n,): state after the impact at Theta'- = 1, legs relabelled. D, J_m, J_2, foot:
+    inertia matrix, Jacobians of m p_com and of the swing foot, and its place, at q-.
 
     Constraints are made dimensionless by the leg length, the weight, and sigma_scale = m g l sqrt(l / g).
     """
@@ -159,6 +164,10 @@ class SymbolicStep:
     def __init__(
         self, biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
     ) -> None:
+        """Make the symbols of the unknowns, and all expressions of them.
+
+        limits: the request's, completed by the robot's own. direction: sign of Theta' in the walk.
+        """
         self.biped, self.request, self.limits = biped, request, limits
         robot, self.direction = robot_of(biped), direction
         self.n, self.p = biped.n, biped.p
@@ -172,6 +181,7 @@ class SymbolicStep:
         self.q_plus = R @ x.q + biped.relabel(np.zeros(self.n))
         self.v_plus = R @ x.after[: self.n]
         self.node = self.at(s, x.rates)
+        # |Theta'| just after impact: that at Theta'- = 1, times |Theta'-|
         first = (self.phase @ self.v_plus) * x.rate
         ends = self.at(np.array([0.0, 1.0]), ca.horzcat(first, x.rate))
         self.everywhere = Node(*(ca.horzcat(*pair) for pair in zip(self.node, ends, strict=True)))
@@ -179,31 +189,32 @@ class SymbolicStep:
         self.span = x.theta[1] - x.theta[0]
         self.dt = direction * self.span * w[np.newaxis] / x.rates
         self.duration = ca.sum2(self.dt)
+        # -G_N I dTheta/ds at the nodes
         drive = -self.node.gravity * self.node.inertia * self.span
         self.work, self.until = drive @ w, drive @ C.T
         c_b, c_N = biped.phase[: self.p], biped.phase[self.p]
         self.dq = ca.vertcat(x.slope, (1.0 - ca.dot(c_b, x.slope)) / c_N)
         self.along, self.out = (ca.DM(axis[np.newaxis]) for axis in ground_axes(request.slope))
-        self.pose = pose_function(robot)
+        self.pose = pose_function(robot)  # q -> (D, J_m, J_2, foot)
         self.D, self.J_m, self.J_2, self.foot = self.pose(x.q)
         self.length = self.along @ self.foot
 
     def at(self, s: Array, rates: ca.MX) -> Node:
-        """The model at the normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
+        """The model at any normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
         basis = [x.T for x in basis_at(self.request.kind, self.request.degree, s)]
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
-        sizes = (1, 1, p, p, 2, 2, self.n)
+        sizes = (1, 1, p, p, 2, 2, self.n)  # rows of each field of `Node`
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
 
     def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
-        """Angular momentum about the stance foot at (q, v), each (n,), over `sigma_scale`: dimensionless."""
+        """Angular momentum about the stance foot at (q, v), each (n,) [rad, rad/s], over `sigma_scale` [1]."""
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> ca.MX:
-        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless;
-        zero for a consistent impact.
+        """Residual (n + 4,) of the paper's impact equations (7) at Theta'- = 1 rad/s, scaled by mass and leg
+        length; zero where `after` and `impulse` of the unknowns are the impact of q-.
         """
         x, m = self.x, self.mass
         upper, lower, foot = impact_rows(self.D, self.J_m, self.J_2, m, self.dq, x.after, x.impulse)

@@ -4,7 +4,7 @@ From angles over time alone, gravity and a scale of all lengths are the same (q(
 candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
 body. For each candidate the factor k is solved for with which the step lasts as long as the samples do. Then
 the candidates are compared by what k leaves: the largest distance of the samples q(t) from the orbit of that
-robot [rad].
+robot [rad]. A *cause* is one such change of the robot, with its k.
 """
 
 from __future__ import annotations
@@ -35,21 +35,24 @@ CLEARLY = 3.0
 
 
 def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float) -> str:
-    """Name the changes of the robot, one of which explains samples that its dynamics do not give, as the end of
-    a sentence.
+    """The end of an error message, from "; " on, that names the causes: each of these changes of the robot
+    alone would explain samples that its dynamics do not give; or that says that there is none.
 
-    layout: convention of the samples. degree, slope [rad]: of the curves, and of the ground. Raises InputError
-    and GaitError where already the poses do not fit the robot.
+    samples: in the convention `layout`. degree: of the curves that are fitted. slope [rad]: of the ground,
+    positive downhill. Raises InputError and GaitError where already the poses do not fit the robot.
     """
     s = poses(samples, biped, layout, degree, slope)[0]
 
     def orbit(make: Callable[[float], Biped], k: float) -> ZeroDynamics:
+        """The zero dynamics of the robot make(k), on the curves that are fitted to the samples for it."""
         return ZeroDynamics.of(make(k), fit(s, make(k), degree))
 
     def late(log_k: float, make: Callable[[float], Biped]) -> float:
+        """log(period of that robot / duration of the samples); 0 at the factor that is searched."""
         k = math.exp(min(max(log_k, -_WIDE), _WIDE))
         return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
 
+    # makes: name of a change -> the robot by its factor k; found: name -> distance [rad] and k
     d, found = biped.description, dict[str, tuple[float, float]]()
     makes: dict[str, Callable[[float], Biped]] = {
         "gravity (or one over all lengths)": lambda k: replace(
@@ -70,10 +73,13 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
 
 
 def with_legs(biped: Biped, k: float) -> Biped:
-    """The robot with legs k times as long, and the COMs of their links as far out; masses and inertias stay."""
+    """The robot with legs k times as long, and the COMs of their links k times as far out along them; masses
+    and inertias stay.
+    """
     tree, d = biped.tree, biped.description
     legs = {j.child for foot in d.feet for j in tree.path_below(foot, d.trunk) or ()}
     com = {link: k for link in legs if tree.links[link].inertial is not None}
+    # the origin of a joint lies in the frame of its parent link, so the hips, on the trunk, stay
     joints = tuple(
         replace(j, origin=vector(k * np.array(j.origin))) if j.parent in legs else j
         for j in tree.joints
@@ -87,7 +93,11 @@ def _heavier(biped: Biped, body: str, k: float) -> Biped:
 
 
 def _distance(s: Samples, zero: ZeroDynamics) -> float:
-    """Largest distance of the samples from the orbit at equal times [rad]."""
+    """Largest distance of the samples from the periodic orbit of `zero` at equal times [rad], over all joints.
+
+    Both begin at the time of the first sample. Nodes of the orbit outside of the samples' time are left out.
+    """
+    # time of each node: the integral of 1 / Theta' over Theta
     times = s.t[0] + zero.cumulative @ (1.0 / (zero.cycle.v @ zero.constraint.phase))
     inside = (times > s.t[0]) & (times < s.t[-1])
     return float(np.max(np.abs(CubicSpline(s.t, s.q)(times) - zero.cycle.q)[inside]))

@@ -1,10 +1,11 @@
 """Import and export of gaits: `import_gait` and `export_gait`, the two functions a user calls.
 
-An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, completes missing
+An import reads a file or takes a `GaitFile`, converts it to the paper's coordinates, completes missing
 entries (state before impact, period) from the zero dynamics, and passes the `Gait.check` of stored gaits: the
-end of the step, relabelled, is the start of the next one. Degrees, a sign, an order of joints, another
-convention: all violate it, so each such mistake is detected. Where the same numbers would be a gait in another
-convention, the error names it. `check_slopes` checks hybrid invariance besides.
+end of the step, relabelled (with the coordinates of both legs exchanged), is the start of the next one.
+Degrees, a sign, an order of joints, another convention: all violate it, so each such mistake is detected. Where
+the same numbers would be a gait in another convention, the error names it. `check_slopes` checks hybrid
+invariance besides.
 
 On disk a gait is a record, a JSON or MATLAB file with a `units` struct; a walk ("run") is a MATLAB file.
 
@@ -24,7 +25,7 @@ A gait file of another program needs three entries, and one more unless the call
     theta_plus, theta_minus  range of the phase [rad]
     convention               a name of `conventions.CONVENTIONS`
 
-All other fields of `GaitRecord` may be added under their names. `names` maps them where the file has others.
+All other fields of `GaitFile` may be added under their names. `names` maps them where the file has others.
 """
 
 from __future__ import annotations
@@ -65,7 +66,8 @@ from biped_adrc.model.biped import Biped
 
 
 def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[str, str]) -> None:
-    """Write numbers, arrays and text under their names as a .mat file; arrays (K,) become columns (K, 1).
+    """Write numbers, arrays and text under their names as a .mat file (version 5); arrays (K,) become columns
+    (K, 1).
 
     units: unit of each array by its name, "1" where it is dimensionless. Raises OutputError.
     """
@@ -94,7 +96,7 @@ def read_mat(path: Path | str) -> dict[str, Any]:
 
 
 def _text(value: object) -> object:
-    """The value; an array of characters, as MATLAB stores text, as str."""
+    """The value as it is; but an array of characters, as MATLAB stores text, becomes a str."""
     if isinstance(value, np.ndarray) and value.dtype.kind == "U":
         return "".join(value.ravel().tolist())
     return value
@@ -102,16 +104,16 @@ def _text(value: object) -> object:
 
 _FORMAT = "biped_adrc exchanged gait 1"
 """Entry `format` of a gait file written here; files of other programs need none."""
-_KEYS = tuple(f.name for f in fields(GaitFile))
+_KEYS = tuple(f.name for f in fields(GaitFile))  # names of the entries that are read
 _SHOWN = 30
 """Most names of entries that an error lists."""
 
 
 def write_record(record: GaitFile, path: Path | str) -> None:
-    """Write a record as .json or .mat: the fields of `GaitRecord` by name, a `format`, and the units.
+    """Write a record as .json or .mat: the fields of `GaitFile` by name, a `format`, and the units.
 
-    Fields that are None are left out; provenance is text of JSON in a .mat file. Raises InputError for another
-    suffix, and OutputError where the file cannot be written.
+    Fields that are None are left out; in a .mat file the provenance is one text of JSON. Raises InputError for
+    another suffix, and OutputError where the file cannot be written.
     """
     path = output_path(path, (".json", ".mat"))
     entries = {key: x for key, x in vars(record).items() if x is not None}
@@ -134,11 +136,14 @@ def read_record(
 ) -> tuple[GaitFile | Samples, str, str]:
     """Read a gait file; returns (record or samples, name of the convention, name of the source for messages).
 
-    Samples come from a .csv, from a result of FROST, and from a file that has t and q and no coefficients.
-    convention: for a file that does not state its own; usual: if neither does. A stored gait is in the robot's
-    own coordinates. names: the file's names of its entries where they differ from ours, such as
-    {"coefficients": "alpha"}, as `entries` reads them; "step" names one of FROST's steps. Raises InputError and
-    GaitError that name the file.
+    Samples come from a .csv, from a result of FROST, and from a file that has t and q and no coefficients. All
+    else is a record.
+
+    convention: of a file that does not state its own. Where neither does, a gait stored by this package and
+    samples t, q are in the robot's own coordinates, and all else is in the convention `usual`; for None a
+    result of FROST is in "frost", and any other file an error. names: the file's names of its entries where
+    they differ from ours, such as {"coefficients": "alpha"}, as `entries` reads them; "step" names one of
+    FROST's steps, else the first is taken. Raises InputError and GaitError that name the file.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -152,8 +157,10 @@ def read_record(
     with reading("gait file", path, GaitError):
         entries, source = all_entries(result), path.name
         known, steps, names = list(entries), frost_steps(entries), dict(names or {})
+        # `units` is written last, so a file written here without it is not complete
         cut_off = result.get("format") == _FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []
+        # a result of FROST, unless the caller or the file itself names curves or samples
         if steps and not {"coefficients", "q"} & {*names, *entries}:
             step = names.pop("step", next(iter(steps)))
             others = ", ".join(x for x in steps if x != step)
@@ -161,6 +168,7 @@ def read_record(
             absent += [] if step in steps else [f"step {step} of {list(steps)}"]
             entries |= steps.get(step, {})
             convention = convention or usual or "frost"
+        # absent: names of what is missing, for one message on all of it
         for ours, theirs in names.items():
             try:
                 entries[ours] = entry(entries, theirs)
@@ -177,6 +185,7 @@ def read_record(
         own = entries.get("convention")
         stored = result.get("format") == STORED or samples
         convention_ = own or convention or (OWN if stored else usual)
+        # no convention, or two different ones
         if convention_ is None or (own and convention not in (None, own)):
             raise GaitError(
                 f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "
@@ -217,9 +226,10 @@ RUN_UNITS = {
 
 
 def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -> None:
-    """Write signals (K,) or (K, ...), as `vars(walk.signals)`, as a .mat file in this paper's convention.
+    """Write signals at K instants, (K,) or (K, ...), by name as in `vars(walk.signals)`, as a .mat file.
 
-    note: free text. Raises InputError for another suffix, and OutputError.
+    columns: in this paper's coordinates and in the units RUN_UNITS. note: free text. Raises InputError for
+    another suffix, and OutputError.
     """
     about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
     arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
@@ -264,6 +274,7 @@ def import_gait(
     """
     check_part(biped, "biped", Biped)
     check_part(gait, "gait", GaitFile, Samples, str, Path)
+    # for samples: what the provenance says of them, and the gait's name
     source, title = "arrays", "samples"
     if isinstance(gait, str | Path):
         title, usual = Path(gait).stem, None if of_the_paper(biped) else OWN
@@ -271,7 +282,7 @@ def import_gait(
     own = gait.convention if isinstance(gait, GaitFile) else convention or OWN
 
     def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
-        """The gait, read in this convention for this robot; slopes: whether those at the ends are
+        """The gait, read in this convention for this robot, and checked; slopes: whether those at the ends are
         checked too.
         """
         if isinstance(gait, Samples):
@@ -283,6 +294,7 @@ def import_gait(
         return result
 
     def closes(convention: str, robot: Biped, slopes: bool) -> bool:
+        """Whether `attempt` with these arguments is a gait."""
         with suppress(
             GaitError, InputError
         ):  # another number of joints, or a phase that says nothing
@@ -294,7 +306,7 @@ def import_gait(
     except GaitError as error:
         d, hint = biped.description, ""
         presets = [x for x in d.presets if closes(own, _with_preset(biped, x), slopes)]
-        # the poses fit in this convention, so only the masses differ
+        # right: the poses fit in this convention, so only the masses differ, and no other one is proposed
         right = closes(own, biped, False)
         layouts = [x for x in CONVENTIONS if not right and closes(x, biped, False)]
         for word, others in (("preset", presets), ("convention", layouts)):
@@ -308,15 +320,19 @@ def import_gait(
 
 
 def _with_preset(biped: Biped, name: str) -> Biped:
-    """The robot with another of its presets."""
+    """The robot with another of its presets (sets of masses and rotors)."""
     d = biped.description
     return replace(biped, preset=name, tree=d.tree(name), armature=d.presets[name].armature)
 
 
 def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
-    """The gait of a record, completed by the zero dynamics and checked. Raises GaitError."""
+    """The gait of a record, completed by the zero dynamics and checked. Raises GaitError.
+
+    source: of the record, for a provenance that states none.
+    """
     layout = layout_of(record.convention, biped)
     along, remark = onto_ground(coordinates(record, layout), biped, record.slope)
+    # along: curves of all coordinates, with dq/ds at s = 1 in dq, so dq / span is dq/dTheta before impact
     constraint, span = along.constraint, along.theta_minus - along.theta_plus
     q, dq, _ = along.curve(1.0)
     provenance = dict(record.provenance) or {
@@ -332,6 +348,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
         to_paper = layout.to_paper
+        # the record's state, moved as its curves were: by whole turns, and with the foot onto the ground
         q = to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
         q, v = q + foot_down(biped, q, record.slope)[0], to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
@@ -352,12 +369,13 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
 
 
 def check_slopes(gait: Gait, biped: Biped) -> None:
-    """Raise GaitError unless the gait is hybrid-invariant: dq/dTheta after the impact
-    is the slope at the start.
+    """Raise GaitError unless the gait is hybrid-invariant: dq_b/dTheta after the impact of this robot is the
+    slope dh/dTheta at the start, within SLOPES.
 
     It depends on the masses, so this is the one check that tells robots of equal link lengths apart.
     """
     _, jump = impact_jump(biped, gait.constraint, gait.q_minus, gait.v_minus)
+    # rates over Theta'+ are slopes [rad/rad]
     jump = np.abs(jump / (gait.constraint.phase @ gait.start(biped)[1]))
     joint = int(np.argmax(jump))
     if not jump[joint] <= SLOPES:
@@ -377,7 +395,7 @@ def export_gait(
     for `import_gait` or MATLAB.
 
     gait: the gait to write. path: of the file, .json or .mat. convention: name of the convention of the angles
-    in the file. biped: the gait's robot, needed if that is not one of the package. Raises InputError for
+    in the file. biped: the gait's robot; None loads the package's robot of that name. Raises InputError for
     another suffix, convention or robot, and OutputError where the file cannot be written.
 
     >>> ba.export_gait(gait, folder / "gait.mat", "frost")

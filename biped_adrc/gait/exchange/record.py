@@ -8,8 +8,9 @@ alpha_k + b, and s is the same under every affine map of the phase. With y and t
 
     q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
 
-every coordinate is a curve. `coordinates` converts a record to the paper's coordinates, `record_of` converts a
-gait to another convention; both keep kind and degree of the curves.
+every coordinate is a curve. H0 and c' are the record's fields `outputs` and `phase`; alpha_k are coefficients,
+and A, b those of the convention's map q = A q' + b. `coordinates` converts a record to the paper's coordinates,
+`record_of` converts a gait to another convention; both keep kind and degree of the curves.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 class GaitFile(Shown):
     """A gait of a robot with n coordinates in one angle convention.
 
-        record = GaitRecord("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
+        record = GaitFile("frost", alpha, theta_plus=-0.25, theta_minus=0.25, name="from FROST")
         gait = ba.import_gait(record, biped)
 
     Only convention, coefficients and the range of the phase are needed; everything else has a default or
@@ -100,7 +101,10 @@ class GaitFile(Shown):
                 object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
     def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
-        """An entry as a read-only array with this number of dimensions, or a float. Raises GaitError."""
+        """The value of an entry as a read-only array with this number of dimensions, or as a float for 0.
+
+        Raises GaitError that names the entry.
+        """
         try:
             a = np.asarray(value)
         except ValueError:  # rows of different lengths
@@ -116,7 +120,7 @@ class GaitFile(Shown):
 
 
 class Coordinates(NamedTuple):
-    """Curves of all n coordinates of this paper along a step, and the phase they belong to."""
+    """Curves of all n of the paper's coordinates over a step, and the phase they belong to."""
 
     curve: Curve
     """q(s), (n, M + 1) coefficients [rad]."""
@@ -137,11 +141,12 @@ class Coordinates(NamedTuple):
 
 
 def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, str]]:
-    """The least change of q- (n,) [rad] that puts the swing foot onto the ground, and a remark for the
-    provenance.
+    """The least change (n,) of the actuated joints of q- = q (n,) [rad] that puts the swing foot onto the
+    ground, and a remark for the provenance.
 
     The change is zero, without a remark, for a foot that is nearer to the ground than CLOSES, which counts as
-    on it, or further away than NEAR, which is no error of digits. slope [rad]: of the ground.
+    on it, or further away than NEAR: rounded digits do not explain that, and `Gait.check` then refuses the
+    gait. slope [rad]: of the ground, positive downhill.
     """
     height = float(ground_axes(slope)[1] @ biped.swing_foot(q))
     if not CLOSES < abs(height) <= NEAR:
@@ -153,12 +158,13 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
 def onto_ground(
     along: Coordinates, biped: Biped, slope: float
 ) -> tuple[Coordinates, dict[str, str]]:
-    """Move the end of a step, and so its start after relabelling, until the swing foot is on the ground;
-    returns the curves and a remark.
+    """Move the end of a step, and so its start after relabelling, until the swing foot is on ground of `slope`
+    [rad], as `foot_down` does; returns the curves and a remark for the provenance.
 
     dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
     hybrid-invariant gait stays one. Only Bezier curves are moved.
     """
+    # d: dq/ds at the end; dq: change of q there, first: of q at the start
     q, d, _ = along.curve(1.0)
     dq, remark = foot_down(biped, q, slope)
     if not remark or not isinstance(along.curve, Bezier):
@@ -167,22 +173,26 @@ def onto_ground(
     plus, minus = float(along.theta_plus + c @ first), float(along.theta_minus + c @ dq)
     spans = along.theta_minus - along.theta_plus, minus - plus
     hits = biped.impact(q, d).v, biped.impact(q + dq, d).v
+    # dq/ds at the start, before and after the move: the rates after impact over Theta', times the span
     before, after = (span * v / (c @ v) for span, v in zip(spans, hits, strict=True))
+    # change of dq/ds at the end, where dq/dTheta stays and the span changes
     last = (spans[1] / spans[0] - 1.0) * d
+    # the change of the curves is a Bezier curve itself, with these ends and slopes
     curve = Bezier(a + Bezier.between(first, after - before, last, dq, a.shape[1] - 1))
     return Coordinates(curve, c, plus, minus, along.turns), remark
 
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
-    """The curve A h(s) + b, of the same kind and degree; A (rows, p), b (rows,) [rad]."""
+    """The curve A h(s) + b, of the same kind and degree as h = `curve`; A (rows, p), b (rows,) [rad]."""
     return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
 
 
 def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     """Convert a record to curves of all the paper's coordinates; layout: the record's convention.
 
-    Completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
-    is parallel to it, and adds whole turns. Raises GaitError when the rows do not determine the coordinates.
+    It completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
+    is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
+    rows do not determine the coordinates.
     """
     c = layout.phase if record.phase is None else record.phase
     plus, minus = record.theta_plus, record.theta_minus
@@ -192,6 +202,7 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     # theta = c' q' = (c' A^-1) q - c' A^-1 b
     row = c @ to_paper.inverse.A
     ends = np.array([plus, minus]) + float(row @ to_paper.b)
+    # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
     if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
@@ -211,8 +222,10 @@ def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
     if outputs is None and len(a) == 1 and a.size % len(layout.outputs) == 0:
         a = a.reshape(len(layout.outputs), -1, order="F")  # column below column, as FROST has them
     rows = len(a)
+    # without a matrix H0: as many rows as coordinates are the coordinates themselves
     if outputs is None:
         outputs = np.eye(n) if rows == n else layout.outputs
+    # half: only one of q_minus and v_minus is there
     half = (record.q_minus is None) != (record.v_minus is None)
     shapes = {x.shape for x in (c, record.q_minus, record.v_minus) if x is not None}
     if half or outputs.shape != (rows, n) or shapes != {(n,)}:
@@ -225,6 +238,7 @@ def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
     plus, minus = record.theta_plus, record.theta_minus
     if rows != n or record.outputs is not None:
         return all_coordinates(curve, outputs, c, (plus, minus))
+    # curves of all coordinates leave nothing open, so their phase has to be the straight line of the range
     gap = max(abs(curve(s)[0] @ c - plus - s * (minus - plus)) for s in np.linspace(0.0, 1.0, 21))
     if gap > CLOSES:
         raise record.error(
@@ -242,12 +256,12 @@ def whole_turns(middle: Array) -> Array:
     """
     centre = np.zeros(len(middle))
     centre[:2] = np.pi
-    return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)
+    return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)  # + 0.0 makes -0.0 to 0.0
 
 
 def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
-    """Convert the gait of a robot to a record in another convention, with its outputs
-    and its sense of the phase.
+    """Convert the gait of a robot to a record in the convention `to`, with the outputs and the sense of the
+    phase of that convention.
 
     Raises GaitError for an unknown convention, or one that does not fit the robot.
     """

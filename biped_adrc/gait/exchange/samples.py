@@ -44,7 +44,11 @@ DEGREES = range(4, 13)
 
 
 class Samples(NamedTuple):
-    """Samples of one step in the robot's coordinates: t (K,) [s], q (K, n) [rad], v (K, n) [rad/s] or None."""
+    """Samples of one step: t (K,) [s], q (K, n) [rad], and rates v (K, n) [rad/s] or None.
+
+    They are in the coordinates of any angle convention until `poses` has brought them to the robot's. Arrays
+    (n, K), and n + 2 coordinates with the position of the base first, are read too.
+    """
 
     t: Array
     q: Array
@@ -66,9 +70,9 @@ def gait_of_samples(
     """Fit a gait with curves of this degree to samples, which are in the coordinates of the convention
     `layout`.
 
-    slope [rad]: of the ground. name, source: of the gait, and what its provenance says of the samples. Raises
-    InputError for arrays that are no samples of a step, and GaitError where the fit is bad, or where impact or
-    zero dynamics of this robot do not fit the samples.
+    slope [rad]: of the ground, positive downhill. name, source: of the gait, and what its provenance says of
+    the samples. Raises InputError for arrays that are no samples of a step, and GaitError where the fit is bad,
+    or where impact or zero dynamics of this robot do not fit the samples.
     """
     s, remarks = poses(samples, biped, layout, degree, slope)
     fitted = fit(s, biped, degree)
@@ -102,9 +106,10 @@ def poses(
     samples: Samples, biped: Biped, layout: Convention, degree: int, slope: float
 ) -> tuple[Samples, dict[str, str]]:
     """The samples in the robot's coordinates with the foot on the ground at the end, and remarks on what was
-    changed.
+    changed, for the provenance.
 
-    degree, slope [rad]: of the curves, and of the ground. Raises InputError and GaitError for samples that are
+    layout: convention of the samples. degree: of the curves, to check that there are more samples than that.
+    slope [rad]: of the ground, positive downhill. Raises InputError and GaitError for samples that are
     no step of legs of these lengths, whatever their masses.
     """
     s, remarks = _in_robot(_checked(samples, layout.n, degree), layout, biped)
@@ -124,6 +129,7 @@ def poses(
             f"the samples: the swing foot ends {1e3 * height:.3g} mm above the ground, expected at most "
             f"{1e3 * NEAR:g}: thighs or shins of other lengths, another slope, or a last sample too early"
         )
+    # the last pose is moved by dq and the first by R dq; along: share of Theta's way, 0 to 1, for those between
     dq, remark = foot_down(biped, q[-1], slope)
     along = ((q - q[0]) @ c / ((q[-1] - q[0]) @ c))[:, np.newaxis]
     first = biped.R @ dq
@@ -132,9 +138,10 @@ def poses(
 
 
 def _checked(samples: Samples, n: int, degree: int) -> Samples:
-    """The samples as float arrays of one step; rows over time become columns, the base's position is left out.
+    """The samples as float arrays t (K,), q and v (K, n); arrays (n, K) are transposed, and the position of the
+    base, the first two of n + 2 coordinates, is left out.
 
-    Raises InputError.
+    degree: of the curves that will be fitted. Raises InputError for what is no such samples.
     """
     t, q = numbers(samples.t, "t of the samples"), numbers(samples.q, "q of the samples")
     v = None if samples.v is None else numbers(samples.v, "q' of the samples")
@@ -155,7 +162,8 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
 
 
 def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, dict[str, str]]:
-    """The samples in the robot's coordinates, with whole turns as in the gaits of the package, and remarks.
+    """The samples in the robot's coordinates, with whole turns as in the gaits of the package (hips near pi),
+    and remarks for the provenance.
 
     In a convention that names legs by side ("frost") the legs are exchanged if the left one stands, which is
     seen from the sense of Theta. Raises GaitError where Theta turns back.
@@ -181,23 +189,27 @@ def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, di
 def fit(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
     """The constraint whose curve has the ends and end slopes of the step, and the inner coefficients that fit
     the samples (and their rates, where they have some) by least squares.
+
+    s: samples in the robot's coordinates, as `poses` returns them. degree: of the Bezier curves.
     """
     c, p = biped.phase, biped.p
     minus = s.q[-1]
     ends = float(c @ biped.relabel(minus)), float(c @ minus)
     span = ends[1] - ends[0]
-    x = (s.q @ c - ends[0]) / span
+    x = (s.q @ c - ends[0]) / span  # normalised phase of each sample
     H, dH, _ = basis_at(Bezier, degree, x)
     if s.v is None:
         rows, goal = H, s.q
+        # without rates the slope dq/ds at the end is that of a fit without prescribed ends
         free = np.linalg.lstsq(rows, goal, rcond=None)[0]
         last = np.asarray(degree * (free[-1] - free[-2]))
     else:
+        # dq/ds = span q' / Theta'
         slopes = span * s.v / (s.v @ c)[:, np.newaxis]
         rows, goal, last = np.vstack((H, dH)), np.vstack((s.q, slopes)), slopes[-1]
     h = invariant_constraint(Bezier, biped, minus, last / span, degree)
     a = np.array(h.curve.coefficients.T)
-    inner = slice(2, degree - 1)
+    inner = slice(2, degree - 1)  # the two outer coefficients at either end are prescribed
     a[inner] = 0.0
     a[inner] = np.linalg.lstsq(rows[:, inner], goal[:, :p] - rows @ a, rcond=None)[0]
     return replace(h, curve=Bezier(a.T))
@@ -219,6 +231,7 @@ def read_csv(path: Path) -> Samples:
             )
 
         def joints(letter: str) -> Array:
+            """Columns letter1, letter2, ... in the order of their numbers, (K, n); empty if there are none."""
             of = sorted(int(x[1:]) for x in names if re.fullmatch(f"{letter}[1-9][0-9]*", x))
             return np.array([table.numbers(names.index(f"{letter}{i}")) for i in of]).T
 
