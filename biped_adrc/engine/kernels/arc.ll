@@ -1,4 +1,4 @@
-; sources a8af3cf6da569b71226958a0d76f4f48, text 76a099898943c9107fd37fec1ad4fdd5
+; sources dc8d2c80f6121cbc46053e90df48a91d, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

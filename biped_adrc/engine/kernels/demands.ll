@@ -1,4 +1,4 @@
-; sources 40084b5ade21c25184a0e33ef399229e, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources 49ab9e33140472b58693ad76f3227cde, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
