@@ -84,8 +84,7 @@ class Support(Shown):
     joints: Mapping[str, Joint]
     """The joints of the last three numbers: "torque", "rate" or "range" -> joint."""
     impulse_ratio: float
-    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have had to pull, 0 without
-    one."""
+    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have to pull, 0 without one."""
     limits: KnownLimits
     """The limits; mu is infinite on soft ground, where the simulator limits the friction itself."""
 
@@ -111,8 +110,7 @@ class Certificate(Support):
     old_foot_velocity: float
     """Velocity of the old stance foot after impact out of the ground [m/s]; positive when it lifts off."""
     clearance: float
-    """Least height [m] of the swing foot, without the first and last 3 % of the step; negative when it
-    scuffs."""
+    """Least height [m] of the swing foot, but for the first and last 3 % of the step; below 0 where it scuffs."""
     joint_work: float
     """int u' q_b' dt, the net work of the motors [J]."""
     energy_lost: float

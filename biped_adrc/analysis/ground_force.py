@@ -104,8 +104,7 @@ class Known(NamedTuple):
     falls: Array
     """Depth of the ground at the end of each single support below that at its start (S,) [m], 0 if higher."""
     joints: Array
-    """In even and in odd single supports (2, p, 3): largest rate [rad/s], lower and upper end of the range
-    [rad]."""
+    """In even and in odd single supports (2, p, 3): largest rate [rad/s], both ends of the range [rad]."""
 
 
 # `load` joins these texts in this order: a decorator has to stand before the function that uses it.

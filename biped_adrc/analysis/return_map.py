@@ -38,8 +38,7 @@ from biped_adrc.hybrid.trajectory import Event
 MOST_ITERATIONS = 12
 """Largest number of iterations of Newton's method on P(s) - s."""
 _CHORD = 0.1
-"""An iteration that leaves more than this share of the residual has dP/ds computed anew for the one after
-it."""
+"""An iteration that leaves more than this share of the residual has dP/ds computed anew for the next one."""
 
 
 @dataclass(frozen=True)

@@ -93,8 +93,7 @@ class Signals(Shown):
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi that the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
-    """(K, p) kappa^-1 (xi^ - xi_nominal): estimated joint torque beyond the model [N m]; NaN without an
-    observer."""
+    """(K, p) kappa^-1 (xi^ - xi_nominal): estimated torque beyond the model [N m]; NaN without an observer."""
     ground_reaction: Array
     """(K, 2), force of the ground (F_T, F_N) on the robot [N], horizontal and vertical on any slope."""
     outside: Array

@@ -63,8 +63,7 @@ class Paired(NamedTuple):
     """Median of the ratios, with its interval."""
     p: float
     """p-value of the two-sided sign test: probability of at least as uneven signs, were both signs equally
-    likely. Pairs of equal numbers are left out; NaN for a single pair.
-    """
+    likely. Pairs of equal numbers are left out; NaN for a single pair."""
     pairs: int
     """Number of pairs with a ratio: all but those with infinite numbers on both sides."""
 

@@ -86,8 +86,7 @@ class ControlLaw(NamedTuple):
     flow: Callable[[Any, Measurement, Array], Any]
     """flow(s, m, u) -> s' in continuous time, u (p,) [N m] the torque applied."""
     jump: Callable[..., Any]
-    """jump(s, m, swap) -> s after an impact; m is the measurement after it, swap (p,) the relabelling of the
-    joints."""
+    """jump(s, m, swap) -> s after an impact, with the measurement m after it and the relabelling swap (p,)."""
     correct: Callable[[Any, Measurement], Any]
     """correct(s, m) -> s at a sample instant, with the new measurement."""
     predict: Callable[[Any, Measurement, Array], Any]

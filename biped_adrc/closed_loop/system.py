@@ -41,8 +41,7 @@ from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
 
 TURN = 2.0 * math.pi
-"""Largest |angle| of a joint or of the pitch [rad]: a whole turn, more than cables and legs of a biped
-allow."""
+"""Largest |angle| of a joint or of the pitch [rad]: a whole turn, more than cables and legs allow."""
 
 
 RUNAWAY_RATE = 50.0

@@ -63,8 +63,7 @@ class Measurement(NamedTuple):
     """G, C' q' (C' is a transpose) and the ground's force of the nominal model; None for a controller without
     `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
-    """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at the same time; None outside of a
-    closed loop."""
+    """elsewhere(q, v), each (n,) [rad, rad/s] -> the measurement there, at this time; None outside a loop."""
     impulse: Array | None = None
     """Changes of the rates (n, 2) [1/(kg m)] by an impulse of 1 N s on the striking foot in x and in z: a law
     that reads it leaves such changes out of its errors. None but for a controller inside `ImpactInvariant`,

@@ -74,8 +74,7 @@ REGISTRY: dict[str, dict[str, _Entry]] = {
     for kind, entries in packaged("biped_adrc.core", "registry.toml").items()
 } | {"robot": {}, "gait": {}}
 """Entries by kind and name, from registry.toml and `register`; `names` also has the files of robots and
-gaits.
-"""
+gaits."""
 
 
 def names(kind: str) -> tuple[str, ...]:

@@ -46,8 +46,7 @@ Shape = tuple[int, ...]
 """Shape of an array."""
 
 FUNCTION = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
-"""ctypes' type of f(K, inp, out), three addresses; called with Python's lock held, since to release it would
-cost as much as the call."""
+"""ctypes' type of f(K, inp, out), three addresses; it keeps Python's lock, whose release costs as much."""
 
 
 def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
@@ -161,8 +160,7 @@ class CompiledBiped(Biped):
     """
 
     robot: PlanarRobot | None = None
-    """The same robot in closed form, whose methods of these names are traced; never None after
-    `compiled_biped`."""
+    """The same robot in closed form, whose methods are traced; never None after `compiled_biped`."""
 
     @cached_property
     def _made(self) -> dict[str, Callable[..., Any]]:

@@ -184,8 +184,7 @@ class SymbolicFunction(NamedTuple):
     out: ca.SX
     """Expressions of the outputs."""
     acts: ca.SX | None = None
-    """Expression of K and inp: where it is not above 0, out is zero and not computed. None: out is always
-    computed."""
+    """Expression of K and inp: where it is not above 0, out is zero. None: out is always computed."""
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from biped_adrc.engine.equations import SymbolicFunction
 
 _Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
-"""Name of a function -> what is called, without arguments, to trace it where its code is neither in memory
-nor on disk."""
+"""Name of a function -> what is called to trace it where its code is neither in memory nor on disk."""
 _IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 

@@ -237,8 +237,7 @@ class _Still(NamedTuple):
     fields: dict[str, float]
     """Fields of `kernels.record.Run` by name."""
     plans: dict[tuple[int, ...], CompiledRun]
-    """Plans made so far, by the sizes of the disturbance's tables, which decide where everything lies in
-    memory."""
+    """Plans so far, by the sizes of the disturbance's tables, which decide where everything lies in memory."""
 
     def plan(self, tables: dict[str, Array]) -> CompiledRun:
         """A plan of a run with these tables of a disturbance, by name: a copy of one of equal sizes, filled

@@ -64,8 +64,7 @@ class VirtualConstraint(Reference):
     theta_minus: float
     """Theta just before the next impact, s = 1 [rad]."""
     fade: float | None = None
-    """Share of the range [1] over which the curvature fades out past the ends; None: the curve goes on as it
-    is."""
+    """Share of the range [1] over which the curvature fades out past the ends; None: the curve just goes on."""
 
     def __repr__(self) -> str:
         ends = f"Theta from {self.theta_plus:.4g} to {self.theta_minus:.4g} rad"

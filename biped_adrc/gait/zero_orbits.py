@@ -50,8 +50,7 @@ _GRID = 401
 _DURATION = 1e-6
 """Largest relative error [1] of a duration, by the error estimate of its quadrature."""
 _SADDLE = 1e-6
-"""|dV_zero/dTheta| at the phase of V_max, over its largest value in the step [1], below which that phase counts
-as an equilibrium."""
+"""Largest |dV_zero/dTheta| at the phase of V_max, over that in the step [1], of an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:

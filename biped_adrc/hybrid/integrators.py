@@ -23,8 +23,7 @@ Flow = Callable[[float, Array], Array]
 """f(t, x) -> x' (nx,), for t [s] and x (nx,)."""
 
 _LOST = (NotFiniteError, RanAwayError, SingularError)
-"""Errors that a flow raises at a state that no motion can have, such as the trial of a step that is too
-long."""
+"""Errors that a flow raises at a state that no motion can have, such as the trial of too long a step."""
 
 
 class StepFailed(Exception):

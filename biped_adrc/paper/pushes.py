@@ -143,8 +143,7 @@ class MemberWalk(NamedTuple):
     """Number of limits of ground and motors that the walk breaks, the impulse at impact aside."""
     infeasible: Mapping[str, str]
     """Sentences on what ground or motors could not have given, by the names in `REASONS`, at the integration
-    step used.
-    """
+    step used."""
 
 
 @dataclass(frozen=True)

@@ -198,8 +198,7 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
 
 
 NO_MULTIPLIERS = "of n states on a section of n - 1 dimensions: no multipliers"
-"""Remark on a regression (27) of the paper whose samples span all n directions, which only round-off or an
-observer can make."""
+"""Remark where samples of (27) of the paper span all n directions, by round-off or an observer alone."""
 
 
 def _multipliers(r: Runs) -> Table:

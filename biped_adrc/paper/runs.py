@@ -38,13 +38,11 @@ from biped_adrc.scenario.walk import execute_twice, halved, walk_scenario
 
 BOTH = ("push", "sine", "1 kHz", *(f"heavier, {kind}" for kind in scenarios.HEAVIER), "torso")
 """Names of the walks in which NPD and ADRC are compared: pushed, sampled, with a plant heavier than the
-model.
-"""
+model."""
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
 """Modules that the processes of a reproduction share."""
 NODE_DISTANCE = 5e-4
-"""Distance of the nodes that are kept of a walk with short integration steps [s]; between pushes no signal
-changes faster."""
+"""Distance of the nodes that are kept of a walk with short steps [s]; without pushes no signal is faster."""
 
 
 def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
@@ -78,8 +76,7 @@ class Headline:
 
     outcome: Outcome
     """Its figures of merit, with those at half of the integration step in `half`, and at a quarter in
-    `half.half`.
-    """
+    `half.half`."""
     trajectory: Trajectory
     """Its states over time, at the nodes that `sparse` keeps."""
     laws: Mapping[str, float]
@@ -187,8 +184,7 @@ class Order(NamedTuple):
     """max |l_k| of the observer (17), each in its own unit [1/s^k]."""
     noise_gain: float
     """Largest gain over all frequencies from an error of the measured angle to the commanded acceleration
-    [1/s^2].
-    """
+    [1/s^2]."""
     bandwidth: float
     """Geometric mean of the poles [rad/s]."""
     delay_margin: float

@@ -48,8 +48,7 @@ PAPER_PUSH, SINE = (Push(**declared()["pushes"][name]) for name in ("paper", "si
 HEAVIER: dict[str, dict[str, Any]] = declared()["heavier"]
 """Plants that are heavier than the model, by name: values of `errors` of a scenario."""
 _STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
-"""Integration steps of RK4 [s]: for the whole walk, and for single supports in which a push switches and the
-ones after."""
+"""Steps of RK4 [s]: for the whole walk, and for single supports with the edge of a push and the next ones."""
 LOOSE = 2e-4
 """Integration step of the exponential method under ADRC [s], for walks of which no spike of the tracking error
 below 1e-5 rad has to be resolved."""

@@ -80,8 +80,7 @@ PEAK_RESOLUTION = 1e-9
 """Peak errors that differ by less than this count as equal [rad]; for undisturbed walks halving the integration
 step changes them by 6e-10 at most."""
 RMS_RESOLUTION = 2e-10
-"""Root mean squares that differ by less than this count as equal [rad]; undisturbed walks change by 1.3e-10 at
-most."""
+"""Root mean squares this near count as equal [rad]; undisturbed walks change by 1.3e-10 at most."""
 
 
 def compared(o: Outcome) -> tuple[tuple[float, float], ...]:

@@ -49,8 +49,7 @@ from biped_adrc.scenario.records import Misfit, all_taken, named_part
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
-"""Name of the plant that a walker has of its own: the stance foot is pinned, impacts are plastic and take no
-time."""
+"""Name of a walker's own plant: the stance foot is pinned, impacts are plastic and take no time."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
 """Values of the record of the ground that soft ground takes."""
 WITHOUT_MOTORS = ("robot", "controller.name", "run", "limits", "ground.slope")

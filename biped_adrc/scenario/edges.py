@@ -37,11 +37,9 @@ _NEAR = 1e-3
 decided by the error of integration."""
 BURIED = 5e-3
 """Depth of the swing foot below the ground [m] from which on a start has a remark; a scuffing leg is less
-deep.
-"""
+deep."""
 LONGER = 1.1
-"""Largest integration step over the observer's shortest time constant [1]; a little above 1, since multiple
-poles have round-off."""
+"""Largest integration step over the observer's shortest time constant [1]; multiple poles have round-off."""
 SAME_CURVE = 1e-6
 """Curves that differ by no more than this [rad] count as the same, stored or fitted twice."""
 

@@ -143,8 +143,7 @@ class Walk(Shown):
     """Remarks that came with it, as from a file."""
     parts: tuple[WalkPart, ...] = ()
     """The integration methods of its parts, on the rigid plant; empty for a walk from a file, or one that is
-    cut.
-    """
+    cut."""
 
     def __repr__(self) -> str:
         run = self.trajectory

@@ -33,8 +33,7 @@ LONGEST_PLANT_STEP = 2e-4
 """Longest default integration step of an engine with soft ground [s]."""
 _RESOLVED = 0.1
 """Default integration step of such an engine as a share of the ground's time constant, so that it resolves
-contact.
-"""
+contact."""
 _Values = Any
 """A record as a mapping of its values, or as the text that stands for it; pydantic checks which."""
 
@@ -359,8 +358,7 @@ DRAWN = (
     *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
     *("touchdown", "stones"),
 )
-"""What is random in a walk. The place in this list selects the stream of random numbers, so a new name goes to
-its end."""
+"""What is random in a walk. The place selects the stream of random numbers, so a new name goes to the end."""
 
 
 def drawn(s: Scenario, what: str, item: int = 0) -> int:

@@ -118,8 +118,7 @@ class Stepper:
         self.in_python = False  # whether at least one walk is moved in Python
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk; empty without
-        `within`.
-        """
+        `within`."""
         self._kernels = kernels()
         self.addresses = np.zeros(count, dtype=np.int64)
         """Address of each compiled walk in memory; 0 for a walk that machine code does not move."""

@@ -71,8 +71,7 @@ OF_COORDINATES, OF_JOINTS = ("q", "v", "a", "zeta"), ("q_d", "dq_d", "error", "u
 all that begin with xi; each other signal has one number in a row."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a stand-in replaces a part of the user's; in other fields such a part is left
-out.
-"""
+out."""
 
 
 def load_walk(path: Path | str) -> Walk:

@@ -44,8 +44,7 @@ PlainValues = Mapping[str, object]
 """The values of one walk as JSON has them: what a worker receives."""
 
 REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
-"""Statuses that are no result of a walk: its values do not fit together, its function raised, its worker
-died."""
+"""Statuses that are no result of a walk: values that do not fit, a function that raised, a worker that died."""
 NO_WALK = (REFUSED, RAISED, CRASHED)
 """All of them; such rows count neither as a success nor as a fall."""
 SEED, PLANT = "run.seed", "ground.plant"

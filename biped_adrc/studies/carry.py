@@ -32,8 +32,7 @@ from biped_adrc.studies.study import Point, Study, Undrawn, chosen_file, read_st
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values of the scenario, and the names that locate their walks (case,
-setting).
-"""
+setting)."""
 
 
 def study(

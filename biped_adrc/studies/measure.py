@@ -82,8 +82,7 @@ class Measure(Section):
     """The measure is of the walks under this condition alone; None for all."""
     counts: Literal["feasible", "made"] = "feasible"
     """Which walks count with their number: the feasible ones, or all that made their last step; others rank
-    worst.
-    """
+    worst."""
 
     @property
     def sign(self) -> float:

@@ -186,8 +186,7 @@ class Choice(NamedTuple):
     """All candidates by number, judged on the first set of walks ("search")."""
     selected: tuple[Candidate, ...]
     """The candidates that were walked on the second set ("choice"), as judged there, best first: the first one
-    was chosen.
-    """
+    was chosen."""
 
     @property
     def values(self) -> dict[str, Any]:
@@ -218,8 +217,7 @@ class TableLine(NamedTuple):
     """Median of the study's measure over these walks, in the unit of its column."""
     ratio: Paired | None
     """Measure of this case over that of the first case under the same condition, walk by walk; None for the
-    first case itself.
-    """
+    first case itself."""
 
 
 @dataclass(frozen=True)
@@ -232,8 +230,7 @@ class Results(Shown):
     """What the search found, by name of the case; empty without a search."""
     failures: tuple[str, ...] = ()
     """A sentence on each case of which no candidate keeps all limits; such a case is not walked on the test
-    set.
-    """
+    set."""
 
     def results(self) -> Iterator[Result]:
         """Finished walks in the order of the study."""

@@ -235,7 +235,7 @@ _SMALLEST = 10
 _ASKED = 8
 """Most proposals for each place of a generation, since some miss a limit that is known without a walk."""
 _MISSED = 1e30
-"""The sampler minimises; a candidate that misses limits has this number, times 1 + the sum of what it misses.
+"""The sampler minimises; a candidate that misses limits has this number times 1 + the sum of its misses.
 """
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]

@@ -36,8 +36,7 @@ from biped_adrc.control.tracking import Gains
 from biped_adrc.observers.gpi import GPIObserver
 
 SHARE = 0.1
-"""Share of the torque limit for the rms torque of one count: a gait of 108 of 150 N m leaves three
-deviations."""
+"""Share of the torque limit for the rms torque of one count: 108 of 150 N m leave three deviations."""
 KAPPA_RATIOS = (0.8, 1.0, 1.25)
 """Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to 20 %."""
 ORDERS = (0, 1, 2, 3, 5, 7)
@@ -75,8 +74,7 @@ class Recommended(NamedTuple):
     bandwidth: float
     """Magnitude of the poles [rad/s]."""
     because: str
-    """Obstacle to a larger bandwidth: "ripple" or "stability"; "" for none, or where no bandwidth is
-    allowed."""
+    """Obstacle to a larger bandwidth: "ripple" or "stability"; "" for none, or with no bandwidth allowed."""
     ripple: float
     """rms torque of one encoder count [N m]."""
     delay_margin: float

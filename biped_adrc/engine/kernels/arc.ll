@@ -1,4 +1,4 @@
-; sources dc8d2c80f6121cbc46053e90df48a91d, text 76a099898943c9107fd37fec1ad4fdd5
+; sources 6137186087f1dc9f37b27339761b08c4, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

@@ -1,4 +1,4 @@
-; sources 49ab9e33140472b58693ad76f3227cde, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources 6c84b53242ac99fa127423c7b265ce3c, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

@@ -122,8 +122,7 @@ class Run:
     push: Array
     """Numbers of the disturbance, term after term."""
     parts: Ints
-    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), and how many numbers of
-    `push` it has."""
+    """Of each term: address of its function (t, step, t_start, q, v) -> (zeta, force), length of its `push`."""
     torque: Array
     """Place in K of the torque from outside (p,) [N m], which is added to the motors'; only `arc.samples` uses
     it and `force`."""

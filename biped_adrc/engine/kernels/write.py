@@ -24,8 +24,7 @@ from llvmlite import binding
 from biped_adrc.core.errors import ModelError
 
 _ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
-"""Declarations of the functions that numba calls where Python would raise an error, which the loops never
-do."""
+"""Declarations of functions that numba calls where Python would raise an error, which the loops never do."""
 
 HINTS = re.compile(r" ?\bcaptures\(none\)| ?\bnoundef\b| ?\brange\([^)]*\)")
 """Attributes that LLVM finds again, and whose words change from version to version: a text without them is read

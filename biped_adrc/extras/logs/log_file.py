@@ -40,8 +40,7 @@ MOST_ANGLE = 4.0 * math.pi
 MOST_TORQUE = 100.0
 """Largest plausible torque, as a multiple of the robot's peak torque."""
 STRETCH = 0.01
-"""Interval over which a rate is compared with its angle [s]: many encoder counts, a small part of a walking
-step."""
+"""Interval over which a rate is compared with its angle [s]: many encoder counts, little of a walking step."""
 LEAST_MOTION = 0.002
 """Least rms change of an angle in an interval [rad]; with less motion its rate is not checked."""
 RATIOS = 0.5, 2.0

@@ -82,8 +82,7 @@ class MuJoCoEngine:
         # turn = sin(slope / 2), of the plane's quaternion, so that 1 - 2 turn^2 = cos(slope)
         turn, radius = model.geom_quat[planes[0], 2], model.geom(d.feet[0]).size[0]
         self.depth = -radius * (1.0 - 2.0 * turn**2)
-        """Height of a plane at level 0 [m]. The model's value may be that of an earlier run, so it is
-        computed."""
+        """Height of a plane at level 0 [m]; the model's value may be that of an earlier run."""
         self.points_at = [data.xpos[model.body(name).id] for name in (*d.feet, d.hip)]
 
     def _places(self, joints: tuple[str, ...]) -> Indices:

@@ -62,8 +62,7 @@ FROUDE = 1.5
 MOVED = 1e-3
 """Largest change of a joint by which a requested state is moved onto the ground [rad]."""
 _STEP = 0.5
-"""For a request that leaves them free: step length of the guess over the leg length, and speed over
-sqrt(g leg)."""
+"""For a request without them: step length of the guess over the leg length, and speed over sqrt(g leg)."""
 BEND = 0.2
 """Distance of a joint of the guess from the end of its range [rad]; at most a quarter of the range."""
 
