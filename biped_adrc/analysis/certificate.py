@@ -110,7 +110,7 @@ class Certificate(Support):
     old_foot_velocity: float
     """Velocity of the old stance foot after impact out of the ground [m/s]; positive when it lifts off."""
     clearance: float
-    """Least height [m] of the swing foot, but for the first and last 3 % of the step; below 0 where it scuffs."""
+    """Least height [m] of the swing foot, but for the first and last 3 % of the step; negative if it scuffs."""
     joint_work: float
     """int u' q_b' dt, the net work of the motors [J]."""
     energy_lost: float
