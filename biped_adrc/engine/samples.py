@@ -13,7 +13,7 @@ moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled pla
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, cast
 
@@ -30,7 +30,9 @@ from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.kernels.compiled_run import CompiledRun
+from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.leaves import floats
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.on_plant import CompiledLoop
@@ -233,3 +235,93 @@ def python_row(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference)
     """
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])
+
+
+class SampledWalks:
+    """N walks side by side, moved on by one sample: those in machine code in one call, the others one by one.
+
+    p: number of motors. The kernels read and write the arrays of this class at their addresses.
+    """
+
+    def __init__(self, count: int, p: int):
+        self.all: list[CompiledWalk | PythonWalk | None] = [None] * count
+        """Each walk in its present state; None before it has begun."""
+        self.inputs = np.zeros((count, p + 2))
+        """Torque (p,) [N m] and force (2,) [N] from outside in the next sample."""
+        self.rows = np.zeros((count, 0))
+        """A row for each walk: t [s], number of the single support, x."""
+        self.codes = np.full(count, -1, dtype=np.int64)
+        """Places in `STATUS`: 0 for a walk that goes on, -1 for one that has not begun."""
+        self._impacts = np.zeros(count, dtype=np.int64)
+        """Impacts of each walk in the last sample; -1 for a walk that machine code did not move."""
+        self._addresses = np.zeros(count, dtype=np.int64)
+        """Address of each compiled walk in memory; 0 for a walk that machine code does not move."""
+        self._laws = dict[Reading, tuple[Ints, Array]]()
+        """For each function that was read: addresses of its machine code (N,), and its results (N, size)."""
+        self._kernels = kernels()
+
+    def put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
+        """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
+        _, t, x, mode = walk.at
+        if not self.rows.size:  # the first walk says how many numbers x has
+            self.rows = np.zeros((len(self.all), 2 + len(x)))
+        self.rows[i] = (t, mode.step, *x)
+        self.all[i], self.codes[i] = walk, code
+        self._addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
+        for view, (laws, _) in self._laws.items():
+            laws[i] = self._law(i, view)
+
+    def _in_python(self) -> Iterator[tuple[int, PythonWalk]]:
+        """Iterate over the walks that are moved in Python, with their numbers."""
+        for i in np.flatnonzero((self._addresses == 0) & (self.codes >= 0)).tolist():
+            yield i, cast(PythonWalk, self.all[i])
+
+    def move(self) -> tuple[bool, list[tuple[int, ClosedLoop[Any], Arc]]]:
+        """Move the walks that go on by one sample under `inputs`; `rows` and `codes` are then theirs.
+
+        Returns whether a single support ended in machine code (`struck` says which), and of those that ended in
+        Python the number of the walk, its loop and the arc.
+        """
+        arrays = (self._addresses, self.inputs, self.rows, self.codes, self._impacts)
+        walks, *states = (x.ctypes.data for x in arrays)
+        ends = self._kernels.samples(walks, len(self.all), self.rows.shape[1], *states)
+        over = list[tuple[int, ClosedLoop[Any], Arc]]()
+        for i, walk in self._in_python():
+            if self.codes[i] == 0:
+                after, status, arcs = walk.sample(self.inputs[i])
+                self.put(i, after, STATUS.index(status))
+                over += [(i, walk.loop, arc) for arc in arcs]
+        return ends > 0, over
+
+    def struck(self) -> Iterator[tuple[int, CompiledWalk, int, bool]]:
+        """Iterate over the compiled walks whose single support ended in the last sample: number of the walk,
+        the walk, its impacts in this sample, and whether it has ended.
+        """
+        struck = (self._impacts > 0) | ((self._impacts == 0) & (self.codes != 0))
+        for i in np.flatnonzero(struck).tolist():
+            walk = cast(CompiledWalk, self.all[i])
+            yield i, walk, int(self._impacts[i]), bool(self.codes[i] != 0)
+
+    def read(self, view: Reading, curve: Reference) -> Array:
+        """What view(loop, t, x, mode, reference) returns for each walk now, its arrays one after the other: an
+        array (N, size). The row of a walk that has not begun is 0.
+
+        curve: the reference.
+        """
+        if view not in self._laws:
+            first = next(walk for walk in self.all if walk is not None)
+            laws = np.array([self._law(i, view) for i in range(len(self.all))], dtype=np.int64)
+            self._laws[view] = laws, np.zeros((len(laws), len(python_row(first, view, curve))))
+        laws, result = self._laws[view]
+        for i, walk in self._in_python():
+            result[i] = python_row(walk, view, curve)
+        walks, *at = (x.ctypes.data for x in (self._addresses, laws, result))
+        self._kernels.looks(walks, len(laws), result.shape[1], *at)
+        return result.copy()
+
+    def _law(self, i: int, view: Reading) -> int:
+        """Address of the machine code of the function `view` for walk i; 0 where machine code does not move
+        it.
+        """
+        walk = self.all[i]
+        return walk.law(view) if isinstance(walk, CompiledWalk) else 0

@@ -39,12 +39,11 @@ from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.shown import as_line, short
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.kernels.compiled_run import STATUS
-from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.program import COMPILED
-from biped_adrc.engine.samples import CompiledWalk, PythonWalk, python_row, with_inputs
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, SampledWalks, with_inputs
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -108,42 +107,24 @@ class Stepper:
                 raise InputError(f"steps have one length; leave out run.fine = {what.run.fine:g} s")
             self.scene = RobotAndGait.of(what)
             self.curve = self.scene.walked.constraint
-        self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
-        self.why = ""
-        """Why walks that begin are not moved in machine code; empty where they are."""
-        self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
-        """Each walk in its present state; None before it has begun."""
+        p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
+        self.walks = SampledWalks(count, p)
         self.walkers: list[Walker | None] = [None] * count
         """Walkers of the walks, with inputs for torque and force."""
-        self.in_python = False  # whether at least one walk is moved in Python
+        self.why = ""
+        """Why walks that begin are not moved in machine code; empty where they are."""
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk; empty without
         `within`."""
-        self._kernels = kernels()
-        self.addresses = np.zeros(count, dtype=np.int64)
-        """Address of each compiled walk in memory; 0 for a walk that machine code does not move."""
-        # the first two arguments of the kernels, which read `addresses` in place
-        self._walks = self.addresses.ctypes.data, count
-        self.inputs = np.zeros((count, self.p + 2))
-        """Torque (p,) [N m] and force (2,) [N] from outside in the next sample."""
-        self._impacts = np.zeros(count, dtype=np.int64)
-        """Impacts of each walk in the last sample; -1 for a walk that machine code did not move."""
-        self.codes = np.full(count, -1, dtype=np.int64)
-        """Places in `STATUS`: 0 for a walk that goes on, -1 for one that has not begun."""
-        self.rows = np.zeros((count, 0))
-        """A row for each walk: t [s], number of the single support, x."""
-        self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
-        """For each function that `read` was called with: addresses of its machine code for each walk (N,), its
-        results (N, .), and the arguments with both for `kernels.looks`."""
 
     def __repr__(self) -> str:
-        return f"Stepper({len(self.walks)} walks of {short(self.what)})"
+        return f"Stepper({len(self.walkers)} walks of {short(self.what)})"
 
     @property
     def sample(self) -> Sample:
         """Time, step, state and status of each walk now; the arrays are copies."""
-        rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
-        return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
+        rows, codes = self.walks.rows.copy(), self.walks.codes
+        return frozen(Sample(rows[:, 0], rows[:, 2:], rows[:, 1].astype(np.int64), _STATUS[codes]))
 
     def reset(
         self,
@@ -157,7 +138,7 @@ class Stepper:
         start: (q, v), each (n,) [rad, rad/s]; None is the scenario's. A walker has no seed, and needs a start.
         """
         if i is None:
-            for k in range(len(self.walks)):
+            for k in range(len(self.walkers)):
                 self._begin(k, None if seed is None else seed + k, start)
         else:
             self._begin(i, seed, start)
@@ -195,22 +176,7 @@ class Stepper:
             except NotCompiled as reason:
                 self.why = str(reason)
         self.walkers[i] = walker
-        self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
-
-    def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
-        """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
-        _, t, x, mode = walk.at
-        if not self.rows.size:  # the first walk says how many numbers x has
-            self.rows = np.zeros((len(self.walks), 2 + len(x)))
-            # the other arguments of `kernels.samples`: length of a row, and addresses of arrays
-            arrays = (self.inputs, self.rows, self.codes, self._impacts)
-            self._states = self.rows.shape[1], *(x.ctypes.data for x in arrays)
-        self.rows[i] = (t, mode.step, *x)
-        self.walks[i], self.codes[i] = walk, code
-        self.addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
-        self.in_python |= isinstance(walk, PythonWalk)
-        for view, (laws, _, _) in self._laws.items():
-            laws[i] = self._law(i, view)
+        self.walks.put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
         """One sample of every walk that goes on.
@@ -219,37 +185,26 @@ class Stepper:
         of the trunk. None is zero. Raises InputError for other shapes, for what is not finite, and before all
         walks have begun.
         """
-        if self.codes.min() < 0:
+        if self.walks.codes.min() < 0:
             raise InputError("there is a walk that has not begun; call reset() first")
-        torques, forces = self.inputs[:, : self.p], self.inputs[:, self.p :]
+        torques, forces = self.walks.inputs[:, :-2], self.walks.inputs[:, -2:]
         torques[:] = 0.0 if torque is None else finite_numbers("torque", torque, torques.shape)
         forces[:] = 0.0 if force is None else finite_numbers("force", force, forces.shape)
         self.move()
         return self.sample
 
     def move(self) -> None:
-        """Move the walks that go on by one sample under `inputs`, as `step` does, without its checks.
-
-        It renews `rows`, `codes` and, with `within`, `over`.
-        """
-        # machine code moves all compiled walks; `ends`: how many of them ended a single support
-        ends = self._kernels.samples(*self._walks, *self._states)
-        self.over = self._judged() if ends > 0 and self.within is not None else []
-        for i, walk in enumerate(self.walks) if self.in_python else ():
-            if isinstance(walk, PythonWalk) and self.codes[i] == 0:
-                after, status, over = walk.sample(self.inputs[i])
-                self._put(i, after, STATUS.index(status))
-                self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
+        """Move the walks by one sample as `step` does, without its checks of the inputs and of the walks."""
+        compiled, in_python = self.walks.move()
+        self.over = self._judged() if compiled and self.within is not None else []
+        self.over += [(i, self._needed(i, loop, arc)) for i, loop, arc in in_python if self.within]
 
     def _judged(self) -> list[tuple[int, Support]]:
         """Judge the single supports that ended in the last sample of compiled walks, by an impact or with the
         walk; returns each with the number of its walk.
         """
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
-        moved = self._impacts >= 0
-        for i in np.flatnonzero(moved & ((self._impacts > 0) | (self.codes != 0))).tolist():
-            walk, impacts, ended = self.walks[i], int(self._impacts[i]), self.codes[i] != 0
-            assert isinstance(walk, CompiledWalk)
+        for i, walk, impacts, ended in self.walks.struck():
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
             n = Nodes(walk.run.rows(), plant.n, plant.p)
             q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
@@ -274,10 +229,10 @@ class Stepper:
 
     def save(self, i: int = 0) -> Snapshot:
         """A copy of walk i (from 0) as it is now, for `restore`. Raises InputError before it has begun."""
-        walk, walker = self.walks[i], self.walkers[i]
+        walk, walker = self.walks.all[i], self.walkers[i]
         if walk is None or walker is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
-        return walker, walk.copy(), int(self.codes[i])
+        return walker, walk.copy(), int(self.walks.codes[i])
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
         """Let walk i go on from where a walk, this or another one, was saved.
@@ -286,13 +241,13 @@ class Stepper:
         (`within`), for one that was saved by a stepper that does not.
         """
         walker, walk, code = snapshot
-        size, expected = len(walk.at[2]), self.rows.shape[1] - 2
-        if self.rows.size and size != expected:
+        size, expected = len(walk.at[2]), self.walks.rows.shape[1] - 2
+        if self.walks.rows.size and size != expected:
             raise InputError(f"the walk has {size} states, expected {expected}")
         if self.within and isinstance(walk, CompiledWalk) and not walk.run.nodes.size:
             raise InputError("the walk was saved without `within`, and here walks are judged")
         self.walkers[i] = walker
-        self._put(i, walk.copy(), code)
+        self.walks.put(i, walk.copy(), code)
 
     def read(self, view: Reading) -> Array:
         """The numbers that the function view(loop, t, x, mode, reference), such as `signals_at`, returns for
@@ -301,28 +256,9 @@ class Stepper:
         The reference is the curve of the scenario's gait; the row of a walk that has not begun is 0. Raises
         InputError for a stepper of a walker, and if no walk has begun.
         """
-        if self.curve is None or not self.rows.size:
+        if self.curve is None or not self.walks.rows.size:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
-        if view not in self._laws:
-            first = next(walk for walk in self.walks if walk is not None)
-            size = len(python_row(first, view, self.curve))
-            laws = np.array([self._law(i, view) for i in range(len(self.walks))], dtype=np.int64)
-            result = np.zeros((len(laws), size))
-            self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
-        _, result, at = self._laws[view]
-        # rows of walks in Python are written here, those of compiled walks by the kernel
-        for i, walk in enumerate(self.walks) if self.in_python else ():
-            if isinstance(walk, PythonWalk):
-                result[i] = python_row(walk, view, self.curve)
-        self._kernels.looks(*self._walks, *at)
-        return result.copy()
-
-    def _law(self, i: int, view: Reading) -> int:
-        """Address of the machine code of the function `view` for walk i; 0 if the walk is moved in Python, or
-        has not begun.
-        """
-        walk = self.walks[i]
-        return walk.law(view) if isinstance(walk, CompiledWalk) else 0
+        return self.walks.read(view, self.curve)
 
 
 def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:

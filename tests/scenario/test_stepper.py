@@ -29,7 +29,7 @@ class InPython(ba.Disturbance):
 
 def moved(stepper, samples, **inputs):
     """The samples of so many sample instants, under the same inputs at each and of all walks."""
-    rows = {name: np.tile(x, (len(stepper.walks), 1)) for name, x in inputs.items()}
+    rows = {name: np.tile(x, (len(stepper.walkers), 1)) for name, x in inputs.items()}
     return [stepper.step(**rows) for _ in range(samples)]
 
 

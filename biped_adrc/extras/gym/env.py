@@ -114,7 +114,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         """
         # codes: 0 for a walk that goes on
         stage = self.stage
-        if stage.stepper.codes[0] != 0:
+        if stage.stepper.walks.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())

@@ -175,7 +175,7 @@ class Stage:
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
         # a task that cannot be walked raises here; no walk goes on until `begin` is called for it
         self.begin(0, self.task.scenario.run.seed)
-        self.stepper.codes[:] = -1
+        self.stepper.walks.codes[:] = -1
 
     def begin(self, i: int, seed: int) -> None:
         """Begin walk i anew with this seed of its scenario, with the stance foot at the origin."""
@@ -190,7 +190,7 @@ class Stage:
         [1].
         """
         # the last two inputs are a force from outside, which stays zero
-        np.multiply(actions, self.limits.torque, out=self.stepper.inputs[:, :-2])
+        np.multiply(actions, self.limits.torque, out=self.stepper.walks.inputs[:, :-2])
         self.stepper.move()
         self._seen = np.zeros(0)
         for i, support in self.stepper.over:  # single supports that have ended in this sample
@@ -233,14 +233,14 @@ class Stage:
         # the last columns of the view: 1 at no tracking error and falling with it; the sum of squared torques
         close, u = self.view[:, self.first + 2 :].T
         paid = self.task.alive + self.task.tracking * close - self.cost * u
-        return np.where(self.stepper.codes == 0, paid, 0.0)
+        return np.where(self.stepper.walks.codes == 0, paid, 0.0)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen or diverged (N,), and whether it has reached its time or number of
         impacts without that (N,).
         """
         run, view = self.task.scenario.run, self.view
-        fallen = self.stepper.codes != 0
+        fallen = self.stepper.walks.codes != 0
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= view[:, self.first + 1] >= run.first_step + run.impacts
         return fallen, late > fallen  # of truth values: late and not fallen
@@ -258,7 +258,7 @@ class Stage:
             "friction": rows[1],
             "normal_force": rows[2],
             "peak_torque": rows[3],
-            "status": _NAMES[self.stepper.codes],
+            "status": _NAMES[self.stepper.walks.codes],
         }
 
 
