@@ -1,4 +1,9 @@
-"""Return map, regression, certificates, checks and the map of pushes."""
+"""Return map, regression, certificates, checks and the map of pushes.
+
+The return map P goes from just before one impact to just before the next, in coordinates s of the section where
+the swing foot is on the ground. (q_minus, v_minus) is the state of a gait before its impact; NPD is the paper's
+feedback linearisation with PD, ADRC has an observer besides.
+"""
 
 import math
 from dataclasses import replace
@@ -33,6 +38,8 @@ def return_map(biped, gait):
 
 
 def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
+    """With 5 % of the gait's rates the robot does not come over its stance foot: P has no value, and the
+    error says how the run ended."""
     x = np.concatenate((gait.q_minus, 0.05 * gait.v_minus))
     with pytest.raises(
         SimulationError, match=r"no return to the section: (FELL|STALLED|SINGULAR|RAN_AWAY)"
@@ -41,7 +48,8 @@ def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
 
 
 def test_regression_finds_a_linear_map_and_warns_when_it_cannot():
-    """Seven random points give the multipliers of a 3 x 3 map; points on one line leave two of them open."""
+    """Seven points x, Phi x, Phi^2 x, ... give back the eigenvalues of a 3 x 3 matrix Phi; points on one line
+    have rank 1, which leaves two eigenvalues open."""
     random = np.random.default_rng(0)
     Phi = np.diag([0.9, -0.5, 0.2])
     x = [random.normal(size=3)]
@@ -57,6 +65,9 @@ def test_regression_finds_a_linear_map_and_warns_when_it_cannot():
 
 
 def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
+    """On a cycle the motors do the work that the impact loses; each number beyond its limit gives one
+    sentence. The walk needs 108 N m and a friction of 0.45, 0.52 at impact: limits of 50 N m and 0.1 are
+    broken."""
     made = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 2)
     c = made.certificates[-1]
     assert c.joint_work == pytest.approx(c.energy_lost, rel=1e-4)
@@ -79,7 +90,9 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
 
 
 def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):
-    """With its rates f times those of the gait a walker has f^2 zeta*, and rates go with sqrt(zeta)."""
+    """P of the whole robot against the map rho of the zero dynamics, a quadrature without a simulation. zeta
+    is half the square of the angular momentum before an impact: with rates f times those of the gait it is
+    f^2 zeta*, and the rate of Theta, the phase, goes with sqrt(zeta)."""
     orbits = ZeroOrbits.of(ZeroDynamics.of(biped, gait.constraint))
     f = np.array([0.95, 1.05])
     rate = biped.phase @ gait.v_minus
@@ -91,7 +104,8 @@ def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):
 
 
 def test_a_cycle_without_the_observer_s_states_has_a_multiplier_for_each_coordinate_of_the_section():
-    """n angles on the ground and n rates: 2 n - 1 = 9, whatever the observer keeps."""
+    """RABBIT has n = 5 angles, of which the foot on the ground leaves n - 1, and n rates: 2 n - 1 = 9,
+    whatever the observer keeps."""
     result = ba.cycle_stability(cycle_of(Scenario("ADRC"), observer_states=False))
     assert len(result.orbit.multipliers) == 9
     assert result.table.stable
@@ -104,20 +118,26 @@ def refused(error, text, call, *arguments, **named):
 
 
 def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, monkeypatch):
+    """Each line breaks one thing that a return map or Newton's search for P(s) = s needs, and has to get the
+    sentence on it."""
     P, w = return_map, return_map.walker
     x = np.concatenate((gait.q_minus, gait.v_minus))
     s, behind, no_return = P.project(x), np.append(biped.relabel(x[:5]), x[5:]), "never returns"
+    # a controller that notices touchdowns counts them, and noise is another one at each step
     notices = replace(w, timing=ba.SampledTime(1e-3, restart=False), touchdown=FaultyTouchdown())
     refused(InputError, no_return, replace, P, walker=notices)
     noisy = replace(w, timing=ba.SampledTime(1e-3), sensors=ba.Sensors(noise=1e-3))
     refused(InputError, no_return, replace, P, walker=noisy)
     up = math.atan2(*biped.swing_foot(np.append(x[:4], 0.0)))  # where Newton's step has no end
     refused(SimulationError, "no torso angle puts the swing foot", replace(P, pitch=up).lift, s)
+    # the legs exchanged: the swing foot is behind the stance foot
     refused(SimulationError, "not an impact", after_impact, w, 0.0, behind, ba.Mode())
+    # a walking step lasts 0.4 s
     short = Cycle(replace(P, walker=replace(w, max_step_time=0.01)), x)
     orbit = SimpleNamespace(x_minus=x)
     refused(SimulationError, "of the cycle ended before: STALLED", nominal_step, short, orbit)
     refused(SingularError, "1 - dP/ds, by which", newton_step, np.eye(2), np.ones(2))
+    # a map that always lands 2 beside s has no fixed point; a tolerance of 0 is never reached
     wrong = SimpleNamespace(image=s + 2.0, jacobian=np.zeros((9, 9)))
     monkeypatch.setattr(variational, "differentiate_step", lambda P, s: wrong)
     monkeypatch.setattr(variational, "MOST_ITERATIONS", 1)
@@ -127,6 +147,8 @@ def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, mo
 
 
 def test_derivatives_that_cannot_be_made_are_refused(return_map, gait, biped):
+    """The variational equation needs a smooth flow without states of a controller; the derivative of a tick
+    needs sample instants; a stride's direction needs one number per motor."""
     P, w = return_map, return_map.walker
     x = np.concatenate((gait.q_minus, gait.v_minus))
     smooth, system = "needs continuous time and no disturbance", variational.VariationalSystem
@@ -143,9 +165,11 @@ def test_derivatives_that_cannot_be_made_are_refused(return_map, gait, biped):
 
 
 def test_the_word_on_multipliers_is_that_of_the_method_that_is_trusted():
+    """The multipliers z by central differences alone, then beside those of the variational equation, which is
+    trusted: 3e-6 relative are 3 tolerances of 1e-6, unless the noise of the differences is larger."""
     z = np.array([0.5 + 0.6j, 0.5 - 0.6j, 0.1])
     last = "the largest |lambda| is 0.781025."
-    alone = StabilityTable(z)
+    alone = StabilityTable(z)  # the largest |z| is sqrt(0.61)
     assert alone.verdict == f"Trust the central differences: the cycle is stable, {last}"
     assert (alone.agree, alone.gap(), alone.stable) == (True, 0.0, True)
     assert not StabilityTable(np.array([1.0 + 0.0j])).stable
@@ -166,6 +190,8 @@ def test_the_word_on_multipliers_is_that_of_the_method_that_is_trusted():
 
 # -- numbers with closed forms ---------------------------------------------------------------------
 def test_integrals_and_means_of_signals():
+    """Against the primitives of a cubic, for which the rule is exact on uneven nodes; a repeated time is a
+    jump, at which the integral is split. The rms of (t, 2 t) is that of all entries."""
     t = np.array([0.0, 0.1, 0.4, 0.5, 1.0])
     cubic = t**3 - 2.0 * t**2 + 3.0
     assert signals.integrate(t, cubic) == pytest.approx(0.25 - 2.0 / 3.0 + 3.0, abs=1e-14)
@@ -177,7 +203,8 @@ def test_integrals_and_means_of_signals():
 
 
 def test_accelerations_skip_differences_over_no_time():
-    """q'' at a node is that of the last interval that is longer than round-off, or the next at the start."""
+    """q'' at a node is the difference over the last interval that is longer than round-off, or the next at the
+    start. `rows`: for each time the row of dx = (q', q'') whose q'', 2 row + 1, has to be found."""
     dx = np.arange(12.0).reshape(6, 2)
     for t, rows in (
         ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0, 1, 2, 3, 4, 5]),
@@ -191,6 +218,8 @@ def test_accelerations_skip_differences_over_no_time():
 
 
 def test_the_bump_of_a_stride_is_64_s3_1_s_3(gait):
+    """The bump b(s) that bends a gait's curve is zero with two derivatives at both ends and 1 in the middle,
+    where `bumped` has to move the joints by the whole shift."""
     h, s = gait.constraint, np.array([0.0, 0.25, 0.5, 1.0])
     assert np.polyval(BUMP[::-1], s) == pytest.approx(64.0 * (s * (1.0 - s)) ** 3, abs=1e-12)
     shift, middle = np.array([0.1, 0.0, -0.2, 0.0]), 0.5 * (h.theta_plus + h.theta_minus)
@@ -199,6 +228,8 @@ def test_the_bump_of_a_stride_is_64_s3_1_s_3(gait):
 
 # -- a designed gait -------------------------------------------------------------------------------
 def test_a_gait_is_certified_by_its_walk(biped, gait, monkeypatch):
+    """A design is accepted only if its simulated walk keeps the limits and comes back: a limit of 1 N m, or
+    rates that are off by 2e-6 rad/s where 1e-6 is allowed, refuse it."""
     walk = gait_design.simulate_by  # not with step control, which no compiled walk has
     quick = lambda *x, **more: walk(*x[:4], ba.RK4(1e-3), **more)  # noqa: E731
     monkeypatch.setattr(gait_design, "simulate_by", quick)

@@ -1,4 +1,13 @@
-"""The words for claims, on made-up results; the set on which they rest, and what is walked for them."""
+"""The words for claims, on made-up results; the set on which they rest, and what is walked for them.
+
+A claim of the paper is judged over members: 36 combinations of choices that the paper leaves open. A walk has
+each number at the integration step used and at half of it (`at_half`); a number that changes by more than 1 %
+is marginal. A claim holds for all members (replicated), for some (depends), or for none (contradicted).
+
+`results(**odd)` are made-up results with which all checks hold, but for the entries `odd`; `judge(name, **odd)`
+is the row of one claim on them. `walk(error)` has this tracking error [rad] under the push, and `member(npd,
+adrc)` such a walk under each controller: by default 1e-2 rad under NPD, of which ADRC may have 1 %, and 1e-6.
+"""
 
 import itertools
 import math
@@ -66,6 +75,9 @@ def test_the_set_is_balanced():
 
 
 def test_the_walks_of_a_member_have_the_choices_in_its_name():
+    """Seven choices become a scenario: 30 N m on q3 and q4 from 0.12 s on with edges of 10 ms, an observer
+    that starts at zero, (20) as printed. On its walks the deviation, which leaves out the errors that (20)
+    makes without a push, is tiny under ADRC, while the peak, which has them, is not."""
     chosen = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
     run = chosen.run("ADRC")
     assert not run.controller.solve_theta
@@ -86,6 +98,8 @@ def test_the_walks_of_a_member_have_the_choices_in_its_name():
 
 @pytest.mark.parametrize("zero", [True, False])
 def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero):
+    """Only the estimate of the disturbance starts at 0 instead of the model's; angles and rates are those
+    measured either way."""
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", pushed=False)
     (made,) = member_runs.in_two(run, zero, 4.0)
     q, v, s = made.walker.split_state(made.trajectory.arcs[0].x[0])
@@ -96,6 +110,8 @@ def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero
 
 
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
+    """The error with a push is 3 rad off before 0.505 s, the onset, which does not count, and 0.25 rad off
+    after it, which does."""
     t = np.linspace(0.0, 1.0, 101)
     slope = np.tile([1.0, -1.0], (101, 1))
     usual = member_runs.Track(t, np.column_stack((t, -t)), slope, -1.0)
@@ -104,7 +120,8 @@ def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push(
 
 
 def test_peaks_lie_between_the_nodes():
-    """Of sin(t) on nodes around its peak, and of its deviation from a walk on other nodes."""
+    """The peak of sin(t) is 1, though no node (stored instant) has more than 0.996; the same for its deviation
+    from a walk that has other nodes."""
     t, other = np.linspace(0.0, 3.0, 10), np.linspace(0.0, 3.0, 31)
     one = member_runs.Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0)
     assert np.max(np.abs(one.error)) < 0.996
@@ -115,7 +132,8 @@ def test_peaks_lie_between_the_nodes():
 
 
 def test_a_sparse_walk_keeps_all_nodes_of_the_push_and_of_the_support_after_it():
-    """Of later supports less than a quarter of the nodes is left, and the outcome is the same."""
+    """To save memory, of later supports (arcs) less than a quarter of the nodes is left; the outcome is the
+    same. The first two arcs have the push and what it leaves behind."""
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run(
         "NPD", **{"run.h": 1e-4}
     )
@@ -142,11 +160,15 @@ def test_a_sparse_walk_keeps_all_nodes_of_the_push_and_of_the_support_after_it()
     ],
 )
 def test_a_number_is_judged_at_both_steps(value, half, holds, marginal):
+    """The limit is 0.01. A case holds by its value at half the step; it is marginal if the two steps have
+    another verdict or differ by more than 1 %, unless by less than round-off, 1e-9."""
     case = Probe.of("a", AtTwoSteps(value, half), limit("<= 0.01"), ROUND_OFF, "a")
     assert (case.holds, case.marginal) == (holds, marginal)
 
 
 def test_words_count_what_is_firm_and_the_share_has_no_interval():
+    """A marginal case counts as not kept; it makes a claim depend, and without a firm case nothing is
+    testable. The share is a plain count, as nothing was drawn at random."""
     good, bad, doubtful = (
         Probe(name, figure(1.0), holds, marginal, name)
         for name, holds, marginal in (("g", True, False), ("b", False, False), ("m", True, True))
@@ -173,6 +195,9 @@ def test_words_count_what_is_firm_and_the_share_has_no_interval():
     ],
 )
 def test_verdict_on_the_claims_of_rejection_and_tracking(odd, word):
+    """One of six members is odd. A ratio ADRC over NPD above 0.01, of no number, not converged or over zero
+    makes "depends"; the check that all steps converged, and that of rejection, which is asserted, break
+    with it."""
     for name in ("rejection", "tracking"):
         row = judge(name, **with_member(odd))
         assert row.word == word
@@ -182,6 +207,8 @@ def test_verdict_on_the_claims_of_rejection_and_tracking(odd, word):
 
 
 def test_figure_5_depends_on_one_choice_alone():
+    """A member with Theta'' solved for tracks, one with (20) as printed does not: the share has to name that
+    choice."""
     one, other = (next(m for m in members() if m.theta == x) for x in ("solved", "printed"))
     chosen = [member(of=one), member(adrc=walk(1e-2), of=other)]
     row = judge("tracking", members={"identified": chosen})
@@ -213,6 +240,8 @@ def test_the_claim_that_the_cycle_is_unaffected_needs_its_rate_after_the_push(ra
     ],
 )
 def test_a_critical_phase_is_judged_over_the_map(fates, word, number):
+    """`fates`: how the walk under (NPD, ADRC) ends, by push. Only pushes under which NPD is lost count; the
+    claim holds for those where ADRC walks on, feasible but perhaps for the impact ("but_impact")."""
     row = judge("critical_phase", map={"": [cell(*x, onset=k) for k, x in enumerate(fates)]})
     assert row.word == word
     assert number in row.number
@@ -224,18 +253,25 @@ def test_a_critical_phase_is_judged_over_the_map(fates, word, number):
 )
 @pytest.mark.parametrize(("name", "gait"), [("stable", "a"), ("recipe_stable", "b")])
 def test_verdict_on_the_claims_of_stability(name, gait, multiplier, word):
+    """One cycle of the gait has another largest |multiplier|: stable means below 1, and 1 or no number is
+    not."""
     row = judge(name, cycles={f"gait ({gait}), identified, odd": cycle(multiplier)})
     assert row.word == word
     assert claim_checks([row])[1].holds == (word == "replicated")
 
 
 def test_a_finding_beyond_the_paper_names_the_torque_that_stops_the_walk():
+    """Of the made-up walks with torques on the torso, from 20 to 120 N m, only those with 120 N m end early,
+    under both controllers."""
     odd = {f"120 N m on the torso, identified {c}": outcome(c, impacts=1) for c in CONTROLLERS}
     (said,) = (x for x in findings(results(claim_runs=odd), []) if "torso" in x)
     assert "120 N m (identified); NPD does alike" in said
 
 
 def test_an_intention_without_a_measure_has_no_verdict_and_a_check_beside_it():
+    """The paper gives no limit for heavier plants, so the claim is not testable; a check of its own, ADRC's
+    error below NPD's 1e-2 rad, holds at 5e-3 and breaks at 2e-2 rad."""
+
     def found(peak):
         kinds = ("masses", "masses and inertias")
         made = results(runs={f"heavier, {kind} ADRC": outcome("ADRC", peak) for kind in kinds})
@@ -260,12 +296,17 @@ PAPER = {
 
 @pytest.mark.parametrize("name", PAPER)
 def test_a_claim_is_quoted_with_its_condition(name):
+    """A quotation without its "if" would claim more than the paper: `PAPER` has, by claim, the words of the
+    condition."""
     row = judge(name)
     assert PAPER[name] in row.claim
     assert row.word != "contradicted"
 
 
 def test_what_is_contradicted_is_smoothness_global_stability_and_the_printed_multipliers():
+    """The made-up results, with which every check holds, contradict exactly these three claims, in this
+    order: by a jump at impact, a start that is too slow, and a period too long for the printed
+    multipliers."""
     found = [row.claim for row in rows(results()) if row.word == "contradicted"]
     named = zip(("smooth in all", "Global stability", "|lambda(Phi)|"), found, strict=True)
     assert all(name in claim for name, claim in named)
@@ -273,6 +314,8 @@ def test_what_is_contradicted_is_smoothness_global_stability_and_the_printed_mul
 
 # -- the table -------------------------------------------------------------------------------------
 def test_every_claim_has_a_row_with_every_column():
+    """28 claims, each with its words filled in (no brace of a template is left), and the tally counts all of
+    them."""
     table = rows(results())
     assert len(table) == len({row.claim for row in table}) == 28
     assert {row.word for row in table} <= set(all_texts()["words"])
@@ -290,6 +333,8 @@ def test_every_claim_has_a_row_with_every_column():
 
 
 def test_one_bad_member_breaks_one_claim_and_its_check():
+    """A ratio of 0.0101 in one of six members: 5 of 6 are left. Two claims rest on the ratio, of which
+    rejection is asserted, that is held by a check; no other claim changes its word."""
     good, bad = (rows(results(**with_member(m))) for m in (member(), member(adrc=walk(1.01e-4))))
     changed = [a.claim for a, b in zip(good, bad, strict=True) if a.word != b.word]
     assert len(changed) == 2  # rejection, and what figure 5 shows
@@ -299,6 +344,8 @@ def test_one_bad_member_breaks_one_claim_and_its_check():
 
 # -- the runs --------------------------------------------------------------------------------------
 def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
+    """The least speed after impact is a quadrature, a share of the gait's speed; simulated starts at 0.97 of
+    it make no impact and at 1.03 all 3, under either controller."""
     below, above = runs.starts("identified-bare")
     for c in CONTROLLERS:
         assert (below.outcomes[c].impacts, above.outcomes[c].impacts) == (0, 3)
@@ -323,11 +370,15 @@ def test_what_gait_b_needs_of_ground_and_motors():
 
 
 def test_a_tracking_error_decays_by_the_gains_of_table_two():
+    """K_d = 50, K_p = 5000: the time in which an error falls to 0.138, the least multiplier printed, against
+    the roots of the error's polynomial."""
     slowest = np.roots([1.0, 50.0, 5000.0]).real.max()
     assert np.exp(slowest * longest_step(0.138)) == pytest.approx(0.138)
 
 
 def test_noise_gives_a_spectrum_inside_the_unit_circle():
+    """The paper's regression on random numbers without dynamics: its "multipliers" are below 1 too, so that
+    such a spectrum proves no stability. The seed is fixed: the same twice."""
     medians = noise_spectrum()
     assert np.array_equal(medians, noise_spectrum())
     assert np.all(np.diff(medians) < 0)
@@ -335,12 +386,15 @@ def test_noise_gives_a_spectrum_inside_the_unit_circle():
 
 
 def test_an_observer_with_a_given_margin():
+    """The bandwidth for a delay margin of 1 ms with m = 1, put back into the loop, has that margin."""
     bandwidth = runs.bandwidth_with(1e-3, 1)
     margin = ObserverLoop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
     assert margin == pytest.approx(1e-3, rel=1e-6)
 
 
 def test_starts_that_fail_are_those_slower_than_the_gait_s():
+    """`factor`: of the least speed, 0.9 of the gait's. Below 1 a start counts as failing; of the two above it
+    only the one that walks is passing."""
     walks, falls = SimpleNamespace(walked=True), SimpleNamespace(walked=False)
     starts = [
         SimpleNamespace(least=0.9, factor=f, outcomes={"NPD": o})
@@ -353,7 +407,8 @@ def test_starts_that_fail_are_those_slower_than_the_gait_s():
 
 
 def test_the_jump_of_the_total_disturbance_is_that_of_a_walk():
-    """q_b'' - kappa u on both sides of the impact, in the labels after it."""
+    """xi = q_b'' - kappa u on both sides of the impact of a simulated walk, in the labels after it, against
+    `jumps`, which uses the stored gait alone. xi does not depend on u, so any u does."""
     biped = ba.Biped.load("rabbit", "identified")
     gait = ba.load_gait("published", biped)
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 2, ba.RK4(1e-4))
@@ -370,7 +425,8 @@ def test_the_jump_of_the_total_disturbance_is_that_of_a_walk():
 
 
 def test_the_reasons_of_the_members_are_those_beside_the_impulse_at_impact():
-    """The table says that of the impulse in a row of its own."""
+    """One of two members breaks friction and impulse: "why" has friction alone, since the impulse at impact
+    has a row of its own in the table; "apart" counts the member."""
     broken = {"friction": "friction 0.9 > 0.6", "impulse": "the impulse asks for 0.8"}
     odd, same = (walk(1e-6)._replace(infeasible=x) for x in (broken, {}))
     found = results(members={"identified": [member(adrc=odd), member(adrc=same)]})

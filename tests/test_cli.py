@@ -1,4 +1,8 @@
-"""The command: help, exit codes, one clear message for bad input, files that survive an interruption."""
+"""The command: help, exit codes, one clear message for bad input, files that survive an interruption.
+
+`command(*words)` is what a command prints, and raises what it raises; `ended(*words)` are its exit code and
+text.
+"""
 
 import subprocess
 import sys
@@ -24,6 +28,8 @@ from .commands import command
 
 
 def test_the_command_in_a_fresh_interpreter(tmp_path):
+    """Most tests call the command in their own process; this one starts the installed script, which has to
+    walk and to print no warning."""
     script = Path(sys.executable).with_name("biped-adrc")
     assert script.is_file(), f"{script} is missing: install the package"
     line = [script, "simulate", "--controller", "npd", "--impacts", "1"]
@@ -33,6 +39,7 @@ def test_the_command_in_a_fresh_interpreter(tmp_path):
 
 
 def test_multipliers_of_a_robot_without_motors():
+    """The compass gait: two independent methods print the same multipliers, to seven digits those known."""
     printed = command("poincare", "--robot", "compass")
     table = {line[:29].strip(): line[29:].split() for line in printed.splitlines()}
     assert table["variational equation"] == table["central differences"]
@@ -43,6 +50,8 @@ def test_multipliers_of_a_robot_without_motors():
 
 
 def test_pushes_from_text():
+    """JOINTS=TORQUE@STEP:FROM-TO becomes a push: q1 and q2, 30 N m, single support 19, from 0.1 to 0.3 s; no
+    end means a step. Whatever does not follow the grammar is refused."""
     push = parse_push("q1,q2=30@19:0.1-0.3")
     assert push == Push(joints="q1,q2", torque=30.0, step=19, onset=0.1, duration=0.2)
     assert push.stop(0.1) == 0.3
@@ -60,6 +69,7 @@ def test_pushes_from_text():
 
 
 def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
+    """A B-spline in place of the polynomial, from option to file; 12 nodes keep the search short."""
     out = tmp_path / "local.json"
     command(
         *["gait", "design", "--speed", "0.7", "--set", "nodes=12", "--set", "curve=bspline", "-o"],
@@ -71,6 +81,8 @@ def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
 
 
 def test_the_observer_is_that_of_the_controller():
+    """`observer` reports on the observer of the controller that is named (LESO, a linear one with m = 1); NPD
+    has none."""
     assert "m = 1 at 500 rad/s" in command("observer", "--set", "controller.name=LESO")
     with pytest.raises(InputError, match="the observer of 'NPD' is None, expected a GPIObserver"):
         command("observer", "--set", "controller.name=NPD")
@@ -80,6 +92,7 @@ def test_the_observer_is_that_of_the_controller():
 
 
 def test_the_state_before_the_impact_has_names_and_units():
+    """The fixed point x- of the return map is printed joint by joint, angles and then rates."""
     said = " ".join(command("poincare").split())
     assert "x-: q1 = 3.247231, q2 = " in said
     assert "v5 = -0.170000 [rad/s]" in said
@@ -102,6 +115,8 @@ main()
 
 
 def test_ctrl_c_in_a_walk_leaves_no_file(tmp_path):
+    """`INTERRUPTED` registers a controller that raises SIGINT at 0.05 s, inside the walk: exit code 130, no
+    traceback, and neither the result nor a temporary file beside the script."""
     script = tmp_path / "interrupted.py"
     script.write_text(INTERRUPTED)
     words = ["simulate", "--controller", "interrupting", "--engine", "pinocchio", "-o", "run"]
@@ -114,6 +129,8 @@ def test_ctrl_c_in_a_walk_leaves_no_file(tmp_path):
 
 
 def test_the_shortest_step_has_a_half_and_its_walk_is_stored(tmp_path):
+    """1e-6 s is the shortest step allowed; the comparison at half of it has to run all the same. 5 ms of
+    walking keep the test short."""
     words = ["simulate", "--controller", "NPD", "--impacts", "1", "--set", "run.h=1e-6"]
     words += ["--set", "run.max_step_time=5e-3", "-o", tmp_path / "run.npz"]
     done = CliRunner().invoke(app, [str(word) for word in words], catch_exceptions=False)
@@ -122,6 +139,8 @@ def test_the_shortest_step_has_a_half_and_its_walk_is_stored(tmp_path):
 
 
 def test_a_walk_is_stored_before_it_is_made_again(tmp_path, monkeypatch):
+    """The second walk, at half the step for comparison, fails here; the first one is in the file already."""
+
     def half(s, walker):
         raise InputError("no half")
 
@@ -133,6 +152,8 @@ def test_a_walk_is_stored_before_it_is_made_again(tmp_path, monkeypatch):
 
 
 def test_simulate_says_where_rounding_decides(tmp_path):
+    """These values, found by a search, make an encoder count flip with the last digit, so that neighbours
+    1e-12 apart walk differently; a smooth walk has no such note."""
     values = {"counts": 50000, "velocity": "differences"}
     sets = [f"hardware.encoders.{k}={x}" for k, x in values.items()]
     sets += ["run.seed=368", "hardware.period=0.0011633571256965862"]
@@ -165,6 +186,8 @@ engine compiled"""
 
 
 def test_a_walk_is_printed_step_by_step(monkeypatch):
+    """`stuck`: a foot that does not lift off, and a limit of friction of 0.5, which the impulse (0.518)
+    breaks, so that the notes are printed too. `WALK` is the whole text."""
     certified = ba.Walk.certified
     stuck = lambda w, k: tuple(replace(c, old_foot_velocity=0.0) for c in certified(w, k))  # noqa: E731
     monkeypatch.setattr(ba.Walk, "certified", stuck)
@@ -174,6 +197,7 @@ def test_a_walk_is_printed_step_by_step(monkeypatch):
 
 
 def test_a_table_of_gaits_and_a_version():
+    """A row of the table: speed 0.7502 m/s, step 0.3124 m, period 0.4164 s, slope 0."""
     assert "│ published │ 0.7502 │ 0.3124 │ 0.4164 │ 0 │" in ended("gait", "show")[1]
     assert ended("--version") == (0, f"biped-adrc {ba.__version__}")
 
@@ -192,6 +216,9 @@ def test_a_table_of_gaits_and_a_version():
     ],
 )
 def test_errors_become_exit_codes(monkeypatch, capsys, error, code, text):
+    """`_run` gives the code of the error's kind and prints one line, without a traceback; SystemExit is a
+    number, a text (1) or None (0), as Python has it; Ctrl-C is 130."""
+
     def command(standalone_mode):
         if error is not None:
             raise error
@@ -202,6 +229,8 @@ def test_errors_become_exit_codes(monkeypatch, capsys, error, code, text):
 
 
 def test_a_law_that_does_not_hold_ends_check_and_new(biped, monkeypatch, tmp_path):
+    """A made-up law with the value 1 and the limit 0.1: `robot check` prints it and ends with 1, `robot new`
+    refuses to write the robot."""
     law = at_most("energy [J]", "law", 1.0, 0.1)
     derived = SimpleNamespace(biped=biped, notes=(), checks=(law,), broken=(law,))
     monkeypatch.setattr("biped_adrc.cli.robot._derived", lambda *_: derived)
@@ -212,6 +241,8 @@ def test_a_law_that_does_not_hold_ends_check_and_new(biped, monkeypatch, tmp_pat
 
 
 def test_a_study_that_is_interrupted_says_where_it_goes_on(monkeypatch, tmp_path):
+    """A folder that is not there yet means that nothing was begun. Before the message is printed further
+    signals are ignored, so that a second Ctrl-C does not cut it off."""
     (tmp_path / "study.toml").write_text("name = 'a'\n[grid]\ncontroller.K_p = [5000.0]\n")
     ignored = []
 
@@ -230,6 +261,8 @@ def test_a_study_that_is_interrupted_says_where_it_goes_on(monkeypatch, tmp_path
 
 
 def test_remarks_are_printed(monkeypatch, tmp_path):
+    """Stand-ins give `replay`, `simulate` and `export` something to remark: an odd column, a controller that
+    raised, a controller unstable by itself (growth above 10 /s, here 10.6, is printed as 11; 10.0 is not)."""
     monkeypatch.setattr(ba, "replay", lambda *_: SimpleNamespace(rows=(), remarks=("odd",)))
     assert "note: odd" in ended("replay", "x.csv")[1]
     raised = SimpleNamespace(status=ba.Status.RAISED, t_end=0.25, detail="odd")
@@ -256,6 +289,8 @@ def test_remarks_are_printed(monkeypatch, tmp_path):
 
 
 def test_numbers_and_names_of_options():
+    """FIRST:LAST:STEP includes LAST only where a step hits it; a range that runs backwards, or has a step of
+    0 or none, is refused. Names are split at commas; no option is None, an empty one no names."""
     for text, numbers in (
         ("0.4,0.5", (0.4, 0.5)),
         ("0.4:0.6:0.1", (0.4, 0.5, 0.6)),

@@ -1,4 +1,9 @@
-"""A compass with a motor at its hip: angle and torque change their sign at an impact, as the legs swap."""
+"""A compass with a motor at its hip: angle and torque change their sign at an impact, as the legs swap.
+
+Its one actuated coordinate goes from the stance leg to the swing leg, so an impact exchanges no joints but
+turns signs. `designed` is a gait that was optimised for it, at 0.5 m/s; `walker(compass, controller)` has a
+plant whose hip is 10 % heavier than the model, under a push of 5 N m.
+"""
 
 from __future__ import annotations
 
@@ -54,6 +59,8 @@ def walker(compass, controller, **more):
 
 
 def test_one_multiplier_of_the_walk_is_that_of_the_zero_dynamics(compass, designed):
+    """The largest multiplier of the simulated return map against delta^2 of the design, a quadrature of the
+    zero dynamics that knows no controller."""
     gait = designed.gait
     law = ba.Walker(compass, ba.NPDController(gait.constraint))
     x = law.initial_state(gait.q_minus, gait.v_minus)
@@ -83,6 +90,8 @@ HARDWARE = {
     ],
 )
 def test_both_engines_walk_alike(compass, designed, controller, hardware):
+    """Compiled code against Python after each of three impacts. "late": a delay and lagging motors;
+    "touchdown noticed": a clock that runs on over touchdowns that the controller has to notice."""
     around = walker(compass, controller(designed.gait.constraint), **HARDWARE[hardware])
     python, code = (
         ba.walk(around, designed.gait, 3, STEP, engine=engine).trajectory
@@ -115,6 +124,8 @@ class OfTheLeftLeg(ba.ADRCController):
 
 
 def test_an_observer_that_is_relabelled_sees_what_one_of_the_left_leg_sees(compass, designed):
+    """`law` turns the signs of its states at impacts; `OfTheLeftLeg` takes the angle from the left leg to the
+    right one, which no impact changes, and never turns a sign. Both have to walk the same."""
     law = adrc(designed.gait.constraint)
     ends = [
         ba.walk(walker(compass, x), designed.gait, 3, STEP, engine="pinocchio").trajectory
@@ -128,6 +139,8 @@ def test_an_observer_that_is_relabelled_sees_what_one_of_the_left_leg_sees(compa
 
 
 def test_a_motor_with_lag_keeps_its_torque_on_the_legs_over_an_impact(compass, designed):
+    """The motor's torque cannot jump; the coordinate turns its sign, so all numbers of the line (delay and
+    lag) do. Above 0.1 N m a missing sign would show."""
     around = walker(compass, adrc(designed.gait.constraint), **HARDWARE["late"])
     run = ba.walk(around, designed.gait, 3, STEP).trajectory
     for event in run.events("foot_strike"):
@@ -160,6 +173,7 @@ def test_the_exported_controller_walks_over_impacts(compass, designed):
 
 
 def test_a_log_in_the_labels_of_its_own_legs_comes_back(compass):
+    """Relabelling is its own inverse; on the second leg, `legs` = 2, the torque changes its sign."""
     q, v, u = (np.random.default_rng(3).normal(size=(6, k)) for k in (2, 2, 1))
     legs = np.array([1.0, 2.0, 2.0, 1.0, 2.0, 1.0])
     there = relabel_legs(legs, q, v, u, compass)
@@ -182,6 +196,8 @@ class ForgetsTheSign(ba.NPDController):
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_a_controller_of_ones_own_that_forgets_the_sign_is_told(compass, designed, engine):
+    """Its `jump` exchanges the entries of an angle that it keeps, by s[swap], but does not turn the sign: the
+    walk has to end and name the method."""
     law = ForgetsTheSign(designed.gait.constraint)
     run = ba.walk(ba.Walker(compass, law), designed.gait, 1, STEP, engine=engine).trajectory
     assert not run.status.ok

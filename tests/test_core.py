@@ -1,4 +1,7 @@
-"""The core by values written out: sentences of errors, checks, texts, files, trees, small linear systems."""
+"""The core by values written out: sentences of errors, checks, texts, files, trees, small linear systems.
+
+`said(error, call, *arguments)` is the sentence of the error with which a call is refused.
+"""
 
 from __future__ import annotations
 
@@ -50,10 +53,14 @@ MANY = [f"r{k}.x" for k in range(10)] + [f"r{k}.y" for k in range(11)]
     ],
 )
 def test_an_unknown_name_is_answered_with_near_ones(name, known, text):
+    """A near name if there is one, with or without its prefix; else the names with the same prefix, or all of
+    them; of more than 20 the prefixes alone."""
     assert unknown(name, known).endswith(text)
 
 
 def test_errors_of_records_and_of_numbers_are_put_in_words():
+    """`found` is an error as pydantic gives it: of its place ("a", "int", 1) the type's name is left out.
+    True is a number to Python and no count here."""
     found = {
         "msg": "Input should be a valid tuple",
         "input": 3,
@@ -108,6 +115,8 @@ class Ranges(checks.Checked):
     ],
 )
 def test_a_field_is_in_its_range(field, value, end):
+    """Each row is just outside of a range of `Ranges`, whose fields are named for it: zero where positive is
+    asked for, 1.0 where a whole number is."""
     assert said(InputError, Ranges, **{field: value}) == f"{field} of Ranges is {end}"
 
 
@@ -117,6 +126,8 @@ class Own:
 
 
 def test_arguments_and_results_are_named_with_what_was_expected():
+    """Each row: the sentence, then its argument. A text of 59 letters is too long to be shown, one of 58 is
+    shown. What a user's method returned wrongly is named with its file and line."""
     for begin, *arguments in (
         ("x is 1.0 (a float), expected a Gait, such as load_gait('pub", 1.0, "x", ba.Gait),
         ("x is None, expected a Biped, such as Biped.load('rabbit')", None, "x", ba.Biped),
@@ -143,6 +154,8 @@ def test_arguments_and_results_are_named_with_what_was_expected():
 
 
 def test_an_exception_of_a_user_s_code_is_told_with_its_line():
+    """The sentence ends with the source line that raised. `handing_out`, around each call of a user's method,
+    raises the error again as a RaisedError, which is a ValueError as well."""
     with pytest.raises(ValueError, match="odd") as found:
         raise ValueError("odd")
     end = ', `raise ValueError("odd")`) raised ValueError: odd'
@@ -153,6 +166,8 @@ def test_an_exception_of_a_user_s_code_is_told_with_its_line():
 
 
 def test_a_point_of_another_class_or_shape_is_named():
+    """A reference of `Own` gives its point of 2 joints and 3 coordinates, where the robot has 4 coordinates,
+    or 4 joints."""
     check, still = checks.point_returned, np.zeros(2)
     point = ReferencePoint(still, still, still, np.zeros((2, 3)))
     assert said(InputError, check, 1, ReferencePoint, Own(), 3) == (
@@ -168,6 +183,7 @@ def test_a_point_of_another_class_or_shape_is_named():
 
 # -- texts -----------------------------------------------------------------------------------------
 def test_texts_of_values():
+    """Up to 6 numbers, 2 keys and 48 characters are shown whole, more by shape, count or start."""
     for x, text in (
         (np.array([1, 2.5]), "[1 2.5]"),
         (np.zeros(6), "[0 0 0 0 0 0]"),
@@ -183,17 +199,22 @@ def test_texts_of_values():
         ({*range(40)}, "set(...)"),
     ):
         assert short(x) == text
+    # F(a=yy...y) of exactly LONGEST characters, and one longer
     whole, cut = (call_text("F", [("a", "y" * (LONGEST - k))]) for k in (5, 4))
     assert (len(whole), whole[-3:], len(cut), cut[-5:]) == (LONGEST, "yy)", LONGEST, "y...)")
 
 
 def test_columns_are_as_wide_as_their_widest_cell():
+    """A row of one cell is a heading: it goes over all columns and widens none. least: of a column's width,
+    gap: between columns."""
     rows = [("a", "bbb", "c"), ("a heading that counts for no width",), ("aa", "b", "")]
     assert columns(rows) == ["a   bbb  c", rows[1][0], "aa  b"]
     assert columns(rows, least=4, gap=1) == ["a    bbb c", rows[1][0], "aa   b"]
 
 
 def test_verdicts_at_their_limits():
+    """<= and >= hold at the limit itself, < does not. UP is the next float above 2: one digit beyond is
+    broken."""
     assert str(at_most("x [m]", "law", 2.0, 2.0)) == "x [m]: 2.0e+00 <= 2"
     assert str(below("x", "law", 2.0, 2.0)) == "x: 2.0e+00 is not < 2"
     kept = at_least("x", "law", UP, UP), between("x", "law", 2.0, 2.0, 2.0)
@@ -210,6 +231,8 @@ class Pair(NamedTuple):
 
 
 def test_values_in_other_languages():
+    """JSON has no inf and no arrays, TOML no None, quotes and control characters are escaped, and no text may
+    end a comment of C or XML."""
     x = {1: Pair(math.inf, (1, 2)), "g": ba.Gains(1.0, np.array([2.0, 3.0])), "n": np.int64(3)}
     gains = {"K_p": 1.0, "K_d": [2.0, 3.0]}
     assert files.plain(x) == {"1": {"a": "inf", "b": [1, 2]}, "g": gains, "n": 3}
@@ -222,6 +245,9 @@ def test_values_in_other_languages():
 
 
 def test_names_of_outputs(tmp_path, monkeypatch):
+    """A name gets its suffix if it has none of those allowed. What is no place for a file (a link, a folder
+    below a file, too long a name, one of the inputs) is refused; 240 bytes leave room for a temporary
+    name."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a").write_text("")
     os.symlink("there", "link.csv")
@@ -244,17 +270,22 @@ def test_names_of_outputs(tmp_path, monkeypatch):
 
 
 def test_a_file_that_is_no_json_is_named_with_its_kind(tmp_path):
+    """The reader is told that the file should be a walk, and says so."""
     (tmp_path / "a.json").write_text("{")
     text = said(InputError, files.read_json, tmp_path / "a.json", "walk")
     assert text.startswith(f"walk '{tmp_path / 'a.json'}' is not valid JSON: Expecting")
 
 
 def test_stored_gaits_are_names_of_gaits_alone():
+    """Kinds of things that have names are gaits, controllers and others: a stored gait is known as a gait and
+    as nothing else."""
     kinds = [kind for kind in registry.REGISTRY if "published-tac2003" in registry.names(kind)]
     assert kinds == ["gait"]
 
 
 def test_a_failed_write_leaves_the_old_file(tmp_path):
+    """An error inside `replacing` leaves the old text, no temporary file beside it, and the rights that the
+    umask 027 gave."""
     path, umask = tmp_path / "sub" / "x.txt", os.umask(0o027)
     try:
         files.write_text(path, "old")
@@ -268,6 +299,8 @@ def test_a_failed_write_leaves_the_old_file(tmp_path):
 
 
 def test_tables_of_text(tmp_path):
+    """A CSV table comes back to the last digit; entries and rows that are wrong are named by their line in
+    the file, empty lines counted."""
     path = files.write_csv({"a": np.array([0.1, 1e-300]), "b": ["x", "y"]}, tmp_path / "t")
     table = files.CsvTable.read(path)
     assert table == (["a", "b"], [(2, ["0.1", "x"]), (3, ["1e-300", "y"])])
@@ -284,7 +317,10 @@ STATE = Pair(Pair(np.array([1.0, 2.0]), 3.0), Pair(None, np.array([[4.0, 5.0]]))
 
 
 def test_a_tree_is_a_vector_and_back():
+    """Nested tuples of arrays (STATE) become one row of numbers and back, also many rows at once; another
+    shape than that of the layout is refused by its place."""
     x, layout = tree.flatten(STATE), tree.Layout.of(STATE)
+    # the leaves of STATE in order; None has no numbers
     assert x.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
     assert (layout.size, layout.starts()) == (5, [0, 2, 3, 3])
     assert [*layout.names()] == ["a.a[0]", "a.a[1]", "a.b", "b.b[0, 0]", "b.b[0, 1]"]
@@ -320,6 +356,8 @@ class Damper(ba.Controller):
 
 
 def test_numbers_of_a_part_are_floats_and_structure_is_whole():
+    """A field declared float is one, though 4 was written; an int is structure; `setup` marks what only
+    prepares a run. A derived value is computed once, read-only, and again for changed fields."""
     x, part = content(Damper()), Damper()
     assert [type(y) for y in (x["K"], x["table"][0], x["order"])] == [float, float, int]
     assert type(x["seed"]).__name__ == "Setup"
@@ -335,6 +373,8 @@ class Valued(ByValue):
 
 
 def test_equal_values_are_equal_with_one_hash():
+    """By value and not by identity: arrays too, NaN equals NaN, -0 equals 0; other shapes and types differ. A
+    field with compare=False does not count."""
     same = [(np.array([0.0]), np.array([-0.0])), (math.nan, float("nan")), ({1: [2]}, {1: [2]})]
     other = [
         (1.0, 2.0),
@@ -349,6 +389,8 @@ def test_equal_values_are_equal_with_one_hash():
 
 
 def test_systems_of_few_equations():
+    """No equation at all, a triangular system solved by hand (x = 1, 2), and a singular matrix, whose zero
+    pivot is named."""
     assert solve_positive(np.zeros((0, 0)), np.zeros((0, 2)), "A").shape == (0, 2)
     assert ba.solve(np.array([[2.0, 1.0], [0.0, 4.0]]), np.array([4.0, 8.0]), "A").tolist() == [
         1,
@@ -361,6 +403,8 @@ def test_systems_of_few_equations():
 
 # -- the rest --------------------------------------------------------------------------------------
 def test_sampling_and_ends_at_the_ends_of_their_ranges():
+    """Each range holds at its ends and not a digit beyond: period 1 ns to 0.1 s, delay up to 100 periods; the
+    ends of a run are positive, the fall's height a share below 1."""
     for period, delay in ((1e-9, 0.0), (0.1, 10.0), (1e-3, 0.1)):
         assert ba.SampledTime(period, delay=delay).restart
     for period in (math.nextafter(1e-9, 0.0), math.nextafter(0.1, 1.0)):
@@ -378,6 +422,8 @@ def test_sampling_and_ends_at_the_ends_of_their_ranges():
 
 
 def test_versions_and_their_differences(tmp_path):
+    """What a stored walk says of its origin. The hash of the sources depends on code (.py, .ll) and not on
+    .txt: four files written one after the other give three hashes."""
     found = versions.packages(("biped-adrc", "no-such-package"))
     assert found == {"biped-adrc": ba.__version__, "no-such-package": "none"}
     texts = versions.differences({"a": 1, "b": 2, "d": 0}, {"b": 3, "c": 4, "d": 0})
@@ -393,6 +439,7 @@ def test_versions_and_their_differences(tmp_path):
 
 
 def test_tasks_in_this_process_come_back_in_order():
+    """With one worker the tasks run here: values in order, and progress as (number done, of all, name)."""
     shown, tasks = [], [processes.Task(name, abs, (x,)) for name, x in (("a", -1), ("b", -2))]
     done = processes.run_tasks(tasks, 1, (), lambda *progress: shown.append(progress))
     assert ([x.value for x in done], shown) == ([1, 2], [(1, 2, "a"), (2, 2, "b")])
@@ -415,6 +462,8 @@ def failing(x):
     ],
 )
 def test_what_cannot_be_made_or_registered_is_said(text, call, arguments):
+    """`call` is the function of the registry: it makes an object of a class from values, or registers a class
+    under a kind of things."""
     assert text in said(InputError, getattr(registry, call), "law", *arguments)
 
 
@@ -429,4 +478,6 @@ def test_what_cannot_be_made_or_registered_is_said(text, call, arguments):
     ],
 )
 def test_a_name_that_cannot_be_registered(name, thing, text):
+    """No text, no class, a name that a controller has already (output_npd), a name that reads as a file's
+    class, and a blank."""
     assert said(InputError, registry.register, "controller", name, thing).startswith(text)

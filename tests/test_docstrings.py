@@ -33,6 +33,8 @@ def docstring(name):
 
 @pytest.mark.parametrize("name", ba.__all__)
 def test_the_example_of_a_public_name_runs(name, tmp_path, monkeypatch):
+    """Every name that `import biped_adrc` offers has an example (>>>) whose output is the printed one. What
+    it registers is forgotten after the test."""
     monkeypatch.setitem(REGISTRY, "controller", dict(REGISTRY["controller"]))
     biped = ba.Biped.load("rabbit")
     names = {"ba": ba, "np": np, "dataclass": dataclass, "folder": tmp_path, "biped": biped}
@@ -87,6 +89,8 @@ def texts(name, thing):
 
 @pytest.mark.parametrize("name", [name for name in ba.__all__ if callable(getattr(ba, name))])
 def test_each_parameter_of_a_public_name_is_in_its_docstring(name):
+    """Each parameter is named; a float or an array has a unit in [], or is said to be dimensionless, and an
+    array a shape such as (n,)."""
     thing = getattr(ba, name)
     said = texts(name, thing)
     for parameter, annotation in parameters(thing).items():
@@ -98,7 +102,8 @@ def test_each_parameter_of_a_public_name_is_in_its_docstring(name):
 
 
 def test_a_scenario_names_its_records():
-    """Python's own signature, before and after pydantic has read the class."""
+    """Editors and help() show the fields of a scenario by name, by Python's own signature, and not as
+    pydantic's **data. `dotted` are values such as "run.h"."""
     names = [p.name for p in inspect.signature(ba.Scenario.__init__).parameters.values()]
     assert names == ["self", *ba.Scenario.model_fields, "dotted"]
 
@@ -112,6 +117,8 @@ VERBS = re.compile(
 
 @pytest.mark.parametrize("name", ba.Scenario.names())
 def test_the_text_of_a_value_is_a_sentence_with_a_subject(name):
+    """It begins with a noun, not with a preposition or "That", has a verb of `VERBS` in its first part, and
+    ends with a full stop."""
     text = ba.Scenario.field_of(name).text
     assert re.match(
         r"(?!The same|That |[A-Z][a-z]*: |On |In |Of |From |To |By |Over |Such )[A-Z]", text

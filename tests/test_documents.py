@@ -1,5 +1,8 @@
 """Every code block of README.md and docs/ runs, and what the pages name exists.
 
+`blocks(text)` are the code blocks of a page, `execute(block, ...)` runs or parses one of them. A helper raises
+AssertionError for a block that nothing runs.
+
 Blocks of one document run in order and share a namespace and a temporary folder, in which `tests` is
 that of the checkout. What a fence says of its block:
 
@@ -146,6 +149,8 @@ def execute(block: Block, names: dict[str, object], folder: Path, document: Path
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_every_block_runs(document, tmp_path, monkeypatch):
+    """Blocks run in order in one namespace, and modules that they wrote are forgotten, since the next page
+    may write others of the same name."""
     (tmp_path / "tests").symlink_to(ROOT / "tests")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BROWSER", "true")  # a page that is shown is not looked at
@@ -164,6 +169,7 @@ def test_every_block_runs(document, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
 def test_every_example_runs(example, tmp_path, monkeypatch):
+    """Each script below examples/, as a program in an empty folder, which writes into "out"."""
     monkeypatch.chdir(tmp_path)
     run_script(str(example), "out")
 
@@ -178,12 +184,16 @@ def test_every_example_runs(example, tmp_path, monkeypatch):
     ],
 )
 def test_a_block_that_cannot_run_fails(text, message, tmp_path):
+    """A command that is not run, one that fails, a file outside of the folder, and a block without a
+    language: none may pass silently."""
     (block,) = blocks(text)
     with pytest.raises(AssertionError, match=re.escape(message)):
         execute(block, {}, tmp_path, tmp_path / "page.md")
 
 
 def test_every_equation_of_the_paper_has_its_place():
+    """docs/theory.md has a section for each of the equations (1) to (28) in order, with its tag and the code
+    that computes it."""
     text = (ROOT / "docs" / "theory.md").read_text()
     sections = re.split(r"^\(eq-(\d+)\)=\n", text, flags=re.MULTILINE)
     assert [int(number) for number in sections[1::2]] == list(range(1, 29))
@@ -195,6 +205,8 @@ def test_every_equation_of_the_paper_has_its_place():
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_tests_that_a_page_names_exist(page):
+    """A page may give tests/FILE.py::test_name as evidence: after a test is renamed the page would point to
+    nothing."""
     for name in TEST_NAME.findall(page.read_text()):
         path, _, function = name.partition("::")
         assert (ROOT / path).is_file(), name
@@ -205,6 +217,8 @@ def test_tests_that_a_page_names_exist(page):
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.name)
 def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
+    """Examples are read first: at most 25 lines, with the true number of walks in a comment. `rehearse`
+    checks each value without a walk."""
     text = path.read_text()
     assert len(text.splitlines()) <= 25
     study = read_study(path)
@@ -213,7 +227,8 @@ def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():
-    """Checks and claims by their words; largest errors and impacts of both walks under the push."""
+    """docs/results.md against reproduction.csv: the counts of checks and of claims by word, and, of both
+    walks under the push, impacts and largest errors [mrad], which the page rounds (2 %)."""
     with (ROOT / "docs" / "findings" / "reproduction.csv").open(
         encoding="utf-8", newline=""
     ) as file:
@@ -239,6 +254,8 @@ def test_results_are_counts_and_numbers_of_the_stored_rows():
 
 
 def test_the_package_claims_the_platforms_it_is_tested_on():
+    """Every system and Python version of pyproject.toml is in README's sentence "Tested on", and no page
+    speaks of macOS, on which nothing is tested."""
     tested = re.search(r"^Tested on .*?\.\s", (ROOT / "README.md").read_text(), re.MULTILINE)[0]
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     for claim in project["classifiers"]:
@@ -249,6 +266,8 @@ def test_the_package_claims_the_platforms_it_is_tested_on():
 
 
 def test_every_public_name_is_on_one_page_of_the_reference():
+    """Each page lists packages ("rooms") whose public names are inserted: none is on two pages, and every
+    package with a public name is on one."""
     text = "".join(page.read_text() for page in (ROOT / "docs" / "api").glob("*.md"))
     rooms = [room for line in re.findall(r"<!-- names of (.+?) -->", text) for room in line.split()]
     homes = {home.partition(".")[0] for home in ba._HOMES.values()}
@@ -257,6 +276,7 @@ def test_every_public_name_is_on_one_page_of_the_reference():
 
 
 def test_every_command_is_in_the_reference():
+    """The page has a marker for each command, where its help is inserted; a new command without one fails."""
     page = (ROOT / "docs" / "api" / "cli.md").read_text()
     for group, prefix in ((app, ""), (gait_app, "gait "), (robot_app, "robot ")):
         for command in group.registered_commands:

@@ -1,4 +1,9 @@
-"""What was not as it was asked for is said: a push that an impact cuts off, the curve of another gait."""
+"""What was not as it was asked for is said: a push that an impact cuts off, the curve of another gait.
+
+The sentences are the `remarks` of a walk. A push is timed from the start of its single support, which ends with
+an impact after 0.4164 s. `walked(*pushes)` is a walk of two impacts under NPD, `pulse(step, start, stop)` a
+push of 20 N m on the four actuated joints in that single support.
+"""
 
 from __future__ import annotations
 
@@ -35,6 +40,7 @@ def pulse(step, start, stop, amplitude=TORQUE):
     "push", [pulse(1, 0.1, 0.3), pulse(1, 0.1, math.inf), ba.TorqueSine(TORQUE, frequency=5.0)]
 )
 def test_a_push_that_acts_as_asked_for_is_passed_over(push, walked):
+    """A pulse that ends in its single support, one without an end, and a sine without times: no remark."""
     assert walked(push).remarks == ()
 
 
@@ -51,6 +57,8 @@ def test_a_push_that_is_cut_off_acts_as_one_without_an_end(walked, biped):
 
 
 def test_a_push_that_begins_after_the_impact_never_acts(walked):
+    """The walk is bit by bit that without a push, and the remark gives the impact's time; neither has the
+    walk a 19th single support."""
     late, none = walked(pulse(1, 0.5, 0.7)), walked()
     assert np.array_equal(late.trajectory.final_state, none.trajectory.final_state)
     assert late.remarks == (
@@ -65,6 +73,8 @@ def test_a_push_that_begins_after_the_impact_never_acts(walked):
 @pytest.mark.parametrize("off", [-0.9e-3, 0.0, 0.9e-3])
 @pytest.mark.parametrize("step", [None, 1])
 def test_an_edge_at_an_impact_is_named(off, step, walked):
+    """An edge less than 1 ms before or after the impact, where rounding decides whether it acts; 5 ms before
+    it is no case for a remark. step None: in every single support."""
     end = walked().trajectory.events("foot_strike")[0].t
     small = 1e-6 * np.array(TORQUE)  # moves no impact
     (remark,) = walked(pulse(step, 0.1, end + off, small)).remarks
@@ -103,6 +113,8 @@ def test_a_step_too_long_for_the_observer_is_named_where_it_spoils_the_errors(ob
 
 
 def test_a_fall_cuts_nothing_off_and_what_comes_after_it_did_not_act(walked):
+    """300 N m on the torso end the walk in its first single support: a push that is going on then needs no
+    remark, one of step 7 does."""
     fallen = walked(pulse(1, 0.05, 0.9, [0.0, 0.0, 0.0, 0.0, 300.0]), pulse(7, 0.1, 0.3))
     assert not fallen.trajectory.status.ok
     assert not fallen.trajectory.events("foot_strike")
@@ -111,6 +123,7 @@ def test_a_fall_cuts_nothing_off_and_what_comes_after_it_did_not_act(walked):
 
 
 def test_a_push_without_torque_did_not_act():
+    """A push whose torque was left out is 0 N m."""
     walk = ba.walk_scenario(ba.Scenario("NPD", pushes=[{"step": 1}], run={"impacts": 1}))
     assert any("did not act: it was zero" in remark for remark in walk.remarks)
 
@@ -141,6 +154,8 @@ class Exchanging(Keeping):
 
 
 def test_a_state_without_a_jump_is_named(biped, gait):
+    """`Keeping` has one state per joint and does not exchange the legs in it at an impact; `Exchanging`
+    differs by that method alone."""
     walks = [ba.walk(ba.Walker(biped, c(gait.constraint)), gait, 1) for c in (Keeping, Exchanging)]
     assert walks[0].remarks == (
         "Keeping has a state and no jump(s, after, swap) to exchange the legs in it at an impact",
@@ -149,6 +164,8 @@ def test_a_state_without_a_jump_is_named(biped, gait):
 
 
 def test_the_curve_of_another_gait_is_named(biped, gait):
+    """The robot starts on one gait and tracks the curve of another: the remark has the largest distance of
+    the two, here on 500 points."""
     other = ba.load_gait("v0.6", biped)
     (remark,) = ba.walk(ba.Walker(biped, ba.NPDController(other.constraint)), gait, 1).remarks
     at = np.linspace(gait.constraint.theta_plus, gait.constraint.theta_minus, 500)
@@ -172,6 +189,8 @@ def test_a_start_with_the_swing_foot_in_the_ground_is_named(engine, biped, gait)
 
 
 def test_a_gait_of_another_preset_and_a_push_after_the_walk_are_named(biped, gait):
+    """A preset is a set of the robot's masses. A push without `step` is timed in the whole walk, which ends
+    before 5 s; one that ends at 9 s acts from 0.1 s on and is no remark."""
     other = ba.Biped.load("rabbit", "tac2003")
     walk = ba.walk(ba.Walker(other, ba.NPDController(gait.constraint)), gait, 1)
     assert walk.remarks == ("gait 'published' was made for rabbit identified",)
@@ -182,6 +201,8 @@ def test_a_gait_of_another_preset_and_a_push_after_the_walk_are_named(biped, gai
 
 
 def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
+    """Each remark is a warning at the line of the caller; the walk's repr has the first one and their number,
+    or none."""
     late = pulse(5, 0.1, 0.3) + pulse(
         7, 0.1, 0.3
     )  # in single supports that a walk of one impact never reaches

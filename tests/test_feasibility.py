@@ -1,4 +1,10 @@
-"""What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short."""
+"""What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short.
+
+A single support is feasible if the ground pushes (mean F_N > 0), the friction |F_T| / F_N is at most 0.6, no
+torque is above 150 N m, and the swing foot stays above the ground (no "scuffing"); forces are means over 5 ms.
+These limits are `KNOWN`. `judged(walker, t, F_N, ...)` is the verdict on a single support of 0.4 s with these
+forces, `infeasible()` its broken limits by name. A node is a stored instant.
+"""
 
 from dataclasses import replace
 
@@ -67,6 +73,8 @@ def dip(length, depth=-100.0):
 
 
 def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):
+    """F_N of 300 N that dips to -100 N: over a window of 5 ms the mean is 300 - 400 * 2 / 5 = 140 N with a
+    dip of 2 ms, and -100 N with one of 6 ms."""
     for length, names in ((2e-3, []), (6e-3, ["normal_force"])):
         t, F_N = dip(length)
         s = judged(walker, t, F_N)
@@ -76,6 +84,8 @@ def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):
 
 
 def test_a_foot_that_is_lifted_needs_no_friction_and_is_infeasible(walker):
+    """Where the mean F_N is below zero there is no ratio |F_T| / F_N, only a lifted foot (friction infinite,
+    not counted). Where F_N changes from -5 to 100 N it passes near zero, and friction is broken too."""
     t = grid()
     s = judged(walker, t, np.full(len(t), -5.0), F_T=np.full(len(t), 50.0))
     assert s.mean_friction == np.inf
@@ -99,12 +109,15 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
     s = judged(walker, t, np.full(len(t), 100.0), F_T=chatter)
     assert s.mean_friction < 0.1
     assert not s.infeasible()
+    # 65 N that do not change their sign need 0.65
     s = judged(walker, t, np.full(len(t), 100.0), F_T=65.0 + 0.3 * chatter)
     assert list(s.infeasible()) == ["friction"]
 
 
 @pytest.mark.parametrize("slope", [-0.2, 0.2])
 def test_friction_is_along_the_ground(walker, slope):
+    """100 N across and 30 N along ground that slopes by 0.2 rad need a friction of 0.3; along x and z the
+    ratio would be another."""
     t = grid()
     tilted = replace(walker, slope=slope)
     F_N, F_T = 100.0, 30.0  # across and along
@@ -124,6 +137,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     s = judged(walker, t, F_N, height=middle)
     assert s.scuffing == pytest.approx(2e-3)
     assert list(s.infeasible()) == ["scuffing"]
+    # 2 mm deep is above a ground 5 mm lower; a step up does not lower what counts
     down = replace(walker, ground_steps=(ba.StepDown(1, 0.005),))
     assert judged(down, t, F_N, height=middle).scuffing == 0.0
     up = replace(walker, ground_steps=(StepUp(1, 0.005),))
@@ -144,6 +158,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     ],
 )
 def test_nan_in_a_number_is_infeasible_and_the_reason_names_the_number(walker, number, reason):
+    """A NaN is in no limit: written into one number of a feasible support it must not pass as kept."""
     t = grid()
     good = judged(walker, t, np.full(len(t), WEIGHT))
     assert good.infeasible() == {}
@@ -151,6 +166,7 @@ def test_nan_in_a_number_is_infeasible_and_the_reason_names_the_number(walker, n
 
 
 def test_torque_at_its_limit_is_feasible_and_above_is_not(walker):
+    """The limit is 150 N m for |u|, here at one node of one joint, with a negative sign."""
     t = grid()
     F_N, u = np.full(len(t), WEIGHT), np.zeros((len(t), 4))
     u[50, 2] = -150.0
@@ -160,6 +176,8 @@ def test_torque_at_its_limit_is_feasible_and_above_is_not(walker):
 
 
 def test_a_force_that_is_no_number_is_not_feasible(walker):
+    """One NaN in 4001 values of F_N, or most of F_T: a comparison with NaN is False and must not count as
+    within the limit."""
     t = grid()
     F_N = np.full(len(t), WEIGHT)
     F_N[7] = np.nan
@@ -176,6 +194,7 @@ def test_the_mean_over_a_window_is_that_of_the_force_in_it(walker):
     t = np.array([0.0, 0.1, 0.1, 0.25, 0.25, 0.6])
     n = handmade(walker, t, np.array([1.0, 1.0, 4.0, 4.0, -2.0, -2.0]) * 100.0)
     found = demands(walker, n, 0.2, 1)[0]
+    # infinite as long as no whole window has passed
     assert found == pytest.approx([*[np.inf] * 3, 65.0 / 0.2, 65.0 / 0.2, -200.0])
     whole = demands(walker, n, 5.0, 1)[0]
     assert whole == pytest.approx([*[np.inf] * 5, (10.0 + 60.0 - 70.0) / 0.6])
@@ -185,7 +204,8 @@ PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=1, start=0.1, stop=0.2
 
 
 def test_the_mean_force_is_the_change_of_momentum(biped, gait):
-    """m v_com from Pinocchio at the stored states, over windows in a pushed step."""
+    """int F dt of the ground's force over 50 nodes against the change of m v_com, which Pinocchio gives at the
+    stored states, less weight and the pull on the torso. A force left out or doubled breaks it."""
     pull = ba.TorquePulse([-60.0, 20.0, 0.0], step=1, start=0.13, stop=0.21)
     push = PUSH + ba.OnLink(biped, biped.description.trunk, pull)
     heavier = ba.ModelErrors(mass={"torso": 0.1}).apply(biped)
@@ -214,6 +234,9 @@ def test_the_mean_force_is_the_change_of_momentum(biped, gait):
 
 
 def test_a_walk_is_judged_by_all_its_steps_and_cut_at_the_first_violation(biped, gait):
+    """300 N m on the torso in single support 2 break limits there: `until_infeasible` keeps the same states
+    up to the node before the first violation, and a walk asked to stay `within` limits ends at the same
+    one."""
     push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 300.0], step=2, start=0.1, stop=0.2)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
     walk = ba.walk(walker, gait, impacts=3)
@@ -238,6 +261,8 @@ def test_a_walk_is_judged_by_all_its_steps_and_cut_at_the_first_violation(biped,
 
 
 def test_a_feasible_walk_is_left_as_it_is_and_limits_decide(biped, gait):
+    """The gait needs a friction of 0.45 and 108 N m, so limits of 0.3 and 60 N m break; with a window of 1 us
+    the mean friction is that of the instants."""
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
     assert walk.feasibility.outcome == "feasible"
     assert walk.feasibility.feasible_impacts == 2
@@ -256,7 +281,8 @@ def test_a_feasible_walk_is_left_as_it_is_and_limits_decide(biped, gait):
 
 
 def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
-    """xi~ from the plant's own equation: D q'' + Omega = B u + zeta + friction with the plant's D and Omega."""
+    """What the model does not know, `unknown`, comes from the plant's own equation D q'' + Omega = B u + zeta +
+    friction: its part in the joints' rows is matched (a motor could cancel it), that in the torso's is not."""
     rubbing = ba.Biped.load("rabbit", friction=True)
     heavier = ba.ModelErrors(mass={"torso": 0.2, "thigh": 0.15}).apply(rubbing)
     for plant, model in ((rubbing, None), (heavier, biped)):
@@ -307,7 +333,8 @@ def test_the_plant_is_judged_and_not_the_model(biped, gait):
 
 
 def test_steps_shorter_than_the_window_are_judged_as_a_whole(walker, biped, gait):
-    """By the change of momentum over a step of the gait, T F = m (v-) - m (v+) + T m g e_z."""
+    """The window is two steps long. The mean force F of a step is then its change of momentum: T F = p- - p+
+    + T m g e_z, with p = m v_com after one impact (+) and before the next (-)."""
     q, v = gait.start(biped)
     change = biped.momentum(gait.q_minus, gait.v_minus) - biped.momentum(q, v)
     F = change / gait.period + biped.weight * np.array([0.0, 1.0])
@@ -327,7 +354,7 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     deep = s.swing_foot[:, 1].copy()
     assert np.min(deep[s.t - s.t[0] > 0.013]) < 0.0  # it is below, and rises
     middle = np.abs(s.t - s.t[0] - 0.2) < 0.01
-    deep[middle] = -0.002
+    deep[middle] = -0.002  # below both footholds, that counts
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
     assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[2]) == pytest.approx(0.002)
 
@@ -369,6 +396,8 @@ def test_of_two_violations_the_earlier_one_is_reported(walker, first, second):
 
 
 def test_a_feasible_support_has_no_violation_and_nan_in_a_torque_is_one(walker):
+    """The made-up support keeps all limits (149 of 150 N m); a NaN at node 7 is the first violation, at its
+    time."""
     feasible = beginning(walker)
     assert first_in(walker, feasible) is None
     feasible.rows[7, 9] = np.nan  # u of the second joint at node 7
@@ -376,6 +405,8 @@ def test_a_feasible_support_has_no_violation_and_nan_in_a_torque_is_one(walker):
 
 
 def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
+    """The foot is 2 mm deep from 0.395 s of 0.4 s on: in the last 3 % of a step that is the touchdown, but
+    not of a step that has none."""
     late = beginning(walker, scuffs=0.395)
     assert first_in(walker, late) is None
     assert first_in(walker, late, finished=False).t == pytest.approx(0.395)
@@ -415,7 +446,8 @@ def compass_with_a_motor():
 
 @pytest.mark.parametrize("text", [two_legs(), compass_with_a_motor()], ids=["two", "between"])
 def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, text):
-    """Against Pinocchio's reading of the URDF, at the angles with which either leg is drawn."""
+    """Against Pinocchio's reading of the URDF: rates and angles of its joints come from the pose as drawn, in
+    single supports 1 and 2, at random states. A leg taken for the other has the wrong limit."""
     path = tmp_path / "own.urdf"
     path.write_text(text)
     biped = ba.biped_from_urdf(path)
@@ -457,6 +489,8 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
 
 
 def test_a_walk_beyond_a_rate_or_a_range_is_not_feasible_and_names_the_joint(slow_knee):
+    """`slow_knee`: a right knee for 2 rad/s and angles below -0.1 rad. It is the swing knee (coordinate 3) in
+    step 1 and the stance knee (2) in step 2; the walk is cut where the rate first is above 2 rad/s."""
     gait = ba.load_gait("v0.6", slow_knee)
     walker = ba.Walker(slow_knee, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
     walk = ba.walk(walker, gait, impacts=2)
@@ -487,6 +521,8 @@ def _scenario(biped):
 
 
 def test_single_supports_of_a_stepper_are_judged_by_the_same_limits(slow_knee):
+    """A stepper walks tick by tick; its verdicts on two single supports are those of the whole walk, on a
+    right knee for 2 rad/s."""
     within = ba.Limits()
     stepper = ba.Stepper(_scenario(slow_knee), within=within)
     stepper.reset()
@@ -499,6 +535,8 @@ def test_single_supports_of_a_stepper_are_judged_by_the_same_limits(slow_knee):
 
 
 def test_rabbit_states_neither_rate_nor_range_and_is_judged_by_torque_alone(walker, gait):
+    """Without limits in the URDF rate and range are never broken; with a limit of 20 N m the reason names the
+    joint of the largest torque."""
     for joint in walker.plant.motor_joints[1]:
         assert (joint.speed, joint.range) == (np.inf, (-np.inf, np.inf))
     found = ba.walk(walker, gait, impacts=1).feasible_within(ba.Limits(torque=20.0))
@@ -511,7 +549,8 @@ def test_rabbit_states_neither_rate_nor_range_and_is_judged_by_torque_alone(walk
 
 # -- times and windows -----------------------------------------------------------------------------
 def test_the_first_window_after_a_touchdown_counts_at_every_touchdown(biped, gait):
-    """At the tick 5 ms after it, which the clock reaches up to round-off, by the change of momentum."""
+    """The mean over the first 5 ms is that of the change of momentum at the tick 5 ms after the touchdown,
+    which the clock reaches up to round-off only; before, no window is whole and the mean is infinite."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
     s = ba.walk(walker, gait, impacts=6).signals
     found = demands(walker, Nodes.of(s), 5e-3, 6)[0]
@@ -544,6 +583,8 @@ def test_clearance_is_that_of_the_middle_of_the_step(biped, gait):
 def test_a_start_behind_its_touchdown_is_refused_and_one_at_it_walks(
     walker, biped, gait, first_step
 ):
+    """A start after 97 % of a step, the pose turned until the front foot is 1 um to 1 cm in the ground, is
+    refused; 1 mm above, at the touchdown, and just after it (the rear foot in the ground) a walk begins."""
     s = ba.walk(walker, gait, impacts=1).signals
     k = int(0.97 * len(s.t))
     q, v, foot = s.q[k], s.v[k], ("right_foot", "left_foot")[first_step - 1]

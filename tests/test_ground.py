@@ -1,4 +1,8 @@
-"""A force on the hip and a step down: power, energy, and the way back to the cycle."""
+"""A force on the hip and a step down: power, energy, and the way back to the cycle.
+
+`bare` is RABBIT without rotor inertias and `published` its gait. `down` is a walk of 10 impacts over a step
+down of 15 mm at the end of its second single support.
+"""
 
 from __future__ import annotations
 
@@ -35,6 +39,7 @@ def energy(biped, x):
 
 
 def test_the_force_acts_in_its_steps_only(bare):
+    """5 N backwards in single supports 2 and 3: it makes torques in these and none before or after."""
     force, q = HipForce(bare, (-5.0, 0.0), steps=(2, 3)), np.full(5, 0.3)
     acts = [bool(np.any(force.zeta(0.0, step, 0.0, q, q))) for step in (1, 2, 3, 4)]
     assert acts == [False, True, True, False]
@@ -45,6 +50,9 @@ def test_the_force_acts_in_its_steps_only(bare):
 
 @pytest.mark.filterwarnings("ignore:the start has the swing foot 6.25 mm below the ground")
 def test_a_walker_without_a_slope_walks_on_that_of_the_gait(bare, published, tmp_path):
+    """A slope of 0.02 rad, so that feet come down at z = -tan(0.02) x; no remark says that slopes differ, and
+    the stored walk knows its own. The pose is that of level ground: its rear foot is 0.02 * 0.3124 m in
+    the ground."""
     gait, law = replace(published, slope=0.02), ba.NPDController(published.constraint)
     walk = ba.walk(ba.Walker(bare, law), gait, 2, METHOD)
     feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
@@ -55,6 +63,8 @@ def test_a_walker_without_a_slope_walks_on_that_of_the_gait(bare, published, tmp
 
 
 def test_another_slope_than_that_of_the_gait_is_remarked(bare, published):
+    """A walker that is asked for level ground walks on it (z = 0), and the gait's own 0.02 rad are named in a
+    warning."""
     gait, law = replace(published, slope=0.02), ba.NPDController(published.constraint)
     with pytest.warns(ba.WalkWarning, match="a slope of 0.02 rad, and the ground has 0 rad"):
         walk = ba.walk(ba.Walker(bare, law, slope=0.0), gait, 1, METHOD)
@@ -77,6 +87,8 @@ def test_the_height_lost_appears_as_work_the_joints_need_not_do(bare, down):
 
 
 def test_the_walk_returns_to_its_cycle_at_the_rate_of_the_zero_dynamics(bare, published, down):
+    """The step over the edge is longer; what is left of the difference in duration falls from step to step by
+    delta^2, the multiplier that a quadrature of the zero dynamics gives."""
     T = np.array([arc.t[-1] - arc.t[0] for arc in down.trajectory.arcs])
     assert T[1] > 1.05 * published.period
     left = T[3:] - published.period
@@ -107,6 +119,8 @@ def test_past_its_end_a_constraint_goes_on_smoothly(published):
 # -- what ends a step --------------------------------------------------------------------------------
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_a_walk_is_a_fall_at_the_height_that_was_asked_for(bare, published, engine):
+    """fall_height is a share of the hip's height over a straight leg. The gait's hip sinks below 0.93 of it
+    in every step: the walk ends just there, to the accuracy of event location."""
     leg = float(np.linalg.norm(bare.hip(np.zeros(5))))
     walker = ba.Walker(bare, ba.NPDController(published.constraint), fall_height=0.93)
     assert walker.lowest_hip == pytest.approx(0.93 * leg, rel=1e-12)
@@ -131,6 +145,8 @@ def test_a_foot_strikes_when_it_is_a_millimetre_ahead(bare, published, ahead, hi
 
 
 def test_the_potential_energy_has_the_height_of_the_foothold(bare, down):
+    """Poses are relative to the stance foot, so m g times its height is added; then potential energy is
+    continuous over each impact, also down the step of 15 mm."""
     s = down.signals
     assert s.foothold_height[-1] == pytest.approx(-HEIGHT, abs=1e-9)
     for k in (0, len(s.t) // 2, len(s.t) - 1):

@@ -1,4 +1,7 @@
-"""Version, citation and changelog say the same as the package; the page on architecture has every room."""
+"""Version, citation and changelog say the same as the package; the page on architecture has every room.
+
+A room is a folder of biped_adrc with modules, or validation/.
+"""
 
 from __future__ import annotations
 
@@ -33,6 +36,7 @@ def commands():
 
 @pytest.mark.parametrize("words", commands(), ids=" ".join)
 def test_every_command_has_a_short_help(words):
+    """-h is --help, of every command and group."""
     done = CliRunner().invoke(app, [*words, "-h"])
     assert done.exit_code == 0
     assert done.output.startswith("Usage: ")
@@ -40,6 +44,7 @@ def test_every_command_has_a_short_help(words):
 
 
 def test_the_version_is_said_by_the_module():
+    """`python -m biped_adrc --version`, as its whole output."""
     done = subprocess.run(
         [sys.executable, "-m", "biped_adrc", "--version"],
         capture_output=True,
@@ -51,6 +56,7 @@ def test_the_version_is_said_by_the_module():
 
 
 def test_releases_are_dated_and_the_newest_is_this_one():
+    """Headings of CHANGELOG.md: "Unreleased" may be first; then come version and date, the newest first."""
     text = (ROOT / "CHANGELOG.md").read_text()
     headings = re.findall(r"^## (.*)$", text, re.M)
     headings = headings[headings[0] == "Unreleased" :]
@@ -93,6 +99,8 @@ def rooms():
 
 
 def test_every_room_is_in_the_contract_and_in_the_list_of_the_page(monkeypatch):
+    """`layers` are those of the contract on imports in pyproject.toml, `WORDS` the list of
+    docs/architecture.md: both have each room, and none that is gone."""
     monkeypatch.syspath_prepend(str(ROOT / "docs"))
     drawn = importlib.import_module("draw_architecture")
     layered = {name for row in drawn.layers() for name in row}

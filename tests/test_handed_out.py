@@ -1,4 +1,9 @@
-"""What a user's code is handed cannot be written to, and what it gives back is checked, in both engines."""
+"""What a user's code is handed cannot be written to, and what it gives back is checked, in both engines.
+
+`said(walker, gait)` is the sentence with which a walk is refused at its start or ends later. The controller
+`NPD` calls `meddle(s, m)` before each torque, with its state s and the measurement m; `still` does nothing.
+The engines are Python on Pinocchio and compiled code, and both have to say the same.
+"""
 
 from __future__ import annotations
 
@@ -90,6 +95,8 @@ def wound_up(s, m):
 )
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_controller_that_writes_into_what_it_is_given(engine, timing, does, after, biped, gait):
+    """`does` writes into the rates, the inertia or the state that it was handed, from `after` [s] on:
+    written, it would change the plant. The sentence names the function and its file."""
     controller = NPD(gait.constraint, Late(does, after))
     walker = ba.Walker(biped, controller, timing=TIMINGS[timing])
     sentence = said(walker, gait, engine=engine)
@@ -162,6 +169,8 @@ class EndsAtTenMs(ba.Controller):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_method_without_numbers_is_named_in_compiled_code_too(engine, biped, gait):
+    """The root of 0.0105 - t is NaN from the tick at 11 ms on, not yet at the start, where methods are tried:
+    the run ends there and names the method."""
     walker = ba.Walker(biped, EndsAtTenMs(), timing=TIMINGS["ticks"])
     run = ba.walk(walker, gait, 1, engine=engine).trajectory
     assert run.settings["engine"] == engine
@@ -194,6 +203,8 @@ def still(s, m):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_jump_and_a_disturbance_that_write_into_their_arguments_are_named(engine, biped, gait):
+    """`Relabels` writes into the relabelling at an impact, `Pushes` into the plant's rates; the sentence has
+    their source line."""
     sampled = TIMINGS["ticks"]
     relabels = ba.Walker(biped, Relabels(gait.constraint, still), timing=sampled)
     assert re.search(r"swap\[::-1\].*" + WRITES, said(relabels, gait, engine=engine))
@@ -202,6 +213,8 @@ def test_a_jump_and_a_disturbance_that_write_into_their_arguments_are_named(engi
 
 
 def test_what_is_stored_cannot_be_written_to(biped, gait):
+    """Arrays of walks, gaits, robots and results are shared, so all are read-only; `final_state` is a copy,
+    which may be written to."""
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
     arc = walk.trajectory.arcs[0]
     c = gait.constraint
@@ -220,6 +233,7 @@ def test_what_is_stored_cannot_be_written_to(biped, gait):
 
 
 def test_an_array_that_is_handed_in_stays_its_owners(biped, gait):
+    """The arrays are read-only inside of the calls; afterwards their owner can write to them as before."""
     q, v = (np.array(x) for x in gait.start(biped))
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     x = walker.initial_state(q, v)
@@ -259,6 +273,8 @@ MISTAKES = {
 @pytest.mark.parametrize("cls", MISTAKES)
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_mistake_in_a_controller_is_one_sentence_at_the_start(engine, cls, biped, gait):
+    """A misspelt name, a misspelt method, three torques for four joints, NaN: one line with class, method and
+    line of the source, before anything walks."""
     with pytest.raises(InputError, match=rf"^{MISTAKES[cls]}[^\n]*$"):
         ba.walk(ba.Walker(biped, cls()), gait, 1, engine=engine)
 
@@ -288,6 +304,8 @@ class Gives(NPD):
 )
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_torque_of_a_wrong_kind_is_refused_by_class_and_method(engine, timing, case, biped, gait):
+    """From 10 ms on, after the methods were tried at the start, the torque is complex, None or of five
+    numbers."""
     bad, expected = BAD[case]
     walker = ba.Walker(biped, Gives(gait.constraint, still, bad, 0.01), timing=TIMINGS[timing])
     sentence = said(walker, gait, engine=engine)
@@ -355,6 +373,8 @@ SPOILT = [
 def test_a_method_that_gives_something_else_is_refused_by_its_name(
     engine, what, method, bad, biped, gait
 ):
+    """`what`: the part whose `method` gives `bad` instead: nothing, another shape, complex numbers. `mode`:
+    the integration method with which the engine calls it; sensors, correct and predict belong to ticks."""
     npd = NPD(gait.constraint, still)
     if what == "observer":
         parts = {"controller": ba.ADRCController(gait.constraint, spoilt(Watching(), method, bad))}

@@ -1,4 +1,9 @@
-"""Names from the files of a robot stay names in C, XML, HTML, MJCF, URDF, TOML and CSV."""
+"""Names from the files of a robot stay names in C, XML, HTML, MJCF, URDF, TOML and CSV.
+
+A robot may come from a stranger. `HOSTILE` has names that try to end a comment or a string and to plant
+something, which is always called "planted"; `hostile` is RABBIT with such a name for robot, source and joint.
+A name that is not escaped shows as something planted.
+"""
 
 from __future__ import annotations
 
@@ -97,6 +102,8 @@ def test_in_c_they_are_comments(exported):
 
 @pytest.mark.parametrize("name", ["*\\", "*??/", *HOSTILE.values()])
 def test_the_line_after_a_name_in_c_is_not_joined_to_it(name, tmp_path):
+    """A backslash at the end of a comment (??/ is its trigraph) would join the next line to it: here that
+    would end the comment before "planted"."""
     assert "planted" not in preprocessed(f"/* {c_comment(name)}\n/ planted */", tmp_path)
 
 
@@ -109,6 +116,8 @@ def preprocessed(text, folder):
 
 
 def test_in_the_description_of_an_fmu_they_are_text(exported, hostile):
+    """No element "planted" in its XML or HTML, and the joint's name is read back from the description of a
+    port."""
     root = ET.parse(exported / "fmu" / "modelDescription.xml").getroot()
     assert "planted" not in {element.tag for element in root.iter()}
     ports = root.findall("ModelVariables/ScalarVariable")
@@ -117,6 +126,7 @@ def test_in_the_description_of_an_fmu_they_are_text(exported, hostile):
 
 
 def test_in_mjcf_and_urdf_they_are_attributes(hostile):
+    """Both are read back: no element is planted, and the joint has its name."""
     root = ET.fromstring(mjcf(MuJoCoPlant(hostile.biped)))
     assert "planted" not in {element.tag for element in root.iter()}
     assert hostile.joint in {joint.get("name") for joint in root.iter("joint")}
@@ -126,6 +136,8 @@ def test_in_mjcf_and_urdf_they_are_attributes(hostile):
 
 
 def test_in_pages_they_are_text(hostile):
+    """In the settings, which are a script, in the title and in the legend: an HTML parser finds no planted
+    element or script."""
     settings = {"live": False, "fps": 20.0, "names": [hostile.name, hostile.joint]}
     assert not planted(
         with_viewer(
@@ -163,6 +175,7 @@ def planted(page):
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_in_toml_and_csv_they_are_read_back(name, tmp_path):
+    """As key, value and cell, by Python's own readers."""
     text = HOSTILE[name]
     assert tomllib.loads(f"{toml_key(text)} = {toml_value([text, {text: text}])}") == {
         text: [text, {text: text}]

@@ -1,4 +1,9 @@
-"""Mistakes that users make: each is one sentence that names it, with the exit code of its kind."""
+"""Mistakes that users make: each is one sentence that names it, with the exit code of its kind.
+
+`PYTHON` has calls by mistake, each with words of its sentence; `COMMANDS` has command lines. Exit codes: 2
+for an unknown option, 3 for a wrong value, 4 for a simulation that fails, 5 for a file that cannot be
+written.
+"""
 
 from __future__ import annotations
 
@@ -218,6 +223,8 @@ def right(biped, gait):
 
 @pytest.mark.parametrize("mistake", PYTHON)
 def test_a_mistake_in_python_is_one_sentence(mistake, right):
+    """`do` makes the mistake on a robot and gait that are right otherwise: an error of the package, on one
+    line, that has the words."""
     do, word = PYTHON[mistake]
     with pytest.raises(ba.BipedError) as caught:
         do(right)
@@ -227,6 +234,7 @@ def test_a_mistake_in_python_is_one_sentence(mistake, right):
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_run_that_runs_away_names_its_step(engine, right):
+    """RK4 with a step of 1 s is unstable here: the detail says which method and step it was."""
     walker = ba.Walker(right.biped, ba.NPDController(right.h))
     run = ba.walk(walker, right.gait, 1, method=ba.RK4(1.0), engine=engine).trajectory
     assert run.status is ba.Status.RAN_AWAY
@@ -248,6 +256,8 @@ def here(tmp_path, monkeypatch, gait):
 
 @pytest.mark.parametrize(("line", "code", "words"), COMMANDS, ids=[x[0][:40] for x in COMMANDS])
 def test_a_mistake_on_the_command_line_is_one_sentence_with_its_exit_code(here, line, code, words):
+    """`here` is a folder with files and pipes that a command must not wait for. Nothing is written and the
+    file "afile" is kept."""
     before = sorted(os.listdir())
     done = CliRunner().invoke(app, shlex.split(line.replace("URDF", str(URDF))))
     error = done.exception
@@ -261,6 +271,8 @@ def test_a_mistake_on_the_command_line_is_one_sentence_with_its_exit_code(here, 
 
 @pytest.mark.parametrize("text", TABLES)
 def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
+    """No number, NaN, and a row that is too short, with empty lines counted: line 4 is that of an editor. The
+    same table as recorded torques and as samples of a gait."""
     file = tmp_path / "table.csv"
     file.write_text(text)
     for read in (lambda: RecordedTorque.read(file, biped), lambda: read_csv(file)):
@@ -270,6 +282,8 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
 
 
 def test_a_file_of_a_thousand_brackets_is_refused(tmp_path):
+    """10000 nested lists end TOML's reader by Python's limit of recursion, which must not reach the user as a
+    traceback."""
     file = tmp_path / "deep.toml"
     file.write_text(f"x = {10_000 * '['}")
     with pytest.raises(ba.BipedError, match=r"deep\.toml' is nested too deeply"):
@@ -277,6 +291,7 @@ def test_a_file_of_a_thousand_brackets_is_refused(tmp_path):
 
 
 def test_a_public_name_that_is_not_there_has_a_nearest_one():
+    """ba.PDController does not exist."""
     with pytest.raises(AttributeError, match="did you mean 'NPDController'"):
         _ = ba.PDController
 
@@ -289,6 +304,8 @@ def test_a_public_name_that_is_not_there_has_a_nearest_one():
     ],
 )
 def test_another_pinocchio_in_front_is_named_with_its_path(tmp_path, text, word):
+    """PyPI has another package "pinocchio" (0.4.3), and a broken installation fails to load: a stand-in in
+    front on the path has to be named, in one line."""
     other = tmp_path / "pinocchio" / "__init__.py"
     other.parent.mkdir()
     other.write_text(text)

@@ -1,4 +1,9 @@
-"""Numerics guard themselves: a run that explodes ends in a status, and no NaN or infinity is stored."""
+"""Numerics guard themselves: a run that explodes ends in a status, and no NaN or infinity is stored.
+
+RAN_AWAY is the end of a run whose joint is faster than `runaway_speed` (20) times 50 rad/s, or whose torque
+is above `runaway_torque` times the robot's peak torque (150 N m for RABBIT). The engines are compiled code
+and Python on Pinocchio, and both have to end alike.
+"""
 
 import math
 from dataclasses import dataclass, replace
@@ -31,6 +36,8 @@ def all_finite(run):
     ("controller", "push"), [("ADRC", "q5=90@1:0.1-"), ("NPD", "q1,q2,q3,q4,q5=120@1:0.1-")]
 )
 def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
+    """A push that throws the robot out of its gait: all numbers stay finite and below the bound of 20 * 50
+    rad/s, and the stored walk knows its end."""
     s = ba.Scenario(controller, pushes=push, run={"impacts": 1, "engine": engine})
     made = ba.walk_scenario(s)
     run = made.trajectory
@@ -52,7 +59,9 @@ def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
     ("timing", "plain"), [(ba.ContinuousTime(), False), (ba.SampledTime(1e-3), True)]
 )
 def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
-    """At 0.7 of a walk's peak torque or rate they end it alike in both engines; at 1.01 they do not."""
+    """At 0.7 of a walk's peak torque or rate they end it, before the step's end at 0.4 s and alike in both
+    engines; at 1.01 of the peaks, which the walk does not reach, it is completed. plain: by a law that
+    cannot be compiled."""
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, Undecorated(law) if plain else law, timing=timing)
     peak = np.max(np.abs(ba.walk(walker, gait, impacts=1).signals.u)) / 150.0
@@ -72,6 +81,7 @@ def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
 
 
 def test_what_a_joint_states_does_not_move_the_bound_at_which_a_walk_has_run_away(biped, slow_knee):
+    """`slow_knee` states 2 rad/s for one knee: that makes a walk infeasible, and is no explosion."""
     for robot in (biped, slow_knee):
         assert np.array_equal(
             ba.Walker(robot, ba.Passive()).bounds.fastest, np.full(5, 20.0 * 50.0)
@@ -80,6 +90,7 @@ def test_what_a_joint_states_does_not_move_the_bound_at_which_a_walk_has_run_awa
 
 @pytest.mark.parametrize("method", [ba.Exponential(1e-3), Adaptive()])
 def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, method):
+    """The bound is 0.1 * 150 = 15 N m, less than the gait needs at once."""
     law = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
     walker = ba.Walker(biped, law, runaway_torque=0.1)
     for engine in ENGINES:
@@ -89,6 +100,8 @@ def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, metho
 
 
 def test_robots_without_motors_run_away_by_their_speed_alone():
+    """No motor, so the bound on torque is infinite; 0.02 * 50 = 1 rad/s is less than the compass's legs
+    swing."""
     assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).bounds.strongest == math.inf
     for engine in ENGINES:
         s = ba.Scenario(
@@ -100,7 +113,8 @@ def test_robots_without_motors_run_away_by_their_speed_alone():
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)])
 def test_a_joint_that_turns_all_the_way_round_ends_the_walk(biped, gait, engine, timing):
-    """The swing leg whirls about the hip, over a hole in which it meets no ground."""
+    """The swing leg starts 100 rad/s faster and whirls about the hip, over a hole of 3 m in which it meets no
+    ground; motors of 1 N m do not hold it. The walk ends just before q2 = 2 pi, a whole turn."""
     hole = (ba.StepDown(1, 3.0),)
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=timing, torque_limit=1.0, ground_steps=hole)
@@ -139,6 +153,8 @@ class Falling(HybridSystem):
     ],
 )
 def test_what_is_not_finite_ends_a_run_and_is_not_kept(system, method):
+    """x' = -1 from 0.32: its slope is NaN from 0.25 s on, or the reset at x = 0 gives NaN. Neither is stored,
+    as node or as event, and the run says why it ended."""
     run = simulate(system, np.array([0.32]), 0, method, t_end=2.0)
     assert run.status in (ba.Status.NOT_FINITE, ba.Status.STEP_FAILED)
     assert all_finite(run)
@@ -151,12 +167,14 @@ def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait)
     there."""
     observer = ba.GPIObserver.from_bandwidth(300.0)
     walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
+    # the fastest pole [1/s] of the Pade approximant of a delay of 0.2 ms
     line = np.abs(np.roots(walker.controller.pade[1][::-1])).max() / 2e-4
     assert rate_of_law(walker) == pytest.approx(line, rel=1e-3)
     assert default_method(walker).h == pytest.approx(1.0 / line, rel=1e-3)
     assert not ba.walk(walker, gait, impacts=1, method=RK4(1e-3)).trajectory.status.ok
     assert ba.walk(walker, gait, impacts=1).trajectory.status.ok
     assert default_method(ba.Walker(biped, ba.NPDController(gait.constraint))) == RK4(1e-3)
+    # a delay of 4 ms has poles slow enough for 1 ms
     slow = Delayed(ba.ADRCController(gait.constraint, observer), 4e-3)
     assert default_method(replace(walker, controller=slow)) == RK4(1e-3)
 
@@ -164,7 +182,9 @@ def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait)
 @pytest.mark.filterwarnings("ignore:the start has the swing foot 20 mm below the ground")
 @pytest.mark.parametrize("observer", [None, ba.GPIObserver.from_bandwidth(300.0)])
 def test_static_friction_on_little_inertia_gets_a_shorter_step(bare, published, observer):
-    """Its smoothed sign turns within 0.05 rad/s, which the usual steps follow ten times worse."""
+    """The smoothed sign of dry friction turns within 0.05 rad/s, which is stiff without rotor inertias: with
+    the default step the end of a walking step is within 5e-7 of that with 20 us, with the usual one it is
+    not."""
     constraint = published.constraint
     controller = (
         ba.ADRCController(constraint, observer) if observer else ba.NPDController(constraint)
@@ -194,7 +214,8 @@ class Switching(ba.NPDController):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_steps_that_a_switching_torque_makes_tiny_end_a_run(biped, gait, engine):
-    """Without a limit their number is, up to the end of the step, several millions."""
+    """Dry friction without a layer chatters: without a limit a method with step control makes several millions
+    of steps. CROWDED (1000) of them that are shorter than 1 us on average end the run."""
     q, v = gait.start(biped)
     walker = ba.Walker(biped, Switching(gait.constraint))
     run = ba.walk(
@@ -216,6 +237,7 @@ class TimesZero(ba.Controller):
 
 
 def test_a_gain_that_is_nan_is_nan_in_both_engines(biped, gait):
+    """0 * NaN is NaN; symbolic code could simplify 0 * K_p to 0 and walk on with a gain that is no number."""
     walker = ba.Walker(biped, TimesZero(math.nan))
     x = np.concatenate(gait.start(biped))
     for engine in ENGINES:
@@ -239,13 +261,15 @@ COUNTED = {
 
 
 def test_a_walk_that_rounding_decides_says_so():
-    """Neighbours 1e-12 apart end 1e9 times farther apart; smooth walks are in the tests below."""
+    """`rounding` is the distance at the end of two walks that start 1e-12 apart. In `COUNTED`, found by a
+    search, an encoder count flips with the last digit, and they end more than 1e-3 apart."""
     assert ba.walk_scenario(ba.Scenario(**COUNTED)).rounding() > 1e-3
 
 
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
 def test_neighbours_of_a_smooth_walk_stay_together_at_any_step(controller, biped, gait):
-    """Also where the step is so long that half of it makes another walk."""
+    """Walks that start 1e-12 apart end less than 1e-10 apart, also with an integration step of 20 ms, which
+    is so long that half of it makes another walk: `rounding` is not the error of the method."""
     walk, half = (
         ba.walk_scenario(ba.Scenario(controller, run={"impacts": 3, "h": h})) for h in (0.02, 0.01)
     )
@@ -254,7 +278,8 @@ def test_neighbours_of_a_smooth_walk_stay_together_at_any_step(controller, biped
 
 
 def test_the_distance_of_neighbours_is_that_of_the_linear_map(bare, published):
-    """Over three impacts the derivative of the walk, by differences a million times as large."""
+    """`rounding` starts a walk 1e-12 off, in the direction cos(k) of coordinate k. 1e-6 off in the same
+    direction a million times as much has to be left after three impacts, in times and angles."""
     walker = ba.Walker(bare, ba.NPDController(published.constraint))
     walk = ba.walk(walker, published, 3)
     q, v = published.start(bare)
@@ -265,6 +290,8 @@ def test_the_distance_of_neighbours_is_that_of_the_linear_map(bare, published):
 
 
 def test_what_cannot_be_repeated_is_refused(bare, published, tmp_path):
+    """A walk from a file does not know the integration steps with which it was made, so its neighbour cannot
+    be walked."""
     walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, 1)
     stored = ba.load_walk(walk.save(tmp_path / "walk.npz"))
     with pytest.raises(ba.BipedError, match="has no steps; ask a new one"):

@@ -1,7 +1,8 @@
 """Options of commands against the argument that they become: in process, nothing is computed.
 
-A row of `OPTIONS` has the words on the command line, the function that has to get them, where in its arguments
-they have to be, and the value. The same place has to hold another value without the words.
+A row of `COMMANDS` has the words on the command line, the function that has to get them, where in its
+arguments they have to be, and the value. The same place has to hold another value without the words.
+`received(words, place)` are the arguments with which the command line calls that function.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""What a command writes: the name that was given, or a refusal; never a file that it reads."""
+"""What a command writes: the name that was given, or a refusal; never a file that it reads.
+
+`folder` is the current folder, with a gait, a link to it, a run, and a robot of one's own. `command` runs a
+command in this process; `WALK` is a walk of one step.
+"""
 
 from __future__ import annotations
 
@@ -58,6 +62,8 @@ def contents(folder: Path) -> dict[Path, bytes]:
     ],
 )
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
+    """Each line would write over its own input, also by a link or by its plot. It is refused before a walk is
+    made, and every file has the bytes it had."""
     shutil.copy("keep.json", "published-identified.json")
     before = contents(folder)
     walk = "biped_adrc.scenario.walk.in_parts"
@@ -74,6 +80,8 @@ def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
     [("push_0.1", "push_0.1.npz"), ("a.b/push 2", "a.b/push 2.npz"), ("push.mat", "push.mat")],
 )
 def test_a_run_goes_where_it_is_said_to_be(out, written, folder):
+    """A name without one of the known suffixes gets .npz, as ".1" is no suffix; one file is new and none
+    beside it."""
     assert f"written to {written}\n" in command(*WALK, "-o", out)
     new = {str(path.relative_to(folder)) for path in contents(folder)}
     old = {"keep.json", "link.json", "run.npz", "run.html"}
@@ -93,6 +101,8 @@ def test_a_reader_of_the_old_file_is_not_disturbed(tmp_path):
 
 
 def test_a_link_a_pipe_and_a_device_stay_what_they_are(folder):
+    """A file is replaced by renaming another one onto it, which would turn a link, a pipe or /dev/full into a
+    plain file."""
     os.mkfifo("pipe.npz")
     Path("dangling.npz").symlink_to("nowhere.npz")
     Path("full.npz").symlink_to("/dev/full")
@@ -113,7 +123,8 @@ def test_a_link_a_pipe_and_a_device_stay_what_they_are(folder):
 
 @pytest.mark.parametrize("broken", ["full", "closed"])
 def test_a_result_is_there_though_nothing_can_be_printed(broken, folder, monkeypatch, capfd):
-    """`> /dev/full`, and `| head -0`."""
+    """`> /dev/full`, where printing fails (exit code 5), and `| head -0`, where nobody reads (0): the walk is
+    stored before its result is printed."""
     if broken == "full":
         output = open("/dev/full", "w")  # noqa: SIM115
     else:
@@ -136,7 +147,8 @@ def test_a_result_is_there_though_nothing_can_be_printed(broken, folder, monkeyp
 
 
 def test_text_of_files_is_no_command_to_the_terminal(monkeypatch):
-    """Neither rich's markup and emoji nor escape sequences, in lines, tables and titles."""
+    """A file may hold text such as "[red]", ":bomb:" or an escape sequence. In a line, and as title, head and
+    cell of a table (4 times), it is printed as it stands, with control characters written as \\x1b."""
     text = "a[/b] [red]c :bomb: \x1b]0;title\x07 \x9b31m \u202ed \udcff"
     monkeypatch.setattr("sys.stdout", out := io.StringIO())
     terminal = Terminal()

@@ -1,4 +1,8 @@
-"""Whatever is drawn: walks end with a status and finite numbers, damaged files are read or refused."""
+"""Whatever is drawn: walks end with a status and finite numbers, damaged files are read or refused.
+
+Hypothesis draws scenarios and damages, always the same ones (`FIXED`); only errors of the package may be
+raised.
+"""
 
 from __future__ import annotations
 
@@ -54,12 +58,15 @@ def ends_with_finite_numbers(values, engine):
 @settings(FIXED, max_examples=40)
 @given(SCENARIOS)
 def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
+    """Gains, push, start and slope far outside of what walks: refused by a BipedError, or an outcome and
+    numbers that are stored finite."""
     ends_with_finite_numbers(values, "compiled")
 
 
 @settings(FIXED, max_examples=5)
 @given(SCENARIOS)
 def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
+    """As on the compiled engine, with fewer draws, since Python on Pinocchio is slow."""
     ends_with_finite_numbers(values, "pinocchio")
 
 
@@ -93,6 +100,8 @@ def files(tmp_path_factory, biped, gait):
     added=st.binary(max_size=40),
 )
 def test_damaged_bytes_are_read_or_refused(files, kind, at, cut, added):
+    """`cut` bytes from the share `at` of a file on are replaced by others: it is read, or a BipedError says
+    why not. Any other exception fails the test."""
     whole, path, read = files[kind]
     first = int(at * len(whole))
     path.write_bytes(whole[:first] + added + whole[first + cut :])

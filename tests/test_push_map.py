@@ -1,4 +1,8 @@
-"""The map of pushes: what a walk under a push is called, on made-up walks and on one that is known."""
+"""The map of pushes: what a walk under a push is called, on made-up walks and on one that is known.
+
+A cell is one push, with the outcomes of its walks under NPD and ADRC; `cell("fell", "feasible")` is made up.
+It is marginal ("doubtful", not "certain") if a walk ends otherwise at half of the integration step.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,9 @@ from .made_up_results import cell
 
 
 def test_marginal_cells_carry_no_claim():
+    """Three certain cells, and one whose walk under ADRC is marginal. Columns count feasible, feasible but
+    for the impact, infeasible, pulled, fell, ended, marginal: it stands in the last one, under NPD in the
+    first."""
     words = [("infeasible", "feasible"), ("feasible", "feasible"), ("pulled", "fell")]
     sure = [cell(*pair) for pair in words]
     cells = [*sure, cell("feasible", "feasible", doubtful=True)]
@@ -26,6 +33,8 @@ def test_marginal_cells_carry_no_claim():
 
 
 def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
+    """One push per onset: 1 for a walk that is feasible, perhaps but for the impact, 0.5 for an infeasible
+    one, 0 for one that is lost, and no text where the walk (the third one under ADRC) is marginal."""
     words = [("but_impact", "feasible"), ("fell", "infeasible"), ("ended", "feasible")]
     cells = [cell(*pair, k == 2, 0.1 * k) for k, pair in enumerate(words)]
     npd, adrc, *_ = push_map_figure([c.row() for c in cells]).axes
@@ -35,7 +44,8 @@ def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
 
 
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
-    """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
+    """A late push of 150 N m throws NPD past the phase range, where the gait's polynomial explodes and the
+    walk ends. The map takes the smoothly continued curve: all steps are made, and infeasible."""
     push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
     assert not walk_scenario(push.run("NPD").replace(gait={"continued": False})).outcome.walked
     (found,) = push_map([push])
@@ -44,6 +54,8 @@ def test_a_fall_of_the_polynomial_is_none_of_the_robot():
 
 
 def test_a_continued_constraint_is_the_same_inside(biped, gait):
+    """Past the ends of its phase Theta a curve is continued smoothly; between them h, h' and h'' are those of
+    the gait."""
     inside = continued(gait.constraint)
     for theta in np.linspace(gait.constraint.theta_minus, gait.constraint.theta_plus, 7):
         for one, other in zip(inside.h(theta), gait.constraint.h(theta), strict=True):

@@ -1,4 +1,8 @@
-"""What a user prints fits a line."""
+"""What a user prints fits a line.
+
+Parts (robots, controllers, walkers) and results show by repr what they are: one line of at most 120
+characters, with values of their fields unless they are the defaults.
+"""
 
 from __future__ import annotations
 
@@ -44,6 +48,7 @@ def test_parts_and_walks_fit_a_line(biped, gait):
 
 
 def test_what_a_robot_computes_is_one_line(biped):
+    """Arrays up to 6 numbers are shown, longer ones by their shape."""
     text = "Impact(q=[0 0 0 0 0], v=[0 0 0 0 0], impulse=[0 0], v_e=array(7,))"
     assert repr(biped.impact(np.zeros(5), np.zeros(5))) == text
     assert repr(biped.reduction(np.zeros(5), np.zeros(5))).startswith(
@@ -52,6 +57,9 @@ def test_what_a_robot_computes_is_one_line(biped):
 
 
 def test_a_class_of_ones_own_fits_too(gait):
+    """A dataclass of the user's gets the same repr by its base class: defaults are left out, and a table of
+    1000 numbers does not make it longer than LONGEST."""
+
     @dataclasses.dataclass(frozen=True)
     class Own(ba.Controller):
         reference: ba.Reference
@@ -64,12 +72,14 @@ def test_a_class_of_ones_own_fits_too(gait):
 
 
 def test_a_status_is_shown_by_its_name(biped, gait):
+    """Its value is a sentence, which would fill the line."""
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
     assert repr(walk.feasibility).startswith("Feasibility(status=COMPLETED, ")
     assert repr([walk.trajectory.status]) == "[Status.COMPLETED]"
 
 
 def test_a_stepper_and_its_samples_are_one_line(biped, gait):
+    """Of two walks at once; arrays of a sample have a row for each."""
     stepper = ba.Stepper(ba.Walker(biped, ba.NPDController(gait.constraint), timing=TICKS), 2)
     assert repr(stepper) == "Stepper(2 walks of Walker(...))"
     sample = stepper.reset(start=gait.start(biped))
@@ -77,12 +87,15 @@ def test_a_stepper_and_its_samples_are_one_line(biped, gait):
 
 
 def test_values_are_shown_as_they_are(biped, gait):
+    """Gains by default are not shown; numbers and arrays are, as they were entered."""
     assert repr(ba.Gains()) == "Gains()"
     assert repr(ba.Gains(1.0, np.array([1.0, 2.0]))) == "Gains(K_p=1.0, K_d=[1 2])"
     assert repr(gait) == "Gait('published', robot 'rabbit', preset 'identified', period 0.4164 s)"
 
 
 def test_a_long_text_is_shortened_and_a_short_one_is_whole():
+    """Texts by their start, tuples by their count, arrays of more than 6 numbers by their shape. A field with
+    its default is left out, also where the default is an array."""
     assert short("v0.8") == "'v0.8'"
     assert short((1.0, 2.0)) == "(1.0, 2.0)"
     assert short("x" * 200) == repr("x" * (SHORT - 5) + "...")

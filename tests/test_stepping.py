@@ -1,6 +1,11 @@
 """A plant that moves by itself: a ball on a rail with a wall at q = 0, in Euler's steps of its own.
 
-m q'' = u + zeta - m g,   q'+ = -e q'- at the wall
+    m q'' = u + zeta - m g,   q'+ = -e q'- at the wall
+
+Its `advance` moves it to the next sample instant or contact and tells so by a `Moved`. `loop()` is the ball
+with e = 0.5 under `Told`, a PD to q = 0.3 with a tick of 5 ms and a model of half the mass too much;
+`run(loop())` lets it fall from 0.4 m for 0.5 s. A contact ends a "single support" of it, as a touchdown does.
+In x: q, q', the controller's (ticks, jumps, time of the last tick), bounces, torque.
 """
 
 import re
@@ -100,6 +105,8 @@ def run(system, t_end=0.5, q=0.4, **more):
 
 
 def test_ticks_come_at_exact_times_and_the_torque_is_held():
+    """A repeated time in the first arc is a tick: they are at multiples of 5 ms, the torque is constant in
+    between, and after each it is the PD's for the state there."""
     walked = run(loop())
     assert walked.status is ba.Status.COMPLETED
     (arc,) = walked.arcs if len(walked.arcs) == 1 else walked.arcs[:1]
@@ -132,6 +139,8 @@ def test_a_contact_is_reported_and_passed_on():
 
 
 def test_the_clock_may_run_on_over_contacts():
+    """With restart=False ticks stay at multiples of the period over bounces; x[4] is the time of the last
+    tick, -1 before the first."""
     walked = run(loop(timing=replace(TICK, restart=False)), t_end=1.0, stop_after=("wall", 2))
     for arc in walked.arcs:
         ticks = arc.x[:, 4][arc.x[:, 4] >= 0.0] / TICK.period
@@ -139,6 +148,7 @@ def test_the_clock_may_run_on_over_contacts():
 
 
 def test_the_plant_may_end_the_run():
+    """Its first bounce sticks: a contact with a status (FELL) ends the run, with no state after it."""
     walked = run(loop(plant=Ball(sticks_at=0.0)), t_end=2.0)
     assert walked.status is ba.Status.FELL
     assert walked.arcs[-1].event.guard == "stuck"
@@ -176,6 +186,8 @@ def test_what_acted_is_recorded_and_stored(tmp_path):
 
 
 def test_a_plant_without_feet_has_no_readings_of_them():
+    """The ball has no method `footing`, by which a plant says forces and places of its feet: asked for, it is
+    missing by name."""
     with pytest.raises(
         InputError, match=r"Ball does not say what its feet do, .* footing\(row, u, load\)"
     ):
@@ -183,7 +195,8 @@ def test_a_plant_without_feet_has_no_readings_of_them():
 
 
 def test_sensors_and_motors_lie_in_between():
-    """Torques change by at most 400 N m/s times the period, 0.4 of a period after each sample instant."""
+    """The plant is driven through the same sensors and motors as a robot: torques change by at most 400 N m/s
+    times the period, and do so 0.4 of a period after a sample instant, which is the delay."""
     hardware = {"sensors": Sensors(counts=2000), "motors": Motors(rate_limit=400.0)}
     system = loop(timing=replace(TICK, delay=0.4 * TICK.period), **hardware)
     walked = run(system, t_end=0.3)
@@ -195,6 +208,8 @@ def test_sensors_and_motors_lie_in_between():
 
 
 def test_a_run_goes_on_where_another_ended():
+    """The final state holds all that a run needs: 0.1 s and 0.1 s more from there are 0.2 s in one go, but
+    for the rounding of times."""
     system = loop()
     whole = run(system, t_end=0.2)
     half = run(system, t_end=0.1)
@@ -203,6 +218,8 @@ def test_a_run_goes_on_where_another_ended():
 
 
 def test_plants_that_break_the_contract_are_refused():
+    """Continuous time and a motor's lag are no matter of such a plant; an index beyond its joints, a stop
+    half way without a contact and a start elsewhere are mistakes of the class, which is named."""
     with pytest.raises(InputError, match="controlled at ticks, found ContinuousTime"):
         loop(timing=ba.ContinuousTime())
     with pytest.raises(InputError, match="put the lag into the plant"):
@@ -279,6 +296,8 @@ LIES = {
 
 @pytest.mark.parametrize("name", LIES)
 def test_what_a_plant_tells_is_checked(name):
+    """Each of `LIES` is a ball whose `Moved` is wrong in one thing. At the start of the run it is refused, at
+    a contact, which comes later, the run ends as RAISED."""
     change, said = LIES[name]
     expected = rf"(?s)Liar\.advance.*{said}"
     if "contact" not in name:
@@ -302,6 +321,8 @@ def spoilt(moved):
     ],
 )
 def test_values_that_are_not_finite_end_the_run_and_are_not_kept(change, last):
+    """A state of NaN after 25 ms, or an impulse of NaN at the first bounce (0.3088 s): the run ends at the
+    last good instant, `last`."""
     walked = run(loop(plant=telling(change)))
     assert walked.status is ba.Status.NOT_FINITE
     assert walked.t_end == pytest.approx(last)
@@ -311,6 +332,9 @@ def test_values_that_are_not_finite_end_the_run_and_are_not_kept(change, last):
 
 
 def test_contacts_at_one_moment_are_one_event():
+    """Wall, floor and wall again at once: one event with both names, one jump of the controller, and the walk
+    of a single contact."""
+
     def both(moved):
         left = moved.contacts[0]
         return left, left._replace(name="floor"), left
@@ -330,6 +354,9 @@ def test_contacts_at_one_moment_are_one_event():
     ],
 )
 def test_a_plant_cannot_write_into_what_it_is_given(written):
+    """A plant that wrote into its row, torque or load would change the loop's state; the arrays are read-only
+    and the method is named."""
+
     class Writing(Ball):
         def advance(self, t, row, u, load, until):
             given = {"u": u, "row": row, "zeta": load.zeta}
@@ -344,6 +371,8 @@ def test_a_plant_cannot_write_into_what_it_is_given(written):
 
 @pytest.mark.parametrize("timing", [TICK, replace(TICK, delay=2e-3)])
 def test_a_plant_and_a_model_of_ones_own_are_the_same_in_a_compiled_loop(timing):
+    """`CompiledLoop` has no code for this model and calls Python for it: bit by bit the same run, and it says
+    why. A delay of 2 ms is a part of the period."""
     system = loop(timing=timing)
     compiled = CompiledLoop(Ball(), Told(), None, timing, Model())
     python, found = (run(s, t_end=2.0, stop_after=("wall", 3)) for s in (system, compiled))

@@ -1,6 +1,8 @@
 """The three-link walker of the literature: its model, and its cycle under three feedbacks of its outputs.
 
-Model, outputs and cycle: validation.three_link.
+Model, outputs and cycle: validation.three_link. th are the absolute angles of the literature (stance leg,
+swing leg, torso), q = TO_Q th + ZERO ours. The outputs y(q) are to be zero; a step ends where th1 is END, pi
+/ 8.
 """
 
 from __future__ import annotations
@@ -50,7 +52,8 @@ def test_outputs_are_the_published_ones() -> None:
 
 
 def test_cycle_under_finite_time_feedback() -> None:
-    """alpha and eps as published; digits from a separate integration in absolute angles with LSODA."""
+    """alpha and eps are those published. omega [rad/s], period [s] and slope dP/domega of the cycle; the
+    digits come from a separate integration in absolute angles with LSODA."""
     controller = FiniteTimeController(outputs(), alpha=0.9, eps=0.1)
     omega, period, slope = cycle(controller, ba.Adaptive(1e-6, 1e-8))
     assert omega == pytest.approx(1.549891, rel=1e-6)
@@ -59,7 +62,8 @@ def test_cycle_under_finite_time_feedback() -> None:
 
 
 def test_joint_form_of_the_outputs() -> None:
-    """q_b = h(Theta): y = y' = 0 along it, and NPD walks the same step: y = T (q_b - h), T constant."""
+    """The outputs can be solved for the joints, q_b = h(Theta): along h y = y' = 0, and since y = T (q_b - h)
+    with a constant matrix T, NPD with the same gains makes the same step, from 1.5 rad/s."""
     y, gains = outputs(), ba.Gains(400.0, 40.0)
     d = y.desired
     q = all_coordinates(d.curve, y.H0, d.phase, (d.theta_plus, d.theta_minus))
@@ -73,7 +77,9 @@ def test_joint_form_of_the_outputs() -> None:
 
 
 def test_finite_time_feedback_comes_to_rest_in_closed_form() -> None:
-    """On phi = 0, x2' = -|x2|^alpha in the time t / eps: x2 = (x2(0)^(1-a) - (1-a) t/eps)^(1/(1-a))."""
+    """With x2 = eps y' and phi = y + sign(x2) |x2|^(2-a) / (2-a), on phi = 0, where the walk starts, x2' =
+    -|x2|^a in the time t / eps: x2 = (x2(0)^(1-a) - (1-a) t/eps)^(1/(1-a)), a = alpha. Both outputs are at rest
+    before 0.36 s, which the last times show."""
     alpha, eps, th1 = 0.9, 0.05, -END
     x2_0 = eps * np.array([0.5, -0.3])
     y_0 = -np.sign(x2_0) * np.abs(x2_0) ** (2.0 - alpha) / (2.0 - alpha)

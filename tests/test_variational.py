@@ -1,4 +1,10 @@
-"""Derivatives of the dynamics, the variational equation, and the table of methods."""
+"""Derivatives of the dynamics, the variational equation, and the table of methods.
+
+The return map P goes from just before one impact to just before the next; its derivative dP/ds comes from the
+variational equation, and independently from central differences (`difference`, `directional`). Its
+eigenvalues are the multipliers; delta^2 is the largest of them in closed form, from the zero dynamics of a
+hybrid-invariant gait. `npd(biped)` walks on the published gait; `close` compares to a relative 1e-6.
+"""
 
 import math
 from dataclasses import replace
@@ -65,6 +71,8 @@ def pre_impact(biped):
 # -- derivatives of the model ------------------------------------------------------------------------
 @pytest.mark.parametrize("friction", [False, True])
 def test_derivatives_of_the_acceleration(biped, friction):
+    """With respect to angles, rates and force, against differences of fourth order at random states, with and
+    without joint friction."""
     biped = replace(biped, friction=friction)
 
     def check(q, v, force):
@@ -79,7 +87,8 @@ def test_derivatives_of_the_acceleration(biped, friction):
 
 @pytest.mark.parametrize("name", ["rabbit", "three_link", "compass", "simplest", "rimless_wheel"])
 def test_derivative_of_the_impact_map(name):
-    """D Delta, also where relabelling is no permutation, and where there is one coordinate only."""
+    """D Delta against differences, also where relabelling is no permutation, and where there is one coordinate
+    only. The new rates are linear in the old ones, so that their derivative times these gives them back."""
     for preset in ba.Biped.load(name).description.presets if name == "rabbit" else [None]:
         biped = ba.Biped.load(name, preset)
         rng = np.random.default_rng(7)
@@ -122,7 +131,8 @@ def loops(biped):
 
 
 def test_derivative_of_the_flow(biped):
-    """A against differences of the whole closed loop, for every kind of law."""
+    """A = df/dx against differences of the whole closed loop, for every kind of law. Joints at the torque limit
+    of 500 N m, which some states reach, have no derivative of the torque; the others do."""
     saturated = 0
     for name, walker in loops(biped).items():
         walker = replace(walker, runaway_torque=math.inf)
@@ -147,7 +157,8 @@ def test_derivative_of_the_flow(biped):
 
 
 def test_order_of_convergence(biped):
-    """With RK4 the largest multiplier converges to delta^2, and dP/ds to its limit, with order 4."""
+    """With RK4 the largest multiplier converges to delta^2, and dP/ds to that of a method with steps controlled
+    to 1e-12: halving the step divides the errors by 16, order 4 (3.6 to 4.6)."""
     walker, x = npd(biped), pre_impact(biped)
     delta2 = ZeroDynamics.of(biped, walker.controller.reference).delta ** 2
     exact = ba.ReturnMap(walker, ba.Adaptive(1e-12, 1e-12))
@@ -170,7 +181,8 @@ def directional(P, s, w, d):
 def test_the_derivative_under_a_saturated_torque_is_that_by_differences(biped):
     """Saturated for a part of the step; the flow stays continuous there, so that nothing jumps.
 
-    Differences have to be narrow here: wide ones move the corner over the stages of the method.
+    Differences have to be narrow here: wide ones move the corner over the stages of the method. The last line
+    shows that the limit matters: without it the derivative is another one.
     """
     walker = npd(biped, torque_limit=95.0)
     P = ba.ReturnMap(walker, ba.RK4(5e-4))
@@ -192,6 +204,8 @@ def published(biped):
 
 
 def test_table_of_the_published_gait(published, biped, gait):
+    """Both methods agree, the variational equation is trusted, and the largest multiplier is delta^2 =
+    0.694390 of the zero dynamics, as the impact keeps this gait's constraint (gap below 1e-9)."""
     P, step = published
     table = stability_table(P, step)
     assert table.trusted is table.variational
@@ -222,12 +236,15 @@ NOISE = {"noise": np.array([1e-9, 1e-9, 1e-9, 2e-6])}
         (False, EQUATION + 3e-6 * LEAST, NOISE),
         (False, EQUATION + 1e-6 * LARGEST, NOISE),  # the noise of another multiplier
         (True, EQUATION[[0, 2, 1, 3]], {}),
-        (False, np.abs(EQUATION), {}),
+        (False, np.abs(EQUATION), {}),  # the pair made real
         (True, 5 * EQUATION, {"doubt": "too short"}),
         (False, 5 * EQUATION, {}),
     ],
 )
 def test_methods_agree_within_tolerance_or_noise_in_any_order(agree, other, more):
+    """`other`: multipliers by differences, `EQUATION` [0.7, a pair, 1e-3] those of the variational equation.
+    They agree within 1e-6 relative or 1e-7 absolute, or their own noise, in any order; one in doubt is not
+    compared."""
     table = StabilityTable(other, EQUATION, **more)
     assert table.agree == agree
     assert ("agrees within" in table.verdict) == (agree and not table.doubt)
@@ -236,6 +253,8 @@ def test_methods_agree_within_tolerance_or_noise_in_any_order(agree, other, more
 
 @pytest.mark.parametrize("residual", [1e-2, math.nan])
 def test_an_equation_that_misses_the_flow_hands_the_trust_over(published, residual):
+    """The residual says how well Phi maps the flow along the orbit, at most 1e-5: at 1e-2 or NaN the central
+    differences are trusted instead, and stability is theirs."""
     P, step = published
     table = stability_table(P, replace(step, flow_residual=residual))
     assert table.trusted is table.central
@@ -244,7 +263,8 @@ def test_an_equation_that_misses_the_flow_hands_the_trust_over(published, residu
 
 
 def test_recipe_gait_without_invariance(biped):
-    """The impact leaves its constraint: delta^2 is no multiplier; the largest is one that P itself shows."""
+    """The impact leaves this gait's constraint, so delta^2 is no multiplier; the largest one is shown by P
+    itself, moved along its eigenvector w by 1e-5."""
     gait = ba.load_gait("recipe", biped)
     assert invariance_gap(biped, gait.constraint) > 0.1
     walker = npd(biped, controller=ba.NPDController(gait.constraint))
@@ -261,8 +281,9 @@ def test_recipe_gait_without_invariance(biped):
 
 # -- the noise of differences ----------------------------------------------------------------------
 def test_differences_are_within_their_noise_and_their_noise_is_small():
-    """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred: the bound has to hold, to fall
-    with the step to the tolerance, and to be seen where d is small."""
+    """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred. The bound of the error of
+    differences of width d has to hold, to fall with the integration step h, and, where d is so small that the
+    error shows, to be less than 200 times that error."""
     cycle = cycle_of(ba.Scenario("NPD", gait="v0.8"))
     bounds = {}
     for h, widths in ((1e-3, [1e-4]), (5e-4, [1e-4, 1e-7])):

@@ -1,6 +1,7 @@
 """The hybrid machinery on the classic walkers of the literature: legs, wheel and the simplest walker.
 
-The same walker, guard, impact and return map as for RABBIT; the robots are records under urdf/.
+The same walker, guard, impact and return map as for RABBIT; the robots are records under urdf/. At an impact
+relabelling gives the coordinates in which the other leg is the stance leg.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ def test_relabelling_turns_one_leg_into_the_other(name: str) -> None:
 
 
 def test_a_wheel_rolls_on_to_its_next_spoke() -> None:
+    """The spokes of the rimless wheel are pi / 4 apart: in the new coordinate the hub is where it was, above
+    the new foot."""
     wheel = ba.Biped.load("rimless_wheel")
     q = np.array([3.0])
     new = wheel.relabel(q)
@@ -48,7 +51,9 @@ def test_a_wheel_rolls_on_to_its_next_spoke() -> None:
 
 
 def test_a_wheel_on_too_gentle_a_slope_does_not_come_round() -> None:
-    """Below the slope where a step's energy lifts the hub over the spoke there is no rolling cycle."""
+    """Below the slope where a step's energy lifts the hub over the spoke there is no rolling cycle: the rate
+    after impact of McGeer's closed form, in `square`, is too small, and the search for a cycle ends in a
+    fall."""
     alpha, slope = math.pi / 8, 0.05
     square = 4.0 * math.sin(alpha) * math.sin(slope) / math.tan(2.0 * alpha) ** 2  # (l / g) rate^2
     assert square < 2.0 * (1.0 - math.cos(alpha - slope))
@@ -107,8 +112,9 @@ def limit_multiplier() -> float:
 
 
 def test_simplest_walker_against_its_own_equations() -> None:
-    """0.589113 belongs to massless feet. |lambda| falls by 9.9 times their mass ratio, so 1e-7 alone is 1e-6
-    off, and two mass ratios extrapolated to none give nine digits."""
+    """`limit` comes from equations of its own for massless feet (0.589113 as published). |lambda| falls by
+    9.9 times the feet's mass ratio, so the robot with 1e-7 is 1e-6 off, and 1e-6 and 1e-5 extrapolated to
+    none give nine digits."""
     limit = limit_multiplier()
     assert limit == pytest.approx(0.589113, abs=5e-7)
     light, heavy, heavier = (abs(solved(simplest(m))[0].multipliers[0]) for m in (1e-7, 1e-6, 1e-5))
@@ -119,6 +125,8 @@ def test_simplest_walker_against_its_own_equations() -> None:
 
 
 def test_a_walk_from_a_state_needs_no_gait(biped, gait):
+    """A start in place of a gait: the controller's curve gives the reference, and the walk is bit by bit that
+    with the gait. Without a start, or without a curve to track, a gait is missing."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     alone = ba.walk(walker, start=gait.start(biped), impacts=1)
     beside = ba.walk(walker, gait, impacts=1)

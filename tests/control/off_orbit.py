@@ -6,6 +6,7 @@ import biped_adrc as ba
 
 
 def off_orbit(gait, biped, seed=2):
+    """(q, v) of the start of the gait with random errors, of 0.02 rad and 0.3 rad/s of standard deviation."""
     random = np.random.default_rng(seed)
     q, v = gait.start(biped)
     return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)

@@ -1,4 +1,13 @@
-"""Policies across contact: each is its definition, in both engines; none of them acts where it must not."""
+"""Policies across contact: each is its definition, in both engines; none of them acts where it must not.
+
+A policy is a wrapper around a controller `inner` that acts near a touchdown. `Hold` starts the observer anew at
+each tick (sample instant) of a window after it. `ImpactInvariant` removes from the rate error, or from the
+observer's innovation, the part that an impulse of the ground on the striking foot can change.
+
+`seen(t_step)` is a measurement at a random state about the gait's orbit, t_step [s] after the last touchdown.
+`inside(h)` are the controllers with an observer around the gait's constraint h, and `off(law, m)` a state of
+such a controller that differs from its initial state at m.
+"""
 
 from dataclasses import replace
 
@@ -67,6 +76,9 @@ def walked(biped, gait, controller, impacts=2, engine="compiled", push=PUSH):
 
 # -- definitions -------------------------------------------------------------------------------------
 def test_held_the_observer_begins_anew_at_each_tick_of_the_window(h, seen):
+    """At ticks less than 15 ms after a touchdown `correct` gives the initial state, else that of `inner`;
+    `predict` and `jump` are those of `inner`.
+    """
     for controller in inside(h):
         inner = controller.sampled(PERIOD)
         law = Hold(controller, 0.015).sampled(PERIOD)
@@ -92,12 +104,19 @@ def struck(m, F, landed):
 
 @pytest.mark.parametrize("t_step", [0.01, 0.4])
 def test_the_rate_error_that_is_fed_back_is_blind_to_impulses(biped, gait, h, seen, t_step):
-    """u of K_d alone: e' at rates before and after any impulse gives the same; without the policy not."""
+    """u of K_d alone is the same at the rates before and after an impulse F on the striking foot; without the
+    policy it is not.
+
+    The rates after F are those of the whole robot with free feet (`struck`). t_step: 0.01 s after a touchdown
+    the foot that landed strikes; at 0.4 s the phase expects the next touchdown, so it is the swing foot. An
+    impulse on the other foot is not removed.
+    """
     m, F = at_the_end(seen, gait, t_step), np.array([1.0, -2.0])
     landed = t_step < 0.015
     after = m._replace(v=struck(m, F, landed))
     for controller in (ba.NPDController(h), *inside(h)):
         law = ImpactInvariant(controller, 0.015).sampled(PERIOD)
+        # `damping`: the torque that changes with K_d; bare: of the controller inside, without the policy
         fed = [damping(law, x) for x in (m, after)]
         bare = [damping(law.inner, x) for x in (m, after)]
         scale = np.max(np.abs(bare[1] - bare[0]))
@@ -129,7 +148,12 @@ def replaced(law, K_d):
 
 
 def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
-    """The observer's state after y and after y + N F dt is the same for the policy."""
+    """The observer's state after a measurement y and after y + N F dt is the same for the policy: N F is what
+    an impulse F on the swing foot changes, dt one period.
+
+    N F dt moves the angles; for the observer of the momentum the rates jump instead. Compared with the change
+    without the policy. With rates=False the torque is that of the controller inside.
+    """
     F = np.array([1.0, -2.0])
     for controller in inside(h):
         law = ImpactInvariant(controller, 0.015, rates=False, innovation=True).sampled(PERIOD)
@@ -151,6 +175,9 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
 
 
 def test_the_innovation_that_no_impulse_makes_is_taken_whole(gait, h, seen):
+    """A move of the angles by 1e-4 rad at right angles to all that an impulse (x, z) on the swing foot can
+    change is corrected as without the policy: no more is removed than those two directions.
+    """
     law = ImpactInvariant(ba.ADRCController(h, FAST), rates=False, innovation=True).sampled(PERIOD)
     m = at_the_end(seen, gait, 0.4)
     s, a = law.initial_state(m), struck(m, np.eye(2), landed=False) - m.v[:, np.newaxis]
@@ -168,6 +195,7 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
     law = ImpactInvariant(ba.NPDController(h), 0.02)
     s, m = np.zeros(0), seen(0.3)
     c, v = h.phase, m.v * np.sign(h.theta_minus - h.theta_plus) * np.sign(h.phase @ m.v)
+    # seconds: to the next touchdown by the phase, to which q is moved; blind: whether the policy acts
     for seconds, t_step, blind in (
         (0.019, 0.3, True), (0.021, 0.3, False), (-0.019, 0.3, True), (-0.021, 0.3, False),
         (0.1, 0.019, True), (0.1, 0.02, False),
@@ -182,7 +210,9 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
 
 @pytest.mark.parametrize("policy", WINDOWS)
 def test_a_window_of_zero_length_changes_no_bit_of_the_walk(biped, gait, h, policy):
-    """And one of 30 ms does, or else the policy would never act."""
+    """`Hold` or `ImpactInvariant` around ADRC, under a push. One of 30 ms does change the walk, or else the
+    policy would never act.
+    """
     inner = ba.ADRCController(h, FAST)
     one, other = (walked(biped, gait, law) for law in (inner, policy(inner, 0.0)))
     none = walked(biped, gait, policy(inner, 0.03))
@@ -192,6 +222,9 @@ def test_a_window_of_zero_length_changes_no_bit_of_the_walk(biped, gait, h, poli
 
 
 def test_a_hold_longer_than_a_step_is_the_law_of_the_model(biped, gait, h):
+    """A hold of 5 s never ends, so ADRC has the xi of the model at each tick: under a push it walks as NPD, and
+    without the hold otherwise. Compared are q and q' at the end.
+    """
     npd, held, adrc = (
         walked(biped, gait, law).arcs[-1].x[-1][:10]
         for law in (
@@ -206,6 +239,9 @@ def test_a_hold_longer_than_a_step_is_the_law_of_the_model(biped, gait, h):
 
 # -- what is refused, and by name ----------------------------------------------------------------------
 def test_wrong_inner_controllers_and_values_are_refused(biped, gait, h):
+    """ImpactInvariant needs a rate error of a constraint, and with innovation=True an observer; Hold a window
+    from 0 s, a controller inside, and sampled time.
+    """
     for make in (
         lambda: ImpactInvariant(ba.Passive()),
         lambda: ImpactInvariant(ba.NPDController(h), innovation=True),

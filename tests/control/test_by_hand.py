@@ -1,4 +1,9 @@
-"""A hand that a page wrote down: rows that are held, in both engines, and what is said of wrong rows."""
+"""A push by hand, that of a person who drags the walking robot on a page: rows that are held, in both engines,
+and what is said of wrong rows.
+
+A row is a time [s] since its single support began, with torques (n,) [N m] on the joints and a force (2,) [N]
+on a point of a link.
+"""
 
 import numpy as np
 import pytest
@@ -9,6 +14,11 @@ from biped_adrc.disturbances.recorded import PIECES, by_hand
 
 
 def test_rows_are_held_from_their_times_on_in_one_single_support(biped):
+    """From its time on each row acts until the next, in single support 2 alone, which begins at 1 s; its force
+    acts as the same force by `OnLink`.
+
+    The rows are cut into terms of PIECES rows; 2 PIECES + 3 rows make two whole ones and a part of a third.
+    """
     random = np.random.default_rng(3)
     times = np.cumsum(random.uniform(0.001, 0.01, 2 * PIECES + 3))
     torques, forces = random.normal(size=(len(times), 5)), random.normal(size=(len(times), 2))

@@ -1,4 +1,10 @@
-"""The CLF-QP: its Lyapunov function, its closed form, its limits, and what it does when it cannot keep them."""
+"""The CLF-QP: its Lyapunov function, its closed form, its limits, and what it does when it cannot keep them.
+
+The program chooses y'' = mu with least |mu|^2 + p delta^2 so that V' <= -c V / eps + delta, within limits of
+torque and ground force; V' + c V / eps = psi_0 + psi_1 mu. `decrease` gives V, psi_0 and psi_1, `affine` (`to`)
+u and the ground force as functions of mu, `program` the rows G z <= h of z = (mu, sqrt p delta). `clf_states`
+are measurements at random states about the orbit: errors of `spread` [rad] and 10 times as much [rad/s].
+"""
 
 import numpy as np
 import pytest
@@ -29,7 +35,12 @@ def parts(law, m):
 
 @pytest.mark.parametrize("spread", [1e-6, 0.02])
 def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread):
-    """V' + c V / eps = psi_0 / (1 + p |psi_1|^2) along the plant's motion, by differences, default p."""
+    """V' + c V / eps = psi_0 / (1 + p |psi_1|^2) along the plant's motion, V' by differences of V, with the
+    default p.
+
+    In the dead zone p |psi_1|^2 < 1, where V may grow by sqrt(3/2) V / eps at most, are all errors of 1e-6 rad;
+    of 0.02 rad none are, and V falls by c V / eps.
+    """
     law, h, growth, dead = CLFQPController(gait.constraint, **FREE), 1e-6, [], []
     walker, c = Walker(biped, law), 1.0 / (1.0 + np.sqrt(3.0))
     for m in clf_states(biped, gait, 20, spread):
@@ -48,10 +59,10 @@ def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread)
             assert rate == pytest.approx(excess - bound, rel=1e-3, abs=1e-4 * bound)
             growth.append(law.epsilon * rate / d.V)
             dead.append(size < 1.0)
-    assert max(growth) < np.sqrt(1.5)
+    assert max(growth) < np.sqrt(1.5)  # growth is eps V' / V
     if spread == 1e-6:
         assert all(dead)
-        assert max(growth) > 0.2
+        assert max(growth) > 0.2  # the dead zone is real: V does grow there
     if spread >= 1e-3:
         assert not any(dead)
         assert np.median(growth) == pytest.approx(-c, rel=0.05)
@@ -66,6 +77,9 @@ def test_a_state_that_is_not_finite_is_refused(biped, gait):
 
 
 def test_without_limits_the_program_has_the_closed_form_s_solution(biped, gait):
+    """The solver, `least_norm` and the torque all give mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0,
+    and 0 else, where V falls by itself.
+    """
     law = CLFQPController(gait.constraint, **FREE)
     seen = set()
     for m in clf_states(biped, gait, 40, 0.02):
@@ -88,7 +102,12 @@ def test_without_limits_the_program_has_the_closed_form_s_solution(biped, gait):
 def test_limits_hold_where_they_can_and_the_solution_is_optimal(
     biped, gait, limit, spread, expected
 ):
-    """Torque, ground force of the plant in its cone, and Karush, Kuhn and Tucker's conditions."""
+    """Torque, ground force of the plant in its cone, and Karush, Kuhn and Tucker's conditions: z is a sum of
+    the rows of active limits with multipliers >= 0 (`nnls`).
+
+    limit [N m]: of the torque. expected: the cases that occur more than 5 times: no limit acts, one does, or no
+    z keeps all limits (`feasible`, by linear programming) and those of the ground are dropped.
+    """
     law = CLFQPController(gait.constraint, torque_limit=limit)
     seen = {"free": 0, "limited": 0, "ground given up": 0}
     for m in clf_states(biped, gait, 200, spread):

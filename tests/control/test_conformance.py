@@ -1,6 +1,9 @@
 """One suite over every leaf of the package, `conforms`, a row for each.
 
-A row says how a thing of the registry is made; a thing without a row, or a class that no row makes, fails.
+A leaf is a class that fills one place of a walker. `conforms(thing)` (in conforms.py) asserts all that the base
+class of a thing promises, in Python and as machine code. A row says how a thing of the registry, the list of
+names that a scenario may use, is made: `made(kind, name)` makes the things of a row. A thing without a row, or
+a class that no row makes, fails.
 """
 
 import importlib
@@ -198,12 +201,18 @@ def made(kind, name):
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_part_of_the_registry_conforms(kind, name):
+    """`conforms` asserts the promises; of a controller it returns whether it compiled, and only those of
+    IN_PYTHON, which call a solver of their own, do not.
+    """
     for thing in made(kind, name):
         compiled = conforms(thing)
         assert compiled in (None, name not in IN_PYTHON)
 
 
 def test_a_leaf_equals_another_of_the_same_values():
+    """A thing is made twice: the second is found in a dict by the first, so both are equal and have one hash.
+    Things that hold a Python function are left out: it has no values.
+    """
     for each in EACH:
         for thing, other in zip(made(*each), made(*each), strict=True):
             if not callable(getattr(thing, "function", None)):
@@ -211,6 +220,10 @@ def test_a_leaf_equals_another_of_the_same_values():
 
 
 def test_parts_compare_by_class_and_values():
+    """Arrays count by value (NaN equals NaN, -0.0 equals 0.0), by type and shape; so equal walkers, made twice,
+    share what is cached for one (`lru_cache`).
+    """
+
     @dataclass(frozen=True)
     class Own(ba.Reference):
         w: np.ndarray
@@ -260,6 +273,9 @@ def test_a_controller_refuses_what_is_no_reference(name):
 
 @pytest.mark.parametrize("thing", [ba.TorqueStep([1.0] * 5), ba.Sensors(counts=1000)])
 def test_only_things_of_one_kind_are_added_up(thing):
+    """A disturbance plus a disturbance and a sensor plus a sensor are sums; a number, a class and a gait are
+    refused.
+    """
     for wrong in (1, type(thing), gait()):
         with pytest.raises(InputError, match="what is added to"):
             thing + wrong
@@ -267,13 +283,15 @@ def test_only_things_of_one_kind_are_added_up(thing):
 
 @pytest.mark.parametrize("name", UNNAMED)
 def test_every_part_outside_the_registry_conforms(name):
+    """Classes that no scenario names, such as outputs and methods of integration."""
     for thing in UNNAMED[name](gait().constraint):
         conforms(thing)
 
 
 def test_output_adrc_with_the_gains_of_table_one_compiles_in_the_loop():
-    """The gains turn the last bit of an angle into 1e-9 of a rate, so the loop is compared and not each
-    method.
+    """`loop_compiles` compares flow, ticks and impacts of the closed loop in machine code with Python's, at
+    random states, on a plant heavier than the model. The gains of Table I turn the last bit of an angle into
+    1e-9 of a rate, so the loop is compared and not each method.
     """
     law = OutputADRCController(gait().constraint)
     for timing in (ba.ContinuousTime(), ba.SampledTime(PERIOD)):
@@ -293,6 +311,9 @@ def below(cls):
 
 
 def test_every_leaf_has_a_row_and_a_name():
+    """The rows have all names of the registry, and make every concrete subclass of the classes in BASES that
+    the package's folders define; so no leaf is left untested.
+    """
     assert "compass" in names("robot")
     assert "published-identified" in names("gait")
     for kind, rows in ROWS.items():
@@ -300,6 +321,7 @@ def test_every_leaf_has_a_row_and_a_name():
         assert all(find(kind, name).words for name in rows)
     things = [thing for each in EACH for thing in made(*each)]
     things += [thing for row in UNNAMED.values() for thing in row(gait().constraint)]
+    # each field of Motors differs from its default in some row
     acted = [name for x in things if isinstance(x, Motors) for name in acting(x)]
     assert set(acted) == {x.name for x in fields(Motors)}
     listed = {type(thing) for thing in things}
@@ -311,6 +333,7 @@ def test_every_leaf_has_a_row_and_a_name():
             importlib.import_module(f"biped_adrc.{room}.{module.name}")
         own = [cls for cls in below(base) if cls.__module__.startswith("biped_adrc.")]
         own = [cls for cls in own if ".export." not in cls.__module__]  # what stands for another
+        # only classes that are in their module by name, not those that a function makes
         own = [cls for cls in own if getattr(sys.modules[cls.__module__], cls.__name__, 0) is cls]
         leaves = {cls for cls in own if cls.__name__ not in parts}
         assert not [cls for cls in leaves if inspect.isabstract(cls)]

@@ -1,4 +1,11 @@
-"""The barrier on the swing foot: its derivatives, its bounds, and stones under a load that no model knows."""
+"""The barrier on the swing foot: its derivatives, its bounds, and stones under a load that no model knows.
+
+The barrier is a filter of the torque of the controller inside. It keeps the swing foot within `tolerance` of a
+path x_c (the corridor), which follows the reference's foot x_r, whose steps are `step` [m] long, and ends on
+the next *stone*, the place where the foot has to come down. e = x - x_c is the foot's error; e'' = G q_b'' + g.
+STONES are eight lengths of steps from 0.25 to 0.55 m, and `on_stones` a walk over them; `gait` makes 0.6 m/s.
+Gains are K_p = 400 where they are WEAK.
+"""
 
 from dataclasses import replace
 
@@ -45,6 +52,12 @@ def misses(walk):
 
 @pytest.mark.parametrize("step", [None, 0.4])
 def test_the_error_of_the_foot_moves_as_differences_of_pinocchio_s_foot_say(biped, gait, step):
+    """e, e' and e'' = G q_b'' + g against differences along a motion with random q_b'', with e by its
+    definition and Pinocchio's foot, for a stone at 0.5 m.
+
+    step: length of the reference's step; None: the reference steps on the stone, and x_c is x_r. q_r is the
+    posture of the reference at the same phase, z the share of the step.
+    """
     law = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step)
     h, random = gait.constraint, np.random.default_rng(1)
 
@@ -69,6 +82,9 @@ def test_the_error_of_the_foot_moves_as_differences_of_pinocchio_s_foot_say(bipe
 
 
 def test_the_corridor_bends_as_its_polynomial_does(biped, gait):
+    """x_c(x_r) = x_r + (0.5 - 0.4) beta(x_r / 0.4) and two derivatives, with beta = 10 z^3 - 15 z^4 + 6 z^5,
+    for a stone at 0.5 m and reference steps of 0.4 m.
+    """
     law, x = (
         FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), 0.4),
         Polynomial([0.0, 1.0]),
@@ -81,6 +97,11 @@ def test_the_corridor_bends_as_its_polynomial_does(biped, gait):
 
 
 def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
+    """min |kappa (u' - u)|^2 under |e'' + 2 lambda e' + lambda^2 e| <= lambda^2 tol with lambda = 100 1/s and
+    tol = 3 mm, the defaults: so 200, 1e4 and 30 below.
+
+    u is the torque inside, u' the filter's; both bounds are met among the states (`sides`).
+    """
     qpsolvers = pytest.importorskip("qpsolvers")
     inner, random = ba.NPDController(gait.constraint), np.random.default_rng(2)
     law, s, sides = FootBarrier(inner, biped, (0.4,)), BarrierState(np.zeros(0), 0.0), set()
@@ -97,7 +118,9 @@ def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
 
 @pytest.mark.parametrize("tolerance", [0.003, 0.01])
 def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, tolerance):
-    """In continuous time, of the model that is known; 60 N m on the swing hip throw the foot out of it."""
+    """In continuous time, of the model that is known; 60 N m on the swing hip throw the foot out of it by more
+    than twice the tolerance. The barrier uses its width and keeps it.
+    """
     inner = AddedTorque(ba.NPDController(gait.constraint, WEAK), np.array([0.0, 60.0, 0.0, 0.0]))
     law, largest = FootBarrier(inner, biped, (0.4,), tolerance=tolerance), []
     for acting in (inner, law):
@@ -115,6 +138,7 @@ def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, 
 def test_a_walk_in_which_the_filter_never_acts_is_that_of_the_controller_inside_bit_for_bit(
     biped, gait
 ):
+    """The corridor of 1 m is wider than any error of the foot."""
     for inner in (ba.NPDController(gait.constraint), ba.ADRCController(gait.constraint)):
         alone, filtered = (
             on_stones(biped, gait, x)
@@ -127,6 +151,9 @@ def test_a_walk_in_which_the_filter_never_acts_is_that_of_the_controller_inside_
 def test_a_torque_that_no_model_knows_throws_the_foot_off_its_stone_and_not_with_the_barrier(
     biped, gait
 ):
+    """Under -25 N m on the swing hip. A stone reaches 25 mm to each side; with the barrier the foot misses its
+    middle by less than half of that.
+    """
     push, inner = (
         ba.TorqueStep([0.0, -25.0, 0.0, 0.0, 0.0], step=1),
         ba.NPDController(gait.constraint, WEAK),
@@ -139,7 +166,9 @@ def test_a_torque_that_no_model_knows_throws_the_foot_off_its_stone_and_not_with
 
 
 def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped, gait):
-    """Under a load of 40 N m on the swing hip that the model does not know."""
+    """Under a load of 40 N m on the swing hip that the model does not know, e'' predicted with the observer's
+    xi^ is that of the plant; with the model's xi it is off by more than 5 m/s^2.
+    """
     push = ba.TorqueStep([0.0, 40.0, 0.0, 0.0, 0.0], step=1)
     inner = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(500.0))
     law = FootBarrier(inner, biped, (0.4,))
@@ -159,7 +188,9 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
 
 
 def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds(biped, gait):
-    """20 N m are too few for the corridor, 10 kN m never are. 0.65 s have 651 ticks, both ends counted."""
+    """20 N m are too few for the corridor, 10 kN m never are. 0.65 s have 651 ticks, both ends counted. A
+    controller without a barrier has no count.
+    """
     inner = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step=0.4)
     counts = []
     for limit in (20.0, 1e4):

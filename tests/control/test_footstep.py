@@ -1,4 +1,15 @@
-"""The footstep controller and its family of gaits: the map from step to step, forces, rough ground, stones."""
+"""The footstep controller and its family of gaits: the map from step to step, forces, rough ground, stones.
+
+A family has a gait, its member, for each speed v and step length L within its range; "flat" is the stored one,
+and `slow` the gait of 0.6 m/s. In each step, at the *decision* (35 % of its phase), the controller decides on
+which member the step ends. sigma is the angular momentum about the stance foot; `decisions(biped, walk)` are
+sigma^2 at the decisions of a simulated walk, and `family.steps` has polynomials for
+
+    sigma^2 at the next decision = delta^2 (sigma^2 + 2 W + 2 r J) + 2 W' + 2 r J'
+
+with r the torque of a force from outside. `step_integrals` gives delta^2, 2 W', J', .., 2 W, J by quadratures.
+A stone is where a step has to end.
+"""
 
 from types import SimpleNamespace
 
@@ -42,6 +53,9 @@ def decisions(biped, walk):
 
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_a_member_ends_at_its_step_length(preset):
+    """The posture of a member at the end of its phase has the swing foot on the ground and L ahead, to the 3 mm
+    that the polynomials of the family leave, for each preset of RABBIT's parameters.
+    """
     biped = ba.Biped.load("rabbit", preset)
     family = load_family("flat", biped)
     for v in np.linspace(family.low[0], family.high[0], 4):
@@ -66,6 +80,9 @@ def test_a_family_comes_back_from_its_file(biped, tmp_path):
 
 
 def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_path):
+    """An unknown name, another robot, a speed out of range, too few gaits for the fit, another format of file:
+    each message says what there is instead.
+    """
     path = tmp_path / "mine.json"
     load_family("flat", biped).save(path)
     with pytest.raises(GaitError, match=r"no family 'steep'.*stored are \['flat'\]"):
@@ -82,7 +99,11 @@ def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_pat
 
 
 def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
-    """Of gaits that lie on polynomials the fit is these polynomials, and its steps are the quadratures."""
+    """Of gaits that lie on polynomials the fit is these polynomials, and its steps are the quadratures.
+
+    In place of an optimisation, each gait of the library is here a member of the stored family; one of 25 does
+    not exist. 60 samples for the map are enough for 1 % and take less time. r = -3 N m, so 2 r J = -6 J.
+    """
     flat, spoken = load_family("flat", biped), []
     speeds, lengths = (np.linspace(*ends, 5) for ends in zip(flat.low, flat.high, strict=True))
 
@@ -95,6 +116,7 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
     monkeypatch.setattr(gait_design, "optimise", optimise)
     monkeypatch.setattr(gait_design, "_SAMPLES", 60)
     gaits = library(biped, speeds, lengths, done=spoken.append)
+    # pair 7, from 0, is the second speed with the third length; spoken: a line about each pair
     assert (len(gaits), spoken[7]) == (24, f"{speeds[1]:g} m/s, {lengths[2]:g} m: none, none here")
     assert spoken[0] == f"{speeds[0]:g} m/s, {lengths[0]:g} m: {gaits[0][2].period:.3f} s"
     found = gait_design.design_family("mine", biped, gaits, {"command": "c"}, seed=1)
@@ -107,6 +129,7 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
     delta2, W_next, J_next = step_integrals(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36)[:3]
     exact = delta2 * (400.0 + W - 6.0 * J) + W_next - 6.0 * J_next
     for steps in (found.steps, flat.steps):
+        # from sigma^2 = 400 at v 0.7, 0.34 m before, to the end at 0.8 m/s and 0.4 m; then 0.36 m
         y = steps.next_square(400.0, np.array((0.7, 0.34)), np.array((0.8, 0.4)), 0.36, -3.0)
         assert y == pytest.approx(exact, rel=0.01)
     for member in (found.members[0], found.members[-1]):
@@ -114,15 +137,18 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
         orbit = ba.ZeroDynamics.of(biped, h).cycle
         F_T, F_N = orbit.ground_reaction.T
         worst = np.max(np.abs(F_T / F_N)), np.max(np.abs(orbit.u)), np.min(F_N)
+        # friction, peak torque and least normal force, stored with three decimals
         assert member[2:] == pytest.approx(worst, abs=6e-4)
-    lengths[2] = 9.0
+    lengths[2] = 9.0  # no member has these speeds or this length, so no gait is found
     with pytest.raises(GaitError, match=r"^0 of 5 x 5 pairs .* a family needs at least 15$"):
         library(biped, speeds + 9.0, lengths)
 
 
 # -- from step to step -----------------------------------------------------------------------------
 def test_the_map_says_what_the_simulated_robot_does_under_a_force(biped, slow):
-    """sigma^2 at the next decision, by quadratures on the curve and by the whole dynamics, 6 N on the hip."""
+    """sigma^2 at the next decision, by the stored map and by the whole dynamics, under 6 N backwards on the
+    hip. w: the controller's state at the end of each step; r: its estimate of the force's torque.
+    """
     stones = (0.38, 0.3, 0.45, 0.4, 0.38)
     push = ba.HipForce(biped, (-6.0, 0.0))
     walk = ba.walk(walker(biped, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
@@ -136,7 +162,9 @@ def test_the_map_says_what_the_simulated_robot_does_under_a_force(biped, slow):
 
 @pytest.mark.parametrize("pole", [0.35, 0.5])
 def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(biped, slow, pole):
-    """Two walks that start at other speeds: their difference of sigma^2 at the decisions."""
+    """Two walks that start 1 % slower and faster than the settled one: from one decision to the next their
+    difference of sigma^2 becomes `pole` times as large.
+    """
     law = walker(biped, slow, speed=0.65, step=0.38, pole=pole)
     settled = ba.walk(law, slow, impacts=12).trajectory.arcs[-1].x[0]
     y = []
@@ -149,6 +177,9 @@ def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(biped, slow
 
 # -- what it is for --------------------------------------------------------------------------------
 def test_a_speed_below_the_slowest_cycle_is_remarked(biped, slow):
+    """The controller aims at 0.5 m/s or more, where the walk does not stall: asked for 0.4 m/s it says so and
+    walks faster.
+    """
     with pytest.warns(ba.WalkWarning, match="aims at 0.5 to 1.1 m/s, and was asked for 0.4 m/s"):
         walk = ba.walk(walker(biped, slow, speed=0.4, step=0.4), slow, impacts=8)
     before, end = (e.t for e in walk.trajectory.events("foot_strike")[-2:])
@@ -218,13 +249,20 @@ def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
     ],
 )
 def test_wrong_values_of_footsteps_are_refused(values, text):
+    """A speed and a stone beyond the family, stones beside a range of random ones, a range that falls, and no
+    sampled time; else a footstep controller at 1 ms is accepted.
+    """
     usual = {"controller": "footstep", "gait": "v0.6", "hardware.period": "1 ms"}
     with pytest.raises(InputError, match=text):
         ba.walk_scenario(ba.Scenario(**usual | values))
 
 
 def test_the_stored_map_is_that_of_the_integrals_over_a_step(biped):
-    """2 W and J of a step within the range, of equal and of changing members, by the quadratures."""
+    """The polynomials fit the quadratures to 2 % of 2 W and J, and 5 % of the rest, for a step within the range
+    of the family.
+
+    x: (v, length before, L, v at the end, length ahead), first with equal and then with changing members.
+    """
     family = load_family("flat", biped)
     low, high = np.array(family.low), np.array(family.high)
     (v, L), (end, ahead) = 0.5 * (low + high), 0.45 * low + 0.55 * high

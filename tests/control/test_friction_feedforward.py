@@ -1,4 +1,9 @@
-"""Friction feedforward: with the right friction a plant walks as one without, and nothing counts twice."""
+"""Friction feedforward: with the right friction a plant walks as one without, and nothing counts twice.
+
+u = u_i + F: u_i is the torque of the controller inside, F `share` of the friction at the rates of the
+reference. The plant `biped` has no friction, `rubbing` has; `inside(h)` are NPD and two controllers with an
+observer, on the gait's constraint h.
+"""
 
 from dataclasses import replace
 
@@ -40,7 +45,9 @@ def fed(biped, gait, m):
 
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(T)], ids=["all", "ticks"])
 def test_the_controller_inside_is_told_the_torque_beyond_the_feedforward(biped, gait, timing):
-    """Whatever acts, such as a torque at its limit."""
+    """Whatever u acts, such as a torque at its limit of 150 N m, the observer inside gets u - F. F is 0.8 of
+    the record's friction at rates by differences (`fed`).
+    """
     q, v = gait.start(biped)
     for inner in inside(gait.constraint):
         law = friction_feedforward(inner, gait.constraint, biped, 0.8)
@@ -60,7 +67,11 @@ def test_the_controller_inside_is_told_the_torque_beyond_the_feedforward(biped, 
 def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_error(
     biped, rubbing, gait
 ):
-    """The rates of the joints differ from the reference's by the error, and so does friction."""
+    """The rates of the joints differ from the reference's by the error, and so does friction.
+
+    From a start on the orbit (e = 0) the gap of the walks is below 1e-3 of that without feedforward; beyond, it
+    doubles with the error e of the rates.
+    """
     q, v = gait.start(biped)
     h, gaps = gait.constraint, []
     compensated = friction_feedforward(ba.NPDController(h), h, biped, 1.0)
@@ -84,7 +95,9 @@ def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_erro
 def test_the_estimate_of_xi_is_the_same_with_and_without_the_feedforward(
     biped, rubbing, gait, share
 ):
-    """So xi^ - xi is as without the feedforward: friction is in xi, whoever compensates it."""
+    """xi = q_b'' - kappa u of the rubbing plant contains its friction, whoever compensates it; so xi^ has to be
+    near xi for any share, within 10 % of what the model misses.
+    """
     h = gait.constraint
     law = friction_feedforward(ba.ADRCController(h, FAST), h, biped, share)
     walker, run = walked(rubbing, biped, law, ba.SampledTime(T), gait.start(biped), 0.15)
@@ -97,6 +110,7 @@ def test_the_estimate_of_xi_is_the_same_with_and_without_the_feedforward(
 
 
 def test_wrong_friction_values_are_refused(biped, gait):
+    """A negative share, a coefficient of NaN, and a robot whose record has no friction."""
     for wrong in ({"share": -0.1}, {"static": (1.0, np.nan, 0.0, 0.0)}):
         values = {"viscous": (1.0,) * 4, "static": (1.0,) * 4, **wrong}
         with pytest.raises(InputError):

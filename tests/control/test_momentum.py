@@ -1,4 +1,8 @@
-"""The momentum observer: how fast it finds a force, what it knows, and what an impact does to it."""
+"""The momentum observer: how fast it finds a force, what it knows, and what an impact does to it.
+
+It estimates the generalised force zeta from outside by the momentum D q', whose rate is beta + zeta; beta is
+what the model knows, and r the estimate.
+"""
 
 from dataclasses import replace
 
@@ -16,7 +20,9 @@ NO_STATE = np.zeros(0)
 
 
 def test_the_force_is_found_with_the_poles_chosen(biped, gait):
-    """r = zeta (1 - (b e^(a t) - a e^(b t)) / (b - a)) for all coordinates, whatever the robot does."""
+    """r = zeta (1 - (b e^(a t) - a e^(b t)) / (b - a)) for all coordinates, whatever the robot does: the step
+    response of two poles a and b, under a constant zeta in a walk.
+    """
     a, b = -40.0, -60.0
     zeta = np.array([20.0, -10.0, 5.0, 15.0, -8.0])
     law = MomentumDOBController(gait.constraint, MomentumObserver.from_poles((a, b)))
@@ -31,7 +37,9 @@ def test_the_force_is_found_with_the_poles_chosen(biped, gait):
 
 @pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
 def test_the_error_has_the_transfer_function_of_the_module(poles):
-    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the matrices of its flow at s = i w."""
+    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the matrices of its flow at s = i w: chi is the
+    polynomial with the k poles as roots, l_1 its first coefficient, w any frequency.
+    """
     observer, w = MomentumObserver.from_poles(poles), 37.0
     order, l_1 = observer.order, -float(np.sum(poles).real)
     zero, unit = np.zeros((order, order)), np.eye(order)
@@ -45,6 +53,9 @@ def test_the_error_has_the_transfer_function_of_the_module(poles):
 
 
 def test_a_constant_force_on_a_mass_is_found_without_error_in_discrete_time():
+    """p' = beta + zeta on one coordinate: after 500 ticks of 1 ms, 40 time constants of poles at -80 1/s, r is
+    zeta.
+    """
     observer, T = MomentumObserver.from_bandwidth(80.0).sampled(1e-3), 1e-3
     zeta, beta, momentum = np.array([7.0]), np.array([-3.0]), np.array([0.4])
     z = observer.initial_state(momentum, NO_STATE, np.zeros(1))

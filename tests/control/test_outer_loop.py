@@ -1,4 +1,11 @@
-"""Outer loops: the reference bent to the state after impact, the speed controlled from step to step."""
+"""Outer loops: the reference bent to the state after impact, the speed controlled from step to step.
+
+`ReferenceReset` adds to the constraint h after each impact a correction c that brings h to the state and fades
+out. `StridePI` bends h by beta, from a PI on the speed of the step before. The reference in force is h with
+what is added. The gait `recipe` has a constraint that the impact leaves; that of `published` is hybrid
+invariant. `bare` is the robot. `gap` is (q_b - q_d, q_b' - q_d') of the reference in force, `largest_error` the
+largest of the first.
+"""
 
 from __future__ import annotations
 
@@ -63,6 +70,9 @@ def test_a_constraint_that_the_impact_leaves_is_tracked_all_the_same(bare, recip
 
 
 def test_on_a_hybrid_invariant_constraint_there_is_nothing_to_correct(bare, published):
+    """The impact brings the state back onto h, so the correction c of every step is zero, from the start of the
+    phase to where it has faded out, up to the method's error.
+    """
     law = ReferenceReset(ba.NPDController(published.constraint))
     walk = ba.walk(ba.Walker(bare, law), published, 2, ba.RK4(5e-4))
     for arc in walk.trajectory.arcs:
@@ -72,7 +82,9 @@ def test_on_a_hybrid_invariant_constraint_there_is_nothing_to_correct(bare, publ
 
 
 def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
-    """The impact is linear in the rates, so h + c is one constraint, invariant at every speed."""
+    """The impact is linear in the rates, so h + c is one constraint, invariant at every speed. share: of the
+    speed of the cycle at impact; found: the coefficients of c, which are not zero.
+    """
     zero = ba.ZeroDynamics.of(bare, recipe.constraint)
     walker = ba.Walker(bare, ReferenceReset(ba.NPDController(recipe.constraint)))
     found = []
@@ -87,6 +99,10 @@ def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
 
 
 def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(bare, published):
+    """The largest eigenvalues of the return map's Jacobian, of the whole robot, are the three poles that
+    `stride_response` predicts from two degrees of freedom; all others are tracking, and small. own: the loop's
+    states before impact, the duration of the step and two zeros.
+    """
     gains = StrideGains(-0.9, -0.2)
     law = StridePI.on_gait(ba.NPDController(published.constraint), published, bare, gains)
     poles = stride_response(published, bare).poles(gains)
@@ -100,6 +116,7 @@ def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(
 
 
 def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, published):
+    """Their polynomial is that of a triple root, and gains 10 % off in each direction have a slower pole."""
     response = stride_response(published, bare)
     best = response.gains()
     poles = response.poles(best)
@@ -111,6 +128,9 @@ def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, publis
 
 
 def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, published):
+    """-10 N on the hip stop a walk under NPD; with StridePI beta goes to its bound, the integral too
+    (anti-windup), and the walk goes on.
+    """
     force = HipForce(bare, (-10.0, 0.0))
     inner = ba.NPDController(published.constraint)
     alone = ba.walk(ba.Walker(bare, inner, force, max_step_time=0.9), published, 8, RK4)
@@ -130,6 +150,10 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
 
 
 def test_what_cannot_be_corrected_is_refused(bare, published):
+    """No constraint at all, a reference in time; a share above 1; two numbers as the direction of four joints;
+    a negative speed; NaN; a curve that is no single polynomial; one number as direction; a response whose
+    triple pole would be outside the unit circle.
+    """
     h, gains = published.constraint, StrideGains(-1.0, -0.4)
     inner = ba.NPDController(h)
     in_time = TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
@@ -150,7 +174,9 @@ def test_what_cannot_be_corrected_is_refused(bare, published):
 
 
 def test_nothing_is_corrected_where_too_little_of_the_step_is_left_for_it(bare, published):
-    """x = 1 at the start of the step, 0 at its share 0.5; below 0.2 the correction would fall abruptly."""
+    """x = 1 at the start of the step, 0 at its share 0.5; below 0.2 the correction would fall abruptly. w: its
+    coefficients; the rates are 5 % too fast, so there is an error.
+    """
     law = ReferenceReset(ba.NPDController(published.constraint))
     walker, h = ba.Walker(bare, law), published.constraint
     for x, corrected in ((0.3, True), (0.1, False), (-0.1, False)):

@@ -1,4 +1,9 @@
-"""Outputs other than q_b: what y'' = J q'' + drift promises, on RABBIT."""
+"""Outputs other than q_b: what y'' = J q'' + drift promises, on RABBIT.
+
+OutputNPDController makes y'' + K_d y' + K_p y = 0 with the outputs y(q) in place of the joint errors.
+`absolute_outputs` are the gait's constraint in absolute angles, `foot_and_hip` a user's function: hip height,
+swing foot, torso. `torques` are those of controllers at (q, v); `state` is off the orbit.
+"""
 
 from dataclasses import replace
 
@@ -67,6 +72,9 @@ def errors(walker, outputs, q, v, times):
 
 @pytest.mark.parametrize("kind", ["absolute", "foot_and_hip"])
 def test_outputs_decay_as_the_linear_equation_says(biped, gait, state, kind):
+    """y and y' of the simulated robot are those of y'' + K_d y' + K_p y = 0 in closed form (`errors`), at three
+    times while they are still larger than 1e-2.
+    """
     made = {"absolute": absolute_outputs(gait.constraint), "foot_and_hip": foot_and_hip(biped)}[
         kind
     ]
@@ -82,6 +90,7 @@ def torques(biped, controllers, q, v):
 
 
 def test_outputs_that_are_the_joints_give_the_torque_of_npd(biped, gait, state):
+    """y = q_b - h(Theta), said as H0 = [I 0]: the torque of NPD, with other gains for each joint."""
     gains = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], [50.0, 60.0, 70.0, 80.0])
     joints = LinearOutputs(np.eye(4, 5), gait.constraint)
     pair = (OutputNPDController(joints, gains), ba.NPDController(gait.constraint, gains))
@@ -111,7 +120,9 @@ def test_derivatives_of_a_function_of_ones_own_are_those_by_hand(biped, state):
 
 
 def test_outputs_that_the_motors_cannot_move_apart(biped, gait, state):
-    """A straight swing leg cannot push its foot along itself; one output twice; one that nothing moves."""
+    """A straight swing leg cannot push its foot along itself; one output twice; a row of zeros and a constant,
+    which nothing moves. In each case J D^-1 B, from torques to y'', is singular.
+    """
     q, v = state
     straight = q * [1, 1, 1, 0, 1]
     same = LinearOutputs(np.eye(4, 5)[[0, 1, 2, 2]], gait.constraint)
@@ -147,6 +158,10 @@ def test_outputs_that_do_not_fit_are_refused(biped, gait, state):
 
 
 def test_what_outputs_of_ones_own_return_is_checked_at_every_call(state):
+    """Not only at the first one: `Mine` returns numbers before 1 s, and NaN from then on, which is refused with
+    the name of the class.
+    """
+
     class Mine(Outputs):
         def __call__(self, t, q, v):
             return OutputPoint(

@@ -1,4 +1,8 @@
-"""A controller of one's own with a NamedTuple as its state, beside one with the same numbers in a row."""
+"""A controller of one's own with a NamedTuple as its state, beside one with the same numbers in a row.
+
+`WithNames` is NPD with an integral e of the error that waits for the first large error; `InARow` is the same
+law with its state as an array. `walked` walks two steps under a push.
+"""
 
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -97,6 +101,9 @@ def walked(biped, gait, law, clock, engine):
 @pytest.mark.parametrize("clock", CLOCKS)
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
+    """Both laws do the same operations, so the walks are equal bit for bit, in each engine and clock; at the
+    end the integral has been at work.
+    """
     one, other = (walked(biped, gait, law, clock, engine) for law in (WithNames, InARow))
     assert one.trajectory.settings["engine"] == other.trajectory.settings["engine"] == engine
     for x, y in zip(one.trajectory.arcs, other.trajectory.arcs, strict=True):
@@ -108,6 +115,9 @@ def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
 
 
 def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
+    """Numbers of the state in the order of the vector: q, v, the controller's state s, and the torque u that is
+    held between sample instants.
+    """
     walk = ba.load_walk(walked(biped, gait, WithNames, "sampled", "compiled").save(tmp_path / "x"))
     names = walk.trajectory.settings["states"]
     assert len(names) == len(walk.trajectory.final_state)
@@ -116,12 +126,18 @@ def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
 
 
 def test_the_exported_c_walks_as_python(biped, gait):
-    """Over a touchdown, as in tests/export: the last place of an angle times the gains."""
+    """Over a touchdown, by the largest `difference` of the two walks; TOLERANCE is what tests/export allow: the
+    last place of an angle times the gains.
+    """
     walker = walked(biped, gait, WithNames, "sampled", "compiled").walker
     assert difference(walker, source_of(Computer(walker))) < TOLERANCE
 
 
 def test_another_state_than_at_the_start_is_refused_by_method(biped, gait):
+    """`predict` that returns an array for a named state is refused at once; `jump` with two numbers of four
+    ends the walk at the impact. Both say which method it was.
+    """
+
     def walked_by(**methods):
         law = type("WithNames", (WithNames,), methods)(gait.constraint)
         return ba.walk(ba.Walker(biped, law, timing=CLOCKS["sampled"]), gait, 2)

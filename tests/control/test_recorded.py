@@ -11,6 +11,12 @@ from .conforms import written
 
 
 def test_a_recording_is_interpolated_linearly_and_its_impulse_is_that_of_trapezoids(biped):
+    """NumPy's interpolation between the rows, in single support 2 from its start at 1 s plus 0.01 s; zero
+    before the first row and from the last on. The sum of widths times values in the middle is that of
+    trapezoids.
+
+    Recordings are cut into terms of PIECES pieces: 3 PIECES + 5 rows make more than three.
+    """
     random = np.random.default_rng(2)
     times = np.cumsum(random.uniform(0.001, 0.02, 3 * PIECES + 5))
     torques = 20.0 * random.normal(size=(len(times), 5))
@@ -31,8 +37,12 @@ def test_a_recording_is_interpolated_linearly_and_its_impulse_is_that_of_trapezo
 
 
 def test_columns_are_joints_by_either_name(biped):
+    """The column of q2 has its joint's name, right_hip; values are linear between the rows, an empty line is
+    skipped, and the torque is zero from the last row on. It begins 0.2 s after the start of step 3, at 7 s.
+    """
     file, still = written("q5,t,right_hip\n1,0,-2\n5,.4,-2\n\n5,.5,6"), np.zeros(5)
     made = RecordedTorque.read(file, biped, 3, 0.2)
+    # t = 0.2 + 0 s, 0.1 s and 0.45 s of the file
     for t, expected in ((0.2, (1.0, -2.0)), (0.3, (2.0, -2.0)), (0.65, (5.0, 2.0))):
         zeta = made.zeta(7.0 + t, 3, 7.0, still, still)
         assert zeta[[4, 1]] == pytest.approx(expected)
@@ -59,6 +69,9 @@ def test_wrong_files_of_recordings_are_refused_by_name(biped, text, message):
 
 
 def test_a_recording_is_named_in_a_scenario_and_refused_without_its_file():
+    """A recording goes on over impacts, so the times of its jumps, at the first row and at the last one, count
+    from the start of the walk: (0, seconds). Its onset is 0.05 s.
+    """
     file, named = (
         str(written("t,q1\n0,0\n0.1,20\n0.3,0\n")),
         {"shape": "recorded", "step": 1, "onset": 0.05},

@@ -1,4 +1,9 @@
-"""Batches: each run by itself, in order, the same whatever runs beside it."""
+"""Batches: each run by itself, in order, the same whatever runs beside it.
+
+A `Case` is a walker with its start and end; `simulate_many(cases, threads)` walks them in threads. `plain` is a
+case of NPD for two impacts, `mixed` ten cases of all kinds: robots, methods, clocks, starts, and ends such as a
+fall or NaN.
+"""
 
 import gc
 import threading
@@ -50,6 +55,7 @@ def plain(biped, gait, npd):
 
 
 def test_a_case_takes_a_gait_or_a_state(plain, gait):
+    """A gait gives its own start (q, v); with neither there is no start."""
     of_gait = Case(plain.walker, gait=gait, method=plain.method, impacts=2)
     assert np.array_equal(of_gait.q, plain.q)
     assert np.array_equal(of_gait.v, plain.v)
@@ -94,6 +100,9 @@ def same(one, other):
 
 
 def test_the_number_of_threads_changes_no_bit(mixed):
+    """Each case stands twice in the batch: one thread and three give the same, and so do both places. `same`
+    compares status, times, states and ends exactly.
+    """
     cases = [*mixed.values(), *mixed.values()]
     alone = list(simulate_many(cases, threads=1))
     assert len(alone) == len(cases)
@@ -131,6 +140,7 @@ def test_every_run_of_a_batch_is_the_single_run(mixed):
 
 
 def test_a_start_without_numbers_ends_its_own_run(plain):
+    """Rates of NaN end the second of three runs; the others are completed."""
     walked = list(simulate_many([plain, replace(plain, v=plain.v * np.nan), plain]))
     assert [w.status.name for w in walked] == ["COMPLETED", "NOT_FINITE", "COMPLETED"]
     assert "expected finite" in walked[1].detail
@@ -139,6 +149,9 @@ def test_a_start_without_numbers_ends_its_own_run(plain):
 
 @pytest.mark.parametrize("at_once", [False, True])
 def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
+    """In Python, after 0.1 s or in the first instant (at_once): each kind of error gives its status, and the
+    runs between, of the same batch, are completed.
+    """
     ends = {
         NotFiniteError: ba.Status.NOT_FINITE,
         SingularError: ba.Status.SINGULAR,
@@ -160,6 +173,9 @@ def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
 
 
 def test_a_case_that_does_not_fit_is_an_error(plain):
+    """It is no end of its own run, as above, but raises for the whole batch: the exponential method without an
+    observer, no impacts, a period of 1e-12 s, no threads. An empty batch is none.
+    """
     wrong = replace(plain, method=ba.Exponential())
     with pytest.raises(InputError, match="exponential method needs"):
         list(simulate_many([plain, wrong, plain]))
@@ -173,6 +189,7 @@ def test_a_case_that_does_not_fit_is_an_error(plain):
 
 
 def test_an_abandoned_batch_leaves_no_thread(plain):
+    """After two of 100 walks the iterator is deleted: its threads end."""
     before = {*threading.enumerate()}
     walks = simulate_many((replace(plain, impacts=3) for _ in range(100)), threads=3)
     assert len(list(islice(walks, 2))) == 2

@@ -1,4 +1,9 @@
-"""A stepping loop with compiled sample instants: the same walk as in Python, with the same ends."""
+"""A stepping loop with compiled sample instants: the same walk as in Python, with the same ends.
+
+The plant is MuJoCo's; the loop around it acts once per sample instant, in Python (`SteppingLoop`) or in machine
+code (`CompiledLoop`). `both` walks with each, and `same` compares status, nodes and all that was recorded, as a
+share of each quantity's largest value.
+"""
 
 from __future__ import annotations
 
@@ -63,6 +68,9 @@ HARDWARE = {
 def test_both_engines_make_the_same_walk_with_hardware_between_controller_and_plant(
     plant, gait, name
 ):
+    """name: of a row of HARDWARE: pushes, encoders with a torque limit, a known delay of 2.4 periods, or a rate
+    limit. 1e-6 is round-off times the gains of Table I.
+    """
     more = dict(HARDWARE[name])
     if name == "pushed":
         more["disturbance"] = PUSH + ba.HipForce(plant.biped, (20.0, -10.0))
@@ -73,6 +81,7 @@ def test_both_engines_make_the_same_walk_with_hardware_between_controller_and_pl
 
 
 def test_both_engines_make_the_same_walk_over_a_touchdown(plant, gait):
+    """Until 0.45 s, after the touchdown at about 0.42 s."""
     python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
     assert [event.guard for event in compiled.events()] == ["foot_strike"]
     same(python, compiled, 1e-6)
@@ -89,6 +98,9 @@ class Written(ba.Controller):
 
 
 def test_a_controller_that_branches_on_time_runs_in_python_on_a_compiled_model(plant, gait):
+    """It has no machine code, so it is called in Python, with the terms of its model from machine code; the
+    settings of the walk say so and why.
+    """
     python, compiled = both(plant, gait, Written(), 0.05, disturbance=PUSH)
     assert compiled.settings["engine"] == "compiled model"
     assert "Written" in compiled.settings["why"]
@@ -120,6 +132,9 @@ ENDS = {
 
 @pytest.mark.parametrize("name", ENDS)
 def test_both_engines_end_a_walk_with_the_same_status(plant, gait, name):
+    """name: of a row of ENDS: a torque of NaN, rates 1e9 times too large (`rushing`), which the simulator
+    cannot step, a push that raises, and a fall without torques.
+    """
     controller, more, t_end, change, status = ENDS[name]
     controller = controller or ba.NPDController(gait.constraint)
     python, compiled = both(plant, gait, controller, t_end, change, **more)

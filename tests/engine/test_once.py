@@ -1,4 +1,8 @@
-"""Walks share what does not differ between them, and nothing is remembered of what may change."""
+"""Walks share what does not differ between them, and nothing is remembered of what may change.
+
+`once(f)` keeps the results of f(part, ..) in the part itself, if `constant(part)`: nothing in it can change. A
+part is a frozen record such as a controller, a constraint or a walker.
+"""
 
 import os
 import pickle
@@ -28,6 +32,9 @@ def compiled(walker, gait):
 
 
 def test_walkers_that_differ_in_a_push_share_their_program(walker, gait):
+    """A push is no part of a program; gains are numbers K of it, so the walker with other gains has a program
+    of its own.
+    """
     pushed = replace(walker, disturbance=ba.TorquePulse([0.0, 9.0, 0.0, 0.0, 0.0], 2, 0.1, 0.2))
     other = replace(walker, controller=replace(walker.controller, gains=ba.Gains(3000.0, 90.0)))
     assert pushed.undisturbed is walker.undisturbed
@@ -38,6 +45,9 @@ def test_walkers_that_differ_in_a_push_share_their_program(walker, gait):
 
 
 def test_a_start_is_the_callers_own(walker, gait):
+    """initial_state remembers its result: the caller gets a copy, which he may overwrite, and another velocity
+    another start.
+    """
     q, v = gait.start(walker.plant)
     x = walker.initial_state(q, v)
     first = x.copy()
@@ -75,6 +85,9 @@ def test_what_may_change_is_not_remembered(biped, gait):
 
 
 def test_a_controller_with_an_array_from_outside_walks_by_its_numbers_of_now(biped, gait):
+    """The torque of `Outside` is an array of the caller's, who changes it between two walks: nothing of the
+    first may be used in the second.
+    """
     torque = np.zeros(4)
     walker = ba.Walker(biped, Outside(torque), timing=ba.SampledTime(1e-3))
     case = ba.Case(walker, *gait.start(biped), METHOD, 1)
@@ -85,6 +98,9 @@ def test_a_controller_with_an_array_from_outside_walks_by_its_numbers_of_now(bip
 
 
 def test_the_same_fields_give_the_same_copy_and_another_process_gets_none_of_it(walker):
+    """`shared` makes one copy per set of fields. What a part remembers (`_once`, `undisturbed`) is not pickled:
+    it stays in its process.
+    """
     a, b = shared(walker, slope=0.01), shared(walker, slope=0.02)
     assert shared(walker, slope=a.slope) is a
     assert b.slope == 0.02
@@ -120,6 +136,7 @@ def test_a_part_from_another_process_is_found_among_equal_ones_and_asked_again_w
 
 
 def test_a_part_keeps_the_last_results_and_drops_the_oldest(gait):
+    """64 results are kept: of 0 to 79, 16 to 79 are left, so 20 to 79 are found and 0 is asked for again."""
     asked = []
     squared = once(lambda part, x: asked.append(x) or x * x)
     results = [squared(gait.constraint, x) for x in (*range(80), *range(20, 80), 0)]

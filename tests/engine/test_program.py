@@ -1,4 +1,8 @@
-"""A walker's equations in machine code against the Python engine, at random states."""
+"""A walker's equations in machine code against the Python engine, at random states.
+
+Python's are Pinocchio's. Machine code is compiled from a closed form in absolute angles of a planar tree.
+`close` allows 1e-11 of the largest number.
+"""
 
 import math
 from dataclasses import replace
@@ -31,6 +35,9 @@ def close(found, expected):
 
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_terms_of_every_robot_are_pinocchio_s(robot):
+    """Inertia, bias and ground force; the acceleration by its residual, D a = torque + friction - bias, as a
+    share of the terms: so an ill-conditioned D does not count.
+    """
     biped = ba.Biped.load(robot)
     code = compiled_biped(biped)
     random = np.random.default_rng(5)
@@ -46,6 +53,9 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 
 @pytest.mark.parametrize("robot", ["rabbit", "three_link"])
 def test_terms_and_impact_at_a_thousand_states(robot):
+    """The terms that a controller gets: q_b'' = kappa u + xi, and q_N'' = A_N q_b'' + a_N of the coordinate
+    without a motor; and the state after impact by the program of a walker.
+    """
     biped = ba.Biped.load(robot)
     code, n = compiled_biped(biped), biped.n
     walker, still = Walker(biped, Passive()), np.zeros(n)
@@ -61,6 +71,7 @@ def test_terms_and_impact_at_a_thousand_states(robot):
             inverse = np.max(np.abs(np.linalg.inv(expected.D)))
             assert gap <= EXACT * np.max(np.abs(expected.Omega)) * inverse
         after = biped.impact(q, v)
+        # the input of the impact: time 0, single support 2, and the state
         struck = np.concatenate(([0.0, 2.0], q, v))
         found = call(program.machine, "impact", program.K, struck, 2 * n + 1)
         close(found, np.concatenate((after.q, after.v)))
@@ -68,6 +79,9 @@ def test_terms_and_impact_at_a_thousand_states(robot):
 
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_closed_form_on_numbers_is_pinocchio_s(robot):
+    """The same closed form in Python on numbers (`robot_of`), method by method; those in TUPLES return several
+    terms.
+    """
     biped = ba.Biped.load(robot)
     planar, random = robot_of(biped), np.random.default_rng(3)
     for _ in range(50):
@@ -93,6 +107,9 @@ def test_the_closed_form_on_numbers_is_pinocchio_s(robot):
 
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), SampledTime(1e-3)], ids=["all", "ticks"])
 def test_a_plant_that_is_not_the_model(gait, timing):
+    """`loop_compiles` compares flow, ticks and impacts in machine code with Python's at 200 random states:
+    plant, with friction, and model both have numbers of their own in the code.
+    """
     biped = ba.Biped.load("rabbit", friction=True)
     heavy = ba.ModelErrors(mass={"torso": 0.2}, inertia={"thigh": 0.15}).apply(biped)
     law = ba.ADRCController(gait.constraint)
@@ -121,7 +138,9 @@ def test_one_compilation_serves_every_number(biped, gait):
 
 @pytest.mark.parametrize("pose", [0.0, np.pi])
 def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
-    """One link of the swing leg is too long and another too short: the errors cancel in one pose."""
+    """One link of the swing leg is too long and another too short: the errors of the swing foot cancel in one
+    pose. The check against Pinocchio uses several, so it finds them.
+    """
     robot = robot_of(biped)
     wrong = np.zeros(biped.n)
     wrong[:2] = 0.1 * np.cos(pose * robot.A.sum(axis=1))[1::-1] * (1.0, -1.0)

@@ -1,4 +1,9 @@
-"""Return maps on the compiled engine against those on Pinocchio."""
+"""Return maps on the compiled engine against those on Pinocchio.
+
+A return map P takes the section coordinates s just before an impact to those before the next: the state without
+the coordinate that the ground fixes. `maps(walker, method)` are the compiled P and Pinocchio's, `section` a
+state near the gait's own before impact, and `has_compiled_form(P)` says which engine runs it.
+"""
 
 from dataclasses import replace
 
@@ -41,6 +46,9 @@ def adrc(biped, gait):
 
 
 def test_value_jacobian_and_fixed_point(gait, npd):
+    """P(s), three of nine columns of dP/ds (an angle, two rates) by differences, and the fixed point, which
+    Pinocchio's map leaves where it is.
+    """
     compiled, python = maps(npd, ba.RK4(5e-3))
     assert has_compiled_form(compiled)
     assert not has_compiled_form(python)
@@ -77,6 +85,7 @@ def test_an_observer_s_states_are_coordinates(gait, adrc):
     column = 10
     d = compiled.difference * np.eye(21)[column]
     difference = (python(s + d) - python(s - d)) / (2.0 * compiled.difference)
+    # the maps agree to 1e-6 or better, and a difference divides by 2e-5
     assert np.max(np.abs(J[:, column] - difference)) < 1e-2 * max(1.0, np.max(np.abs(difference)))
     bare, bare_python = maps(adrc, ba.Exponential(2e-3), controller_states=False)
     s = bare.project(x)
@@ -85,6 +94,7 @@ def test_an_observer_s_states_are_coordinates(gait, adrc):
 
 
 def test_sampled_control_with_its_held_torque(gait, npd):
+    """A clock that does not restart at impacts holds a torque over them, so P has four coordinates more."""
     walker = replace(npd, timing=ba.SampledTime(2e-3, restart=False))
     compiled, python = maps(walker, ba.RK4(2e-3))
     assert has_compiled_form(compiled)
@@ -94,6 +104,7 @@ def test_sampled_control_with_its_held_torque(gait, npd):
 
 
 def test_bits_do_not_depend_on_how_many_points_there_are(gait, npd):
+    """Five images at once, in threads, are those of one point at a time."""
     P = ReturnMap(npd, ba.RK4(5e-3))
     points = [P.project(section(gait, npd, seed)) for seed in range(5)]
     together = P.images(points)

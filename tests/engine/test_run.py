@@ -1,4 +1,15 @@
-"""Compiled runs against the Python engine's: the same arcs, nodes, events and statuses."""
+"""Compiled runs against the Python engine's: the same arcs, nodes, events and statuses.
+
+`runs(walker, gait, method)` walks two steps by the Python engine ("pinocchio") and by the compiled one, in
+machine code. `same(python, compiled, tolerance)` compares all nodes (stored instants) and events, as shares of
+each column's largest number, `same_events` the events alone. Tolerances: SHARP = 1e-11 is round-off of sums in
+another order, TICKS = 1e-10 in sampled time, where gains amplify it, LANDED = 1e-6 where the last sub-step
+before an event differs.
+
+A controller that cannot be traced, as it branches on a number, is called in Python by the "compiled plant";
+`in_part` asserts that, with the reason why, and the same walk. `npd` and `adrc` make controllers, `ticked` is a
+walker in sampled time with such a controller in Python.
+"""
 
 import re
 import signal
@@ -100,8 +111,9 @@ def same(python, compiled, tolerance, engine="compiled"):
 
 @pytest.mark.parametrize("restart", [True, False])
 def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
-    """Integration steps of 0.4 ms do not divide the period; a clock without restart counts from the late
-    start."""
+    """Integration steps of 0.4 ms do not divide the period; a clock without restart counts from the late start
+    at 0.41237 s, one with restart from each impact.
+    """
     time = ba.SampledTime(1e-3, restart)
     walker = ba.Walker(biped, adrc(gait), timing=time, torque_limit=120.0)
     python, compiled = runs(walker, gait, ba.RK4(4e-4), 2, mode=Mode(3, 0.41237))
@@ -112,13 +124,16 @@ def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
 
 
 def test_ticks_with_table_one_and_steps_longer_than_the_period(biped, gait):
-    """The gains of Table I amplify round-off to 1e-7."""
+    """The gains of Table I amplify round-off to 1e-7. Steps of 5 ms are cut at the ticks of 1 ms."""
     time = ba.SampledTime(1e-3)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), timing=time)
     same(*runs(walker, gait, ba.RK4(5e-3)), 1e-7)
 
 
 def test_a_run_that_begins_within_a_single_support(biped, gait):
+    """Step 2 began at 0.2 s, the run begins at 0.3 s and ends at a time, not at an impact; the longest time of
+    a step counts from 0.2 s. Then the same in sampled time.
+    """
     walker = ba.Walker(biped, npd(gait), max_step_time=0.5)
     late = {"mode": Mode(2, 0.2), "t0": 0.3, "t_end": 0.9, "impacts": None}
     same(*runs(walker, gait, ba.RK4(2e-3), **late), SHARP)
@@ -140,6 +155,9 @@ SEVERAL = (
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
+    """SEVERAL pushes: one within an integration step, one over an impact, one from the second single support
+    on, so that steps end at their jumps.
+    """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), SEVERAL, time)
     python, compiled = runs(walker, gait, ba.RK4(4e-3 if sampled else 2e-3))
@@ -147,6 +165,9 @@ def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
 
 
 def test_a_plant_that_is_not_the_model_on_a_slope_and_under_a_limit(biped, gait):
+    """A heavier torso and thigh than in the model; then also under a push and a lower torque limit by the
+    exponential method, which ends at events by other sub-steps (LANDED).
+    """
     plant = ba.ModelErrors(mass={"torso": 0.05}, inertia={"thigh": 0.2}).apply(biped)
     walker = ba.Walker(plant, adrc(gait), model=biped, slope=0.02, torque_limit=90.0)
     same(*runs(walker, gait, ba.RK4(1e-3)), SHARP)
@@ -157,6 +178,7 @@ def test_a_plant_that_is_not_the_model_on_a_slope_and_under_a_limit(biped, gait)
 
 
 def test_ground_steps_add_up(biped, gait):
+    """Two steps down of 2 mm and 1 mm in step 2: the swing foot lands 3 mm lower."""
     down = (ba.StepDown(2, 0.002), ba.StepDown(2, 0.001))
     walker = ba.Walker(biped, adrc(gait), ground_steps=down)
     python, compiled = runs(walker, gait, ba.RK4(2e-3), impacts=3)
@@ -187,6 +209,11 @@ FALLS = (ba.Status.FELL, ba.Status.RAN_AWAY)
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_both_engines_end_falls_stalls_and_time_outs_alike(biped, gait, sampled):
+    """A push of 60 N m on the torso makes a fall, without a torque limit a runaway; a step may last 0.3 s,
+    which is too short; 0.7 s are too short for two impacts, and end a run without a number of impacts well.
+
+    Falls amplify round-off to 1e-9.
+    """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), timing=time)
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
@@ -259,7 +286,9 @@ class Shaped(Stateless):
 
 
 def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
-    """A law that is compiled with the value of a closure is not found again for another value."""
+    """A law that is compiled with the value of a closure, here a factor 1 or 0.9 of the torque, is not found
+    again for another value.
+    """
     ends = []
     for factor in (1.0, 0.9):
         walker = ba.Walker(biped, Shaped(npd(gait), scaled(factor)))
@@ -271,6 +300,9 @@ def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
 
 # -- what is refused, and what is used instead -----------------------------------------------------
 def test_a_method_that_does_not_fit_is_refused(biped, gait):
+    """The exponential method for a controller without an observer, and in sampled time; then a run of no
+    duration, a start of NaN, an engine that does not exist.
+    """
     for walker in (
         ba.Walker(biped, npd(gait)),
         ba.Walker(biped, adrc(gait), timing=ba.SampledTime(1e-3)),
@@ -288,6 +320,10 @@ def test_a_method_that_does_not_fit_is_refused(biped, gait):
 
 
 def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(gait, monkeypatch):
+    """Machine code needs the closed form of a planar tree (`robot_of`), which is refused here; the run says
+    what was used instead and why.
+    """
+
     def refuse(biped):
         raise ModelError("no planar tree")
 
@@ -389,7 +425,10 @@ class Keeping(Controller):
 
 
 def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
-    """Its inputs lie in blocks of 256 sample instants, which must not be used again; all are read-only."""
+    """Its inputs lie in blocks of 256 sample instants, which must not be used again; all are read-only.
+    `Keeping` keeps them in a list, with the reference now and 0.1 s later, and all are as at their node in the
+    end.
+    """
     reference = Drifting(gait.constraint)
     walker = ba.Walker(biped, Keeping(reference), timing=ba.SampledTime(1e-3))
     x0, kept = walker.initial_state(*gait.start(biped)), walker.controller.kept
@@ -407,7 +446,9 @@ def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
 
 
 def test_an_interrupt_is_not_lost(gait, ticked):
-    """Most come while machine code runs, and are raised as the next method is called, before its first line."""
+    """Most come while machine code runs, and are raised as the next method is called, before its first line.
+    Alarms after 20 ms and more stand for Ctrl-C; each has to end the walks.
+    """
     x0 = ticked.initial_state(*gait.start(ticked.plant))
     walk = partial(simulate, ticked, x0, Mode(), ba.RK4(1e-3), t_end=0.2)
     whole, before = walk(), signal.signal(signal.SIGALRM, signal.default_int_handler)
@@ -424,7 +465,9 @@ def test_an_interrupt_is_not_lost(gait, ticked):
 
 
 def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
-    """A controller in Python walks on the compiled plant as on Pinocchio's, whatever is around it."""
+    """A controller in Python walks on the compiled plant as on Pinocchio's, whatever is around it: a push, a
+    step down, a slope, a heavy plant, a delay and encoders; also by Adaptive, which runs in Python.
+    """
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
     heavy = ba.ModelErrors(mass={"torso": 0.05}).apply(biped)
@@ -440,6 +483,9 @@ def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait,
 def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
     biped, gait, python, method
 ):
+    """By RK4, to round-off. Adaptive, which runs in Python, chooses other steps on the compiled plant: states
+    before impact are compared to 1e-6.
+    """
     walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):
         in_part(*runs(walker, gait, method), SHARP, "InPython.output")
@@ -450,6 +496,9 @@ def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
 
 
 def test_a_disturbance_without_machine_code_acts_alike_in_both_engines(biped, gait):
+    """`Falling` uses np.interp, which cannot be traced; the compiled plant calls it in Python, beside a force
+    on the hip, and names its line.
+    """
     hip = ba.HipForce(biped, (-2.0, 0.0))
     walker = ba.Walker(biped, npd(gait), Falling() + hip, ba.SampledTime(1e-3))
     in_part(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, "Falling.torque (test_run")
@@ -459,6 +508,7 @@ def test_a_disturbance_without_machine_code_acts_alike_in_both_engines(biped, ga
 @pytest.mark.parametrize("factor", [np.nan, 1e300])
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_a_torque_that_is_nan_or_huge_ends_both_engines_alike(biped, gait, python, sampled, factor):
+    """factor: of NPD's torque from 0.1 s on. NaN is no number, 1e300 a runaway."""
     broken = replace(python, after=0.1, factor=factor)
     law, timing = (
         (broken, ba.SampledTime(1e-3)) if sampled else (Stateless(broken), ba.ContinuousTime())
@@ -492,6 +542,9 @@ class Jumping(InPython):
     ],
 )
 def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, status):
+    """At its first impact, which then is no event; an error that is not the package's is named with its place.
+    The end is the last node before, up to an integration step of 1 ms.
+    """
     npd = ba.NPDController(gait.constraint)
     walker = replace(ticked, controller=Jumping(npd, raises=raises))
     python, partly = runs(walker, gait, ba.RK4(1e-3))
@@ -507,6 +560,7 @@ def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, s
 
 
 def test_an_interrupt_within_a_sample_instant_is_raised(gait, ticked):
+    """It ends the program, not only the run as errors do."""
     npd = ba.NPDController(gait.constraint)
     walker = replace(ticked, controller=Jumping(npd, raises=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
@@ -571,6 +625,9 @@ IN_PYTHON = {
 
 @pytest.mark.parametrize("cls", IN_PYTHON)
 def test_what_cannot_be_compiled_runs_in_python_and_names_class_line_and_code(biped, gait, cls):
+    """Each class of IN_PYTHON has one line that cannot be traced: the walk is that of Python, and the reason
+    has the class, the number of that line, its code and what is wrong with it.
+    """
     walker = ba.Walker(biped, cls(npd(gait)), timing=ba.SampledTime(1e-3))
     python, partly = runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None)
     in_part(python, partly, TICKS, IN_PYTHON[cls])
@@ -587,6 +644,9 @@ def test_what_cannot_be_compiled_runs_in_python_and_names_class_line_and_code(bi
     ],
 )
 def test_other_classes_run_in_python(biped, gait, cls, why):
+    """A class that is no dataclass has no fields to compare; one that catches exceptions may swallow those by
+    which tracing stops.
+    """
     walker = ba.Walker(biped, cls(npd(gait)), timing=ba.SampledTime(1e-3))
     in_part(*runs(walker, gait, ba.RK4(1e-3), impacts=1), TICKS, why)
 
@@ -604,6 +664,9 @@ class Plain(Stateless):
 
 
 def test_a_controller_of_the_user_s_is_compiled(biped, gait):
+    """`Plain` is written for NumPy and floats, without a thought of symbols: dict, float(), np.linalg.norm,
+    max, isinstance.
+    """
     walker = ba.Walker(biped, Plain(npd(gait)), timing=ba.SampledTime(1e-3))
     same(*runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None), TICKS)
 
@@ -618,8 +681,9 @@ def test_a_controller_of_the_user_s_is_compiled(biped, gait):
     ],
 )
 def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, ask):
-    """With Python's own == a symbol would never equal a number, and the law would be compiled with that
-    answer."""
+    """With Python's own == a symbol would never equal a number, and the law would be compiled with that answer.
+    ask: about the number of the step, which is 1, then 2.
+    """
 
     class Asking(Stateless):
         def output(self, s, m):
@@ -630,6 +694,9 @@ def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, a
 
 
 def test_progress_is_called_at_each_impact_and_the_settings_name_the_engine(gait, ticked):
+    """With the time and the number of the impact. What ran is in the settings: the compiled plant for a
+    controller in Python, and Pinocchio where it is asked for.
+    """
     x0 = ticked.initial_state(*gait.start(ticked.plant))
     told = []
     more = {"t_end": 4.0, "impacts": 2, "progress": lambda t, n: told.append((t, n))}
@@ -644,7 +711,8 @@ def test_progress_is_called_at_each_impact_and_the_settings_name_the_engine(gait
 @pytest.mark.parametrize("h", [7e-4, 2.5e-3, 9e-3])
 def test_all_nodes_of_the_longest_single_support_are_kept(biped, gait, h):
     """Memory for nodes is taken beforehand: it is enough where sample instants, a waiting torque, switching
-    times of a push and short last steps leave as many nodes as possible.
+    times of a push and short last steps leave as many nodes as possible. h [s]: steps shorter and longer than
+    the period; 0.0995 s is no whole number of them.
     """
     push = ba.TorquePulse(PULSE, step=1, start=0.01, stop=0.0123)
     timing = ba.SampledTime(1e-3, delay=4e-4)
@@ -664,6 +732,7 @@ class Free(Controller):
 
 @pytest.mark.parametrize("robot", ["compass", "rimless_wheel", "simplest"])
 def test_a_robot_without_motors_under_a_controller_in_python(robot):
+    """Arrays of no torque at all pass between machine code and Python."""
     biped = ba.Biped.load(robot)
     cycle = passive_cycle(biped)
     walker = ba.Walker(biped, Free(), slope=cycle.slope, timing=ba.SampledTime(1e-3))
@@ -713,6 +782,9 @@ def test_a_controller_in_python_that_changes_its_reference(biped, gait):
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_walk_that_starts_with_the_hip_too_low_and_sinking_falls_at_once(biped, gait, engine):
+    """The state is from late in a step, where the hip sinks; the limit is 1 mm above it, as a share of the
+    height of the straight leg. So the fall is at 0 s, and the state is unchanged.
+    """
     arc = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).trajectory.arcs[0]
     q, v = np.split(arc.x[int(0.8 * len(arc.t)), :10], 2)
     limit = (biped.hip(q)[1] + 1e-3) / np.linalg.norm(biped.hip(np.zeros(5)))

@@ -1,4 +1,8 @@
-"""Machine code on disk: damaged files are made again, what cannot be written is made in memory."""
+"""Machine code on disk: damaged files are made again, what cannot be written is made in memory.
+
+`make()` loads or compiles f(x) = x + 1, and returns f(41) = 42 with the number of compilations; VARIABLE names
+the environment variable with the folder of the code.
+"""
 
 import os
 import subprocess
@@ -56,6 +60,7 @@ def make(monkeypatch):
 
 
 def test_machine_code_is_made_once(make, tmp_path, monkeypatch):
+    """One compilation in an empty folder, none the second time."""
     monkeypatch.setenv(VARIABLE, str(tmp_path))
     assert make() == (42.0, 1)
     assert make() == (42.0, 0)
@@ -63,6 +68,9 @@ def test_machine_code_is_made_once(make, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("damage", [b"", b"broken", None])
 def test_damaged_machine_code_is_made_again(make, damage, tmp_path, monkeypatch):
+    """damage: an empty file, a text, or (None) one bit of the code that is another; `fetch` refuses it, and the
+    code is compiled and stored anew.
+    """
     monkeypatch.setenv(VARIABLE, str(tmp_path))
     make()
     (path,) = tmp_path.glob("code/*.bin")
@@ -93,6 +101,9 @@ def test_what_cannot_be_written_is_made_in_memory(make, tmp_path, monkeypatch):
 
 
 def test_several_processes_make_the_same_code_and_another_one_traces_nothing(cache):
+    """Two processes at once in an empty folder get the same number, and both end well. A third prints no more
+    than that: a 1 would follow for each tracing.
+    """
     lines = (
         "import numpy as np, biped_adrc as ba\n"
         "from functools import partial\n"

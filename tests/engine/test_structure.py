@@ -1,4 +1,9 @@
-"""Code in memory is found by structure: new numbers compile nothing, a class defined anew does."""
+"""Code in memory is found by structure: new numbers compile nothing, a class defined anew does.
+
+`structure(part)` has classes, integers and shapes of arrays, but no values of floats: equal ones share their
+code. `value(term)` is the torque of a disturbance at rates 1 to 5, by machine code and by Python; HEAD is the
+text of a user's class `Own` with a torque to fill in.
+"""
 
 import sys
 import types
@@ -40,6 +45,7 @@ def value(term):
 
 
 def test_a_class_defined_anew_is_compiled_anew():
+    """As in a notebook cell that is run again: the same name, another factor, and the code follows."""
     own = types.ModuleType("own")
     for factor in (1.25, 1.75):
         exec(f"def f(x): return {factor} * x" + HEAD.format(torque="f(v)"), vars(own))
@@ -49,6 +55,7 @@ def test_a_class_defined_anew_is_compiled_anew():
 
 
 def test_functions_in_modules_of_the_user_s_are_compiled_too(tmp_path, monkeypatch):
+    """A function in the user's package `tools`, which the torque calls, is traced with the torque."""
     folder = tmp_path / "tools"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
@@ -66,6 +73,9 @@ def test_functions_in_modules_of_the_user_s_are_compiled_too(tmp_path, monkeypat
 
 @pytest.mark.parametrize("make", [tuple, list, np.array])
 def test_numbers_are_no_structure(make):
+    """Values of floats do not count, but with exact=True; lengths do, and so do types: 1, True, "1", None and
+    1.0 are five structures.
+    """
     one, other, shorter = (structure((make(x),)) for x in ([1.5, 2.0], [2.5, 3.0], [2.5]))
     assert one == other
     assert one != shorter
@@ -84,11 +94,14 @@ class Slope:
 
 
 def test_a_type_of_another_name_is_the_type():
-    """A field annotated by an alias of float, or by its name as text, is a float though it holds 2."""
+    """A field annotated by an alias of float, or by its name as text, is a float though it holds 2: only the
+    integer `count` is a part of the structure.
+    """
     assert structure(Slope(2, 3, 4)) == structure(Slope(5, 6, 4)) != structure(Slope(2, 3, 5))
 
 
 def test_the_same_structure_is_compiled_once():
+    """Two calls with one key: the function is traced once."""
     made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
         generated(once, {"f": lambda: made.append(1) or SymbolicFunction(x, y, y)})
@@ -96,6 +109,9 @@ def test_the_same_structure_is_compiled_once():
 
 
 def test_another_process_finds_what_is_this_packages_own(monkeypatch):
+    """`lasting` names a structure for code on disk. It is empty for a user's class or function, and once a
+    method of the package was replaced, since equal names may then mean other code.
+    """
     pulse, own = structure(ba.TorqueStep([1.0])), types.ModuleType("own")
     exec(HEAD.format(torque="v"), vars(own))
     assert lasting(pulse) == lasting(structure(ba.TorqueStep([2.0]))) != ""
@@ -126,6 +142,9 @@ class Random(Wave):
 
 
 def test_two_pushes_of_one_structure_act_by_their_own_numbers_in_one_process(biped, gait):
+    """`Wave` is a user's push with two numbers: the second walk finds the code of the first, and is still that
+    of Python.
+    """
     for pair in ((5.0, 9.0), (9.0, 40.0)):
         walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wave(pair))
         one, two = (
@@ -147,7 +166,9 @@ class Linearising(ba.Controller):
 
 
 def test_functions_of_the_package_compile_also_where_it_is_installed(biped, gait, monkeypatch):
-    """As by `pip install .`: the package is then in a folder of libraries."""
+    """As by `pip install .`: the package is then in a folder of libraries (LIBRARIES), and must not be taken
+    for one. The controller is a user's that calls functions of the package.
+    """
     folder = str(Path(ba.__file__).parents[1])
     monkeypatch.setattr("biped_adrc.engine.structure.LIBRARIES", (*LIBRARIES, folder))
     walk = ba.walk(ba.Walker(biped, Linearising(gait.constraint)), gait, 1)
@@ -156,12 +177,14 @@ def test_functions_of_the_package_compile_also_where_it_is_installed(biped, gait
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_torque_of_the_wrong_length_is_refused(biped, gait, engine):
+    """`Short` returns one of five torques."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Short((5.0, 9.0)))
     with pytest.raises(InputError, match=r"expected (5|\(5,\))"):
         ba.walk(walker, gait, 1, ba.RK4(2e-3), engine=engine)
 
 
 def test_a_draw_of_random_numbers_is_not_compiled(biped, gait):
+    """Machine code would draw once, when it is compiled; so the push runs in Python, and the walk says why."""
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Random((5.0, 9.0)))
     walk = ba.walk(walker, gait, 1, ba.RK4(2e-3))
     assert "random numbers" in walk.trajectory.settings["why"]

@@ -1,4 +1,9 @@
-"""Texts for LLVM that come with the package fit the sources; a damaged one is written anew or refused."""
+"""Texts for LLVM that come with the package fit the sources; a damaged one is written anew or refused.
+
+The package's loops are compiled from such texts, which numba writes, so that users need no numba. Their first
+line is a hash of the sources and the text. `damaged` makes the package read a text in which one instruction is
+another.
+"""
 
 from ctypes import CFUNCTYPE, c_int64, c_void_p
 
@@ -13,6 +18,7 @@ from biped_adrc.engine.machine import load_or_compile
 
 @pytest.mark.parametrize("files", [load.FILES, LOOPS], ids=["march", "nodes"])
 def test_a_text_fits_the_sources(files):
+    """`files` are the modules of one text; their first line is made anew from the sources as they are now."""
     first, _, text = load.text_file(files).read_text(encoding="utf-8").partition("\n")
     message = "run python -m validation.texts"
     assert first == load.head(files, text), message
@@ -39,11 +45,15 @@ def totals_by(text):
 
 
 def test_a_damaged_text_is_written_anew(damaged):
+    """numba writes it again, and the loop over nodes gives by hand: the largest |e|; the number of nodes that
+    count; of these the sums of e^2, u^2, |u dq| and u dq, dq to the next node.
+    """
     # e = 4, then 16; u = 5; q from 6 to 18: the sums are over the first node
     assert totals_by(load.loops.__wrapped__(LOOPS)).tolist() == [16.0, 1.0, 16.0, 25.0, 60.0, 60.0]
 
 
 def test_without_numba_a_damaged_text_is_refused(damaged, monkeypatch):
+    """`find_spec` says here that numba is not installed."""
     monkeypatch.setattr(load, "find_spec", lambda name: None)
     with pytest.raises(ModelError, match=r"demands.ll is damaged .* reinstall biped-adrc"):
         load.loops.__wrapped__(LOOPS)

@@ -2,14 +2,15 @@
 
     |x_C(t) - x(t)|  <=  TOLERANCE max |x|       for angles, rates, torques and what sensors and motors hold
 
-x is a walk by Python's laws with Pinocchio's model, x_C the walk in which every sample instant and touchdown
-is a call of the C. Both start shortly before a touchdown, on a plant that is not the model, under a push that
-brings the motors to their limit, and go on after it.
+x is a walk by Python's laws with Pinocchio's model, x_C the walk in which every sample instant and touchdown is
+a call of the C; `difference(walker, source)` is the left side over max |x|. Both start shortly before a
+touchdown, on a plant that is not the model, under a push that brings the motors to their limit, and go on after
+it.
 
 The C has the operations of the laws in their order, and another model than Pinocchio, so rounding tells the
-walks apart: some 1e-16 of the terms that are added, times the gains, carried on for 50 ms. Table I's gains
-make 1e-10 of the torque of an angle's last place, which grows to 3e-8 with an unknown delay; by all others the
-walks differ by at most 3e-11. Another processor may round otherwise.
+walks apart: some 1e-16 of the terms that are added, times the gains, carried on for 50 ms. Table I's gains make
+1e-10 of the torque of an angle's last place, which grows to 3e-8 with an unknown delay; by all others the walks
+differ by at most 3e-11. Another processor may round otherwise. So TOLERANCE is 4e-10, with Table I 1e-6.
 """
 
 from dataclasses import replace
@@ -126,6 +127,12 @@ def difference(walker, source, so_long=0.03):
 
 @pytest.mark.parametrize(("kind", "name", "thing", "hardware"), cases())
 def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
+    """Each thing of the registry (kind, name) with one kind of hardware in turn, and ADRC with all kinds. What
+    runs in Python or in continuous time alone (NOT_EXPORTED) is refused.
+
+    A detector of touchdowns starts 0.11 s before the touchdown, since it listens from 0.1 s after the last one
+    on.
+    """
     if name in NOT_EXPORTED:
         with pytest.raises(InputError, match=type(thing).__name__):
             source_of(Computer(walker_of(kind, thing, hardware)))
@@ -138,6 +145,9 @@ def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
 
 @pytest.mark.parametrize("name", ["NPD", "DOB"])
 def test_c_in_single_precision_walks_as_python_to_single_precision(name):
+    """A place of float is 5e8 times one of double: IN_FLOAT = 1e-3, and more than 1e-9, which doubles never
+    reach, shows that floats are used.
+    """
     walker = walker_of("controller", made("controller", name)[0], "ideal")
     found = difference(walker, source_of(Computer(walker), real="float32"))
     assert 1e-9 < found <= IN_FLOAT  # more than doubles differ, so floats are used
@@ -145,6 +155,9 @@ def test_c_in_single_precision_walks_as_python_to_single_precision(name):
 
 @pytest.mark.parametrize("number", ["rotor[2]", "curve.stacked[0, 4, 4]", "gains.K_d"])
 def test_a_constant_that_is_wrong_by_1e_9_is_seen(number):
+    """The comparison is sharp: one constant in the C's text, of the model, the gait or the gains, changed by
+    1e-9 of itself, exceeds the tolerance.
+    """
     walker = walker_of("controller", made("controller", "NPD")[0], "ideal")
     source = source_of(Computer(walker))
     text = source.files["controller.c"]

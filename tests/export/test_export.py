@@ -1,4 +1,10 @@
-"""An exported controller: what its functions do without a measurement, its program, its folder."""
+"""An exported controller: what its functions do without a measurement, its program, its folder.
+
+The C has three functions: init, step (at a sample instant; it returns a flag and the torque u) and touchdown.
+`recorded(name)` gives the exported controller of a scenario, "NPD" (every 1 ms) or "on a robot" (encoders,
+delay and detected touchdowns, every 1.5 ms), compiled and loaded, and all calls of it in a walk:
+`calls[i][1:4]` are t, q and v.
+"""
 
 import errno
 import os
@@ -30,7 +36,10 @@ SANITIZERS = ("-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad):
-    """The last torque is held for five samples without a measurement, and is zero from the sixth on."""
+    """bad: in place of the time, an angle or a rate. The last torque is held for five samples without a
+    measurement, and is zero from the sixth on; a touchdown then counts no step, and a good sample is taken
+    again.
+    """
     loaded, calls = recorded("NPD")
     for entry in ("t", "q", "v"):
         _, x = loaded.init(loaded.measured(*calls[0][1:4]))
@@ -51,7 +60,8 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad)
 
 def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
     """Samples 40 to 42 are lost: the rate of 39 stays until 43; what it is off from a walk without loss then
-    decays."""
+    decays, by the low-pass of the encoders.
+    """
     loaded, calls = recorded("on a robot")
     rates = {}
     for bad in (range(40, 43), range(0)):
@@ -67,6 +77,9 @@ def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
 
 
 def test_a_walk_that_runs_away_ends_as_that_of_python():
+    """A delay of 20 ms makes the torque grow without limit; the C ends the walk at the same instant with the
+    same status.
+    """
     scenario = ba.Scenario("NPD", hardware={"period": 1e-3, "delay": 2e-2}, run={"impacts": 1})
     controller = ExportedController(source_of(Computer(build(scenario))))
     here = ba.walk_scenario(scenario).trajectory
@@ -76,6 +89,7 @@ def test_a_walk_that_runs_away_ends_as_that_of_python():
 
 
 def test_an_exported_controller_acts_at_sample_instants(biped, gait):
+    """A walker is in continuous time by default, which the C cannot serve."""
     controller = ExportedController(recorded("NPD")[0].source)
     with pytest.raises(InputError, match=r"acts at sample instants; give timing=SampledTime"):
         ba.walk(ba.Walker(biped, controller), gait, 1)
@@ -83,6 +97,9 @@ def test_an_exported_controller_acts_at_sample_instants(biped, gait):
 
 @pytest.mark.parametrize("flag", loading.ERRORS)
 def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
+    """The C returns the flag at the tick of 3 ms; no measurement (1) and no number (2) both end the walk as
+    NOT_FINITE.
+    """
     name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
 
     class Failing(ExportedController):
@@ -112,6 +129,7 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
 
 
 def test_header_and_readme_say_what_the_caller_has_to_do():
+    """Period, gait, where rates come from, the delay and the touchdown: each by the scenario's own hardware."""
     files = [recorded(name)[0].source.files for name in SCENARIOS]
     npd, robot = (" ".join(x["controller.h"].split()) for x in files)
     assert "every 1 ms: laws, gait" in npd
@@ -147,6 +165,10 @@ class Own(Sensor):
 
 
 def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
+    """Continuous time, a solver that has no C, sensors that do not say what of them is software or say
+    something else than encoders, NaN in a number; then names that are none in C or clash with its own, and an
+    unknown type of number. No file is written.
+    """
     walker = build(ba.Scenario("NPD", hardware="ideal"))
     share = Share(walker.controller.reference, share=np.nan)
     for scenario, word in [
@@ -166,6 +188,9 @@ def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
 
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path):
+    """To write the same export again is allowed; another export, a file changed by hand, a link and a file of
+    the user's are refused by name, and stay.
+    """
     new = tmp_path / "new"
     export_c(NPD, new, fmu=True)
     before = {x.name: x.read_bytes() for x in new.iterdir()}
@@ -173,6 +198,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
     subprocess.run(["make", "-s", "-C", new, "float"], check=True)
     export_c(NPD, new)  # what make has built is no file of somebody else
     assert {x.name: x.read_bytes() for x in new.iterdir() if x.name != "main"} == before
+    # another scenario into the same folder
     with pytest.raises(OutputError, match="other than it would be written"):
         export_c(ON_A_ROBOT, new)
     (new / "main.c").write_text("changed by hand")
@@ -194,7 +220,8 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
 
 @pytest.mark.parametrize(("name", "grows"), [("ADRC", True), ("NPD", False)])
 def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, gait, biped):
-    """Two states of a controller on the same motion, each with its own torque, part at the rate `growth`.
+    """Two states of a controller on the same motion, each with its own torque, part at the rate `growth`, which
+    is an eigenvalue of the linear map from tick to tick.
 
     Of ADRC exponentially, measured over 399 periods of 1 ms; a PD law has no state that could grow.
     """
@@ -216,6 +243,10 @@ def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, ga
 def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
     tmp_path, monkeypatch
 ):
+    """Monkeypatches stand for a full disk, a machine without a name in FMI, and a computer without a C
+    compiler; text that does not compile is refused with the compiler's words.
+    """
+
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device")
 
@@ -248,6 +279,9 @@ REQUIRED = os.environ.get("REQUIRED_COMPILERS", "").split()
 @pytest.mark.parametrize("program", [x for x in COMPILERS if x in REQUIRED or shutil.which(x)])
 @pytest.mark.parametrize("real", ["double", "float"])
 def test_no_compiler_warns(tmp_path, program, real):
+    """C99 and C++, in double and float, with all warnings as errors; `leg` is another prefix of the names than
+    the default.
+    """
     export_c(ON_A_ROBOT, tmp_path / "c", prefix="leg")
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
     command = [program, *COMPILERS[program], *strict, "-c", "-o", os.devnull]
@@ -275,6 +309,9 @@ def line_of(landed, call):
 
 
 def test_the_program_prints_the_torques_bit_for_bit(program):
+    """`program` reads lines "landed t q v", where landed = 1 follows a touchdown, and prints "flag u" of
+    `step`: the torques of the recorded walk. An empty line is skipped; at a time of NaN the torque is held.
+    """
     _, calls = recorded("on a robot")
     lines, wanted, landed = [], [], 0
     for call in calls:
@@ -288,6 +325,9 @@ def test_the_program_prints_the_torques_bit_for_bit(program):
 
 @pytest.mark.parametrize("bad", ["one", "0 0.1", "{} 1", "{} x", "0 nan"])
 def test_the_program_ends_at_a_line_that_is_no_sample(program, bad):
+    """bad: no number, too few, one too many or a word too many ({} is the good line), too few with a NaN.
+    Nothing is printed for it or for what follows, and the exit code is 9.
+    """
     good = line_of(0, recorded("on a robot")[1][0])
     code, made = printed(program, [good, bad.format(good), good])
     assert (code, len(made)) == (9, 1)

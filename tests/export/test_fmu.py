@@ -1,4 +1,11 @@
-"""An exported controller as an FMU of FMI 2.0: FMPy steps it beside the C, call by call."""
+"""An exported controller as an FMU of FMI 2.0: FMPy steps it beside the C, call by call.
+
+An FMU is a zip with a description and a program. Its inputs are q, v and the switch `touchdown`, its outputs
+the torque u and `flag`; U, TOUCHDOWN and FLAG are their numbers. It steps every 1.5 ms. `folder` is the FMU
+unpacked, `loaded` the same controller as C without FMI, `calls` its calls in a walk with two touchdowns and
+`torques` what it returns for them. A `Stepped` is an instance of the FMU: `given` sets inputs, `run(calls)`
+steps, `made` are flag and torque, `said` is what it logged.
+"""
 
 import os
 import shutil
@@ -126,6 +133,9 @@ class Stepped:
 
 
 def test_the_description_is_valid_and_says_what_there_is(folder):
+    """FMPy's own check finds nothing; ports are q, v, u, touchdown and flag in this order, with units and names
+    of joints, and the step is the period of 1.5 ms.
+    """
     assert validate_fmu(str(folder.parent / "controller.fmu")) == []
     found = fmpy.read_model_description(folder, validate_model_structure=True)
     ports = {x.name: (x.causality, x.variability, x.unit) for x in found.modelVariables}
@@ -141,6 +151,9 @@ def test_the_description_is_valid_and_says_what_there_is(folder):
 
 
 def test_the_c_is_unchanged_and_the_archive_is_the_same_each_time(loaded, folder):
+    """Sources are those of the export; made again, the archive has the same bytes, as its files have a fixed
+    date. The description comes first, as the standard asks.
+    """
     for name in ("controller.c", "controller.h"):
         assert (folder / "sources" / name).read_text() == loaded.source.files[name]
     assert fmu_of(loaded.source).data == (folder.parent / "controller.fmu").read_bytes()
@@ -150,6 +163,7 @@ def test_the_c_is_unchanged_and_the_archive_is_the_same_each_time(loaded, folder
 
 
 def test_the_torques_are_those_of_the_c_bit_for_bit(folder, calls, torques):
+    """Over two touchdowns, with torques beyond 90 N m, so that there is something to differ."""
     assert [call.kind for call in calls].count("touchdown") == 2
     assert np.max(np.abs(torques)) > 90.0
     with Stepped(folder) as fmu:
@@ -158,6 +172,7 @@ def test_the_torques_are_those_of_the_c_bit_for_bit(folder, calls, torques):
 
 
 def test_without_a_compiler_it_has_its_sources_alone(loaded, monkeypatch):
+    """`which` finds no compiler: the archive has no folder of binaries, and says so."""
     assert contents() == "sources, and a binary for linux64"
     monkeypatch.setattr(loading.shutil, "which", lambda name: None)
     assert "sources alone, since there is no C compiler" in contents()
@@ -165,6 +180,9 @@ def test_without_a_compiler_it_has_its_sources_alone(loaded, monkeypatch):
 
 
 def test_a_state_that_was_saved_goes_on_equally_also_in_another_instance(folder, calls, torques):
+    """Saved three calls after the first touchdown: the first instance goes on, returns to the saved state and
+    goes on again, a second one takes it as bytes. Bytes that are cut off are refused.
+    """
     half = next(i for i, call in enumerate(calls) if call.kind == "touchdown") + 3
     done = sum(call.kind == "step" for call in calls[:half])
     with Stepped(folder) as fmu, Stepped(folder) as other:
@@ -192,6 +210,9 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_step_is_refused_until_reset(folder, calls, torques, name):
+    """WRONG: time and length of the step, words of the error. After it any step is refused; after a reset the
+    torques are those from the start again.
+    """
     t, step, words = WRONG[name]
     with Stepped(folder, stop=PERIOD / 2 if name == "beyond the end" else 1.0) as fmu:
         fmu.given(calls[1].q, calls[1].v)
@@ -207,6 +228,7 @@ def test_a_wrong_step_is_refused_until_reset(folder, calls, torques, name):
 
 
 def test_rounding_of_the_clock_is_no_wrong_step(folder, calls):
+    """At 1e4 s sums of 1.5 ms are off by 1e-12 s; no step is refused, as `do_step` would raise."""
     with Stepped(folder, start=1e4) as fmu:
         t = 1e4
         for call in calls[1:200]:
@@ -218,6 +240,9 @@ def test_rounding_of_the_clock_is_no_wrong_step(folder, calls):
 def test_what_is_not_measured_ends_in_the_safe_torque_and_a_touchdown_then_waits(
     folder, loaded, calls
 ):
+    """As in C, the last torque is held for five samples and is then zero. The switch that goes on meanwhile is
+    the touchdown of the first sample that is measured again.
+    """
     landing = next(i for i, call in enumerate(calls) if call.kind == "touchdown")
     _, x = loaded.init(loaded.measured(*calls[1][1:4]))
     with Stepped(folder) as fmu:
@@ -243,6 +268,7 @@ def test_what_is_not_measured_ends_in_the_safe_torque_and_a_touchdown_then_waits
 
 
 def test_a_switch_that_is_on_from_the_start_is_no_touchdown(folder, calls, torques):
+    """A touchdown is the switch's going on; here it never does, so the torques are those of step 1."""
     with Stepped(folder) as fmu:
         for i, call in enumerate(calls[1:20]):
             fmu.given(call.q, call.v, touchdown=True)
@@ -274,6 +300,9 @@ CALLS = {
 
 @pytest.mark.parametrize("name", CALLS)
 def test_what_fmi_does_not_allow_is_refused(folder, name):
+    """name: of a call in CALLS that the standard forbids in this state; two of them need an instance that has
+    not started. Each logs one message.
+    """
     with Stepped(folder) as fmu:
         if name in ("a step before the start", "an end that is no time"):
             fmu.slave.reset()
@@ -291,6 +320,9 @@ HEADERS = Path(fmpy.__file__).parent / "c-code"
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize(("headers", "real"), [([], "float"), ([f"-I{HEADERS}"], "double")])
 def test_no_compiler_warns(folder, compiler, headers, real):
+    """The FMU's source with all warnings as errors: with its own declarations in float, and with the standard's
+    headers in double.
+    """
     program, *flags = compiler.split()
     strict = ["-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DCONTROLLER_REAL={real}"]
     files = [*headers, "-c", "-o", os.devnull, str(folder / "sources" / "controller_fmu.c")]

@@ -60,6 +60,9 @@ def written() -> dict[str, Any]:
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("name", CASES["walk"])
 def test_walk_is_as_stored(name: str, engine: str) -> None:
+    """Status, end, verdict and largest values of a scenario's walk are those in walks.json, which was written
+    by this code before: numbers to 1e-6, words exactly. A change by accident shows here.
+    """
     before, after = written()[name][engine], walked(name, engine)
     for key, x in before.items():
         if isinstance(x, str):
@@ -73,12 +76,16 @@ KINDS = ("controller", "contact", "observer", "sensor", "touchdown", "disturbanc
 
 @pytest.mark.parametrize("kind", [*KINDS, "around", "curve", "robot", "preset"])
 def test_each_line_of_the_registry_walks(kind: str) -> None:
+    """Every name that a scenario may use is a word of one of the stored scenarios, or their default: so no part
+    of the package is left out of the stored walks. kind: of part, such as controller or sensor.
+    """
     scenarios = [scenario(name, "compiled").dotted() for name in CASES["walk"]]
     words = {str(x) for s in scenarios for x in s.values()}
     words |= {part for s in scenarios for name in s for part in name.split(".")}
     words |= {walk["compiled"]["curve"].lower() for walk in written().values()}
     presets = [p for name in robot_names() for p in load_description(name).presets]
     robots = [load_description(s.get("robot.name", "rabbit")) for s in scenarios]
+    # defaults, which no scenario names
     words |= {"rabbit", "ADRC", "rigid", "pulse", *(robot.default_preset for robot in robots)}
     assert set(presets if kind == "preset" else names(kind)) - words == set()
 

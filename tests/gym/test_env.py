@@ -1,4 +1,11 @@
-"""Walks as environments of Gymnasium: the interface, and that they are the walks of their scenarios."""
+"""Walks as environments of Gymnasium: the interface, and that they are the walks of their scenarios.
+
+`made(**values)` is an environment of a scenario with these values, in which a sample lasts 1 ms and the motors
+give 150 N m; an action has a number from -1 to 1 for each motor: its torque, or with action="added" a torque
+beside the controller's. `walked(env, seed, samples)` steps with one action, zero by default, and returns
+observations, rewards, falls, time limits and infos. An observation has q, v, errors, their rates, u and the
+phase: 5, 5, 4, 4, 4 and 1 numbers. SLOW is an observer of 160 rad/s.
+"""
 
 import gymnasium
 import numpy as np
@@ -42,6 +49,9 @@ def test_gymnasium_finds_no_fault(values):
 
 
 def test_bounds_are_two_turns_the_speed_of_a_runaway_and_the_lower_torque_limit():
+    """Of q and v, of errors and phase twice as much, and of torques: the lower of the motors' 150 N m and the
+    scenario's limit.
+    """
     high = np.repeat([4 * np.pi, 1000.0, 8 * np.pi, 2000.0, 150.0, 8 * np.pi], [5, 5, 4, 4, 4, 1])
     for limit, torque in ((None, 150.0), (200.0, 150.0), (100.0, 100.0)):
         space = made(effort=1.0, **{"hardware.torque_limit": limit}).observation_space
@@ -111,6 +121,9 @@ def test_an_action_of_kind_added_is_added_to_the_torque_of_the_controller(values
 
 
 def test_observation_and_reward_are_those_of_the_walks_signals():
+    """At two samples, one after the first touchdown, against the signals of the scenario's own walk; reward = 1
+    + tracking / (1 + |e|^2 / 0.1^2) - effort |u|^2 / (4 150^2).
+    """
     env = made(action="added", condition="push on joints", tracking=3.0, effort=0.2, **SLOW)
     rows = walked(env, 5, 460)
     s = env.unwrapped.stage.task.scenario.replace(run={"seed": 5, "impacts": 3})
@@ -131,6 +144,9 @@ def test_observation_and_reward_are_those_of_the_walks_signals():
 
 
 def test_a_fall_terminates_and_time_truncates():
+    """Without torques the robot falls: terminated, and the last sample pays nothing. A limit of seconds, or of
+    impacts, after which step 2 begins, truncates a walk under its controller.
+    """
     *_, infos = rows = walked(made(), 1, 2000)
     assert (rows[2][-1], rows[3][-1]) == (True, False)
     assert infos[-1]["status"] == "fell"
@@ -145,7 +161,9 @@ def test_a_fall_terminates_and_time_truncates():
 
 @pytest.mark.parametrize("push", [0.0, 60.0])
 def test_feasibility_is_that_of_the_walk(push):
-    """Feasibility and its extremes in the info are those of the scenario's walk, from the same nodes."""
+    """Feasibility and its extremes in the info are those of the scenario's walk, from the same nodes. push [N
+    m]: on the torso; 60 make the walk infeasible.
+    """
     pushed = {
         "pushes.0.shape": "pulse",
         "pushes.0.joints": "-q5",
@@ -167,6 +185,9 @@ def test_feasibility_is_that_of_the_walk(push):
 def test_a_joint_that_turns_faster_than_it_states_is_in_the_verdict_and_not_in_the_spaces(
     slow_knee,
 ):
+    """`slow_knee` is RABBIT whose URDF bounds the rate of one knee below what the gait needs: the walk is
+    infeasible, and the bounds of observations are the usual ones.
+    """
     record = slow_knee.description.urdf.with_name("robot.toml")
     given = {"controller.name": "NPD", "gait.name": "v0.6", "run.impacts": 1}
     slow, usual = (made(action="added", **given, **x) for x in ({"robot.name": str(record)}, {}))
@@ -175,6 +196,9 @@ def test_a_joint_that_turns_faster_than_it_states_is_in_the_verdict_and_not_in_t
 
 
 def test_a_seed_repeats_a_start():
+    """The random start of a walk follows from the seed of `reset` alone; without one, each reset has another
+    seed, and the same row of them after the same first seed.
+    """
     env = made(action="added", condition="wrong model", **SLOW)
     first = [env.reset(seed=k)[0] for k in (1, 2, 1)]
     assert np.array_equal(first[0], first[2])
@@ -202,12 +226,18 @@ WRONG = (
 
 @pytest.mark.parametrize("values", WRONG)
 def test_what_is_no_task_is_refused(values):
+    """WRONG: an unknown condition, one that MuJoCo cannot have, unknown fields and kinds of action, continuous
+    time, a controller beside an action that is all of the torque, no time, a negative weight, an effort above
+    the reward for being alive, a scenario beside a condition.
+    """
     with pytest.raises(InputError):
         made(**values)
 
 
 def test_a_learner_sees_what_the_robots_computer_logs():
-    """Also between a touchdown and its notice, in the labels of the leg that the computer believes in."""
+    """Observations are the measured q and v of the scenario's log, also between a touchdown and its notice, in
+    the labels of the leg that the computer believes in; 554 is the number of ticks in two steps.
+    """
     hardware = {"profile": "rabbit", "touchdown": {"name": "kinematics"}}
     s = ba.Scenario("NPD", hardware=hardware, run={"impacts": 2})
     rows, *_, infos = walked(made(scenario=s, action="added", alive=2.0), 0, 999)
@@ -221,6 +251,9 @@ def test_a_learner_sees_what_the_robots_computer_logs():
 
 
 def test_what_is_no_action_is_refused():
+    """A step before the first reset, three numbers, NaN, a word; and options of a reset. The walk is where it
+    was.
+    """
     env = made().unwrapped
     with pytest.raises(InputError, match=r"call reset\(\) first"):
         env.step(np.zeros(4))

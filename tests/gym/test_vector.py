@@ -56,6 +56,9 @@ def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
 
 
 def test_the_robot_is_drawn_where_its_walk_stands():
+    """After 450 ms, in the second step, the stance foot is at the foothold of the scenario's walk; the pictures
+    have the ground in row 320, which is not white, and the colours of legs and trunk.
+    """
     s = ba.Scenario("NPD", hardware={"period": 1e-3}, run={"seed": 3})
     envs = made(2, scenario=s, action="added", render_mode="rgb_array").unwrapped
     envs.reset(seed=3)
@@ -74,6 +77,7 @@ def test_the_robot_is_drawn_where_its_walk_stands():
 
 
 def test_what_is_no_vector_is_refused():
+    """Two walks need two rows of actions and two seeds."""
     envs = made(2)
     envs.reset(seed=0)
     with pytest.raises(InputError, match=r"shape \(4,\), expected \(2, 4\)"):

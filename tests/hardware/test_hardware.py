@@ -1,4 +1,11 @@
-"""Sensors and motors by closed forms, alone and in walks of both engines."""
+"""Sensors and motors by closed forms, alone and in walks of both engines.
+
+T = 1 ms is the period of the ticks (sample instants). `ticks(sensors, path, count)` are the readings (q^, v^)
+of two coordinates, the first with a motor, along a path t -> (q, v); `steady(rate)` is one of a constant rate.
+`Sensors` are encoders: with counts per turn, noise, rates from differences and a low-pass. A `Line` holds the
+torques on their way to the motors: a queue of those that wait for whole periods, one that waits for the
+fraction of a period, and u, which acts.
+"""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -33,6 +40,9 @@ def steady(rate):
 
 
 def test_a_count_is_never_further_off_than_half_of_one():
+    """Of 100 counts a turn: readings are whole counts, at most pi / 100 rad off; without counts a reading is
+    the angle itself.
+    """
     rounded = Sensors(counts=100.0).sampled(3, 3, T).rounded
     y = RANDOM.uniform(-7.0, 7.0, (1000, 3))
     for row in y:
@@ -76,6 +86,9 @@ def test_noise_has_its_deviation_and_its_seed():
 
 
 def test_at_impact_differences_start_anew():
+    """The angles jump at an impact, since legs exchange their labels: the rate then is what the model expects,
+    and the first tick after it takes no difference.
+    """
     sensors = Sensors(counts=8192.0).sampled(2, 1, T)
     w = sensors.sense(sensors.start(np.zeros(2), np.ones(2)), np.zeros(2), np.ones(2))
     q, v, expected = np.array([5.0, 6.0]), np.array([-3.0, -4.0]), np.array([-2.5, -4.5])
@@ -109,7 +122,9 @@ def line(j, waiting):
 @pytest.mark.parametrize("j", [0, 1, 3])
 @pytest.mark.parametrize("f", [0.0, 0.4])
 def test_a_torque_acts_when_its_delay_is_over(j, f):
-    """A delay of (j + f) periods: torque i acts from tick i + j on, after a fraction f of that period."""
+    """A delay of (j + f) periods: torque i acts from tick i + j on, after a fraction f of that period, in which
+    the torque before still acts. `mean_command` is the mean over the period.
+    """
     k, _ = Motors().sampled(2, (j + f) * T, T)
     at = line(j, int(f > 0))
     asked = RANDOM.normal(size=(10, 2))
@@ -147,7 +162,11 @@ class Clocked(ba.Controller):
 
 @pytest.mark.parametrize("delay", [0.4e-3, 2.7e-3])
 def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
-    """The torque that acts at t is that of the last tick before t - delay, and is zero before the first one."""
+    """The torque that acts at t is that of the last tick before t - delay, and is zero before the first one.
+
+    `Clocked` sends the time of its tick, times 1 to 4. Instants at which the torque changes (`near`) are left
+    out.
+    """
     walker = ba.Walker(biped, Clocked(), timing=ba.SampledTime(T, delay=delay))
     q, v = gait.start(biped)
     x0 = walker.initial_state(q, v)
@@ -165,6 +184,9 @@ def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
 @pytest.mark.parametrize("tau", [1e-7, 3e-3])
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
+    """A constant command that acts from 1.5 ms on, through a lag of time constant tau, also one far below the
+    integration step of 0.25 ms.
+    """
     motors = Motors(lag=tau)
 
     class Step(ba.Controller):
@@ -182,6 +204,9 @@ def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
 
 @pytest.mark.parametrize("tau", [2e-4, 2e-5])
 def test_a_lag_shorter_than_the_step_walks_as_at_a_quarter_of_it(biped, gait, tau):
+    """Time constants tau of a fifth and a fiftieth of the integration step, which is the tick's 1 ms:
+    touchdowns within 10 ns and 1e-6 of those with steps of 0.25 ms.
+    """
     timing, motors = ba.SampledTime(T, delay=0.4e-3), Motors(lag=tau)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, motors=motors)
     quarter = ba.walk(walker, gait, impacts=1, method=ba.RK4(T / 4)).trajectory
@@ -208,6 +233,10 @@ def test_a_lag_that_goes_to_zero_goes_to_no_lag(biped, gait):
 
 
 def test_bad_hardware_is_refused(biped, gait):
+    """Less than one count a turn, NaN, an unknown kind of rates; a rate limit of zero, a negative lag, no
+    period, a negative delay; sensors in continuous time; an error of the impact with one number in place of
+    five.
+    """
     npd = ba.NPDController(gait.constraint)
     for make in (
         lambda: Sensors(counts=0.5),
@@ -226,7 +255,11 @@ def test_bad_hardware_is_refused(biped, gait):
 
 @pytest.mark.parametrize(("known", "share"), [(0, 1.0), (1, 0.7)])
 def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, share):
-    """A delay of 0.3 T: the torque before acts for 0.3 of the period, the new one for the rest."""
+    """A delay of 0.3 T: the torque before acts for 0.3 of the period, the new one for the rest; with an unknown
+    delay (known = 0) the observer gets the new one alone.
+
+    law and loop are stand-ins with just the methods that one sample instant (`decided`) calls.
+    """
     old, new = np.array([10.0, -4.0]), np.array([2.0, 6.0])
     fed = []
     law = SimpleNamespace(

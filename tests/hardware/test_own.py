@@ -1,4 +1,9 @@
-"""Sensors and a touchdown detector of one's own, in plain Python: compiled, they walk as in Python."""
+"""Sensors and a touchdown detector of one's own, in plain Python: compiled, they walk as in Python.
+
+`walked` walks two steps with this hardware by the engine "compiled" (machine code) or "pinocchio" (Python).
+`Slow` is a user's low-pass, `Tilted` one with a bias of the pitch, and `Undecided` is that with a branch on an
+angle.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -89,6 +94,9 @@ def walked(biped, gait, engine, **hardware):
     ids=["sensors", "touchdown"],
 )
 def test_one_s_own_hardware_is_compiled_as_it_is(biped, gait, hardware):
+    """A sum of encoders and two sensors of the user, and a detector of his: machine code walks as Python,
+    touchdowns within 1 ns.
+    """
     code, python = (walked(biped, gait, each, **hardware) for each in ("compiled", "pinocchio"))
     assert code.settings["engine"] == "compiled"
     assert abs(code.t_end - python.t_end) < 1e-9
@@ -96,6 +104,9 @@ def test_one_s_own_hardware_is_compiled_as_it_is(biped, gait, hardware):
 
 
 def test_a_sensor_that_decides_by_a_number_runs_in_python_and_its_line_is_named(biped, gait):
+    """A branch on an angle has no machine code, so the sensor is called in Python beside a compiled plant; its
+    branch is never taken, so the walk is that of `Tilted`.
+    """
     run = walked(biped, gait, "compiled", sensors=Undecided())
     assert run.settings["engine"] == "compiled plant"
     assert "Undecided.reading (test_own.py" in run.settings["why"]
@@ -104,7 +115,9 @@ def test_a_sensor_that_decides_by_a_number_runs_in_python_and_its_line_is_named(
 
 
 def test_other_numbers_compile_nothing(biped, gait):
-    """Seeds, errors and times are data of the machine code."""
+    """Seeds, errors and times are data of the machine code: walkers that differ in them have one `structure`,
+    by which code is found; another class of detector has another.
+    """
 
     def key(sensors, touchdown):
         law = ba.NPDController(gait.constraint)
@@ -131,6 +144,9 @@ class Lost(Tilted):
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_sensor_that_loses_its_numbers_on_the_way_is_named(biped, gait, engine):
+    """NaN from the first instant at which a joint turns faster than 1.9 rad/s, as none does at the start: the
+    walk ends and names the method that gave it.
+    """
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=CLOCK, sensors=Lost())
     assert np.max(np.abs(gait.start(biped)[1])) < 1.9
     run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
@@ -139,6 +155,9 @@ def test_a_sensor_that_loses_its_numbers_on_the_way_is_named(biped, gait, engine
 
 
 def test_a_sensor_of_one_s_own_has_no_noise_and_its_computer_is_that_of_the_others():
+    """Defaults of the base class: no noise, itself without noise, errors as before it. `on_computer` is the
+    software part: encoders with another sensor for the rates need no differences, and a pitch sensor has none.
+    """
     tilted, before = Tilted(), np.ones(4)
     assert (tilted.noisy, tilted.smooth(), tilted.errors(2, 1, before) is before) == (
         False,

@@ -20,6 +20,9 @@ def in_whole_numbers(r, count):
 
 
 def test_every_number_is_that_of_whole_number_arithmetic():
+    """The generator computes in floats, so that it compiles; Python's integers give the same states and numbers
+    to the last bit.
+    """
     for seed in range(5):
         r = seeded(seed)
         (after, u), (expected, numbers) = uniforms(r, 4000), in_whole_numbers(r, 4000)
@@ -33,6 +36,11 @@ def test_the_published_first_number():
 
 
 def test_numbers_are_even_normal_and_different_for_every_seed():
+    """By Kolmogorov and Smirnov's test, also of the first numbers of 200 seeds; neighbours of 20000 normal ones
+    are not correlated, to four standard deviations.
+
+    An odd count of normal numbers, which come in pairs, is met too.
+    """
     u, g = uniforms(seeded(7), 20_000)[1], normals(seeded(8), 20_001)[1]
     assert len(g) == 20_001
     assert u.min() > 0.0

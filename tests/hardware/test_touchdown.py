@@ -1,4 +1,12 @@
-"""A controller that has to notice touchdowns: what it believes meanwhile, in both engines."""
+"""A controller that has to notice touchdowns: what it believes meanwhile, in both engines.
+
+T = 1 ms is the period of the ticks (sample instants). Labels say which leg is the stance leg. A touchdown
+changes the plant's labels, a notice the controller's; its belief is (other, step, start, d): other = 1 while
+both differ, the number and the start of the step that it believes in, and the detector's state.
+`FaultyTouchdown` knows the touchdown and makes errors. `walker` has one of NPD with a detector, `run(system,
+gait, t_end)` walks until t_end [s], with one touchdown at 0.416 s; `beliefs(system, x)` and `held_at(system,
+x)` read the belief and all that is held from a state x.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +69,10 @@ def by_hand(system, t, x):
 def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
     biped, gait, controller
 ):
-    """A detection that is 6.5 ms late leaves six ticks of 1 ms at which it is computed by hand."""
+    """A detection that is 6.5 ms late leaves six ticks of 1 ms at which it is computed by hand (`by_hand`): the
+    law at the state in the old labels, its torque back in the new ones. The last four numbers of x are the
+    torque that is held.
+    """
     system = walker(biped, gait, FaultyTouchdown(late=0.0065), controller)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
@@ -79,6 +90,9 @@ def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
 
 
 def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, gait):
+    """Without an error the notice is at the first tick after the touchdown: there the controller's state jumps,
+    and then it acts in step 2, which begins at that tick.
+    """
     system = walker(biped, gait, FaultyTouchdown(), low_order)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
@@ -99,8 +113,8 @@ SENSORS = ba.Sensors(counts=2**18)
 
 
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
-    """The first part of the belief is 0, 1, 0, and the torque is exchanged twice; the walk has one touchdown,
-    so the second is made by hand.
+    """`other` is 0, 1, 0, and the torque is exchanged twice; the walk has one touchdown, so the second is made
+    by hand. A touchdown that still waits for its notice is not missed.
     """
     system = walker(biped, gait, FaultyTouchdown(missed=1.0))
     walked = run(system, gait, 0.42)
@@ -128,6 +142,10 @@ def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, g
     ],
 )
 def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, false, waits):
+    """Touchdowns `struck` and notices, in order of time, are paired: notice second is late, notice first early
+    (late < 0), two touchdowns are both missed (NaN), two notices both false. A last touchdown without a notice
+    still waits, and counts in no share.
+    """
     found = matched(np.array(struck), np.array(notices))
     np.testing.assert_allclose(found.late, late, atol=1e-12)
     assert (found.false.tolist(), found.waits) == (false, waits)
@@ -141,6 +159,9 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
 
 
 def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, gait):
+    """false_at = (step, s): a notice s [s] after the start of a step. Followed by its touchdown at 0.416 s it
+    is early; alone, or at the very start, it is false.
+    """
     # shortly before the touchdown at 0.416 s; the first tick from 0.4105 s on is at 0.411 s
     early = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.4105)))
     found = touchdowns(early, run(early, gait, 0.9))
@@ -155,7 +176,9 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
 
 
 def test_missed_ones_come_with_their_probability():
-    """Of 2000 touchdowns 20 % are missed, within four standard deviations; one in right labels never waits."""
+    """Of 2000 touchdowns 20 % are missed, within four standard deviations; d[0] = 1 while a notice is due. A
+    touchdown that makes the labels right (other = 0) is never due.
+    """
     leaf = FaultyTouchdown(missed=0.2, seed=3)
     d, waits = leaf.start(), []
     for k in range(2000):
@@ -166,7 +189,9 @@ def test_missed_ones_come_with_their_probability():
 
 
 def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
-    """Up to one tick of 1 ms; the speed of the foot is taken at the touchdown, which leaves 0.1 to 0.2 ms."""
+    """Up to one tick of 1 ms; the speed of the foot is taken at the touchdown, by differences, which leaves 0.1
+    to 0.2 ms. The foot is below the height for the first time at the notice.
+    """
     height = 4e-3
     system = walker(biped, gait, ByKinematics(height=height))
     walked = run(system, gait, 0.43)
@@ -197,6 +222,9 @@ def test_by_kinematics_the_height_is_over_a_ground_that_falls_ahead(slope):
 
 
 def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait):
+    """The force acts from the touchdown on, so the first tick after it begins the 3 ms of debounce, and 2 ms of
+    delay follow.
+    """
     system, later = walker(biped, gait, ByForce(delay=2e-3, debounce=3e-3)), 5e-3
     found = touchdowns(system, run(system, gait, 0.43))
     first = np.ceil(found.t[0] / T) * T - found.t[0]
@@ -215,8 +243,9 @@ def notices(leaf, forces, foot=(0.3, 0.0), other=0.0, t_step=0.5):
 
 
 def test_by_force_has_hysteresis_debounce_and_a_gate():
-    """Thresholds 20 and 50 N: free below the first, loaded above the second; times in ms. The last two rows
-    have the foot too near, 0.05 m ahead, and the last detection too recent, 0.05 s ago.
+    """Thresholds 20 and 50 N: free below the first, loaded above the second. The row of forces has one [N] for
+    each ms, the result is the times [ms] of the notices. The last two rows have the foot too near, 0.05 m
+    ahead, and the last detection too recent, 0.05 s ago.
     """
     up = [0.0, 60.0, 60.0, 60.0, 60.0]
     assert notices(ByForce(), up) == [1]
@@ -231,7 +260,9 @@ def test_by_force_has_hysteresis_debounce_and_a_gate():
 
 
 def test_by_force_of_a_push_is_newton_s_law(biped, gait):
-    """The stance foot carries what the whole robot's motion asks for, less what pushes it up."""
+    """The stance foot carries weight plus d/dt of the vertical momentum, by differences of Pinocchio's, less
+    the push of 40 N that lifts the hip; the swing foot carries nothing.
+    """
     push = ba.HipForce(biped, (0.0, 40.0))
     system = walker(biped, gait, ByForce(), disturbance=push)
     x = system.initial_state(*gait.start(biped))
@@ -248,7 +279,10 @@ def test_by_force_of_a_push_is_newton_s_law(biped, gait):
 
 
 def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
-    """What they show of an unnoticed touchdown is in the old labels, so the angles go on."""
+    """What they show of an unnoticed touchdown is in the old labels, so the angles go on, by no more per tick
+    than the fastest joint turns. At the notice angles and rates change labels, and the first tick after it
+    takes no difference. 2.4e-5 rad is a count of 2^18 a turn.
+    """
     system = walker(biped, gait, FaultyTouchdown(late=5e-3), sensors=SENSORS)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
@@ -269,6 +303,9 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
 
 
 def test_wrong_values_and_clocks_of_touchdown_detectors_are_refused(biped, gait):
+    """A clock that restarts at touchdowns knows them, and continuous time has no ticks; a negative delay, a
+    probability of 1.5, step 0, a text; a threshold `on` below that of `off`, 20 N; NaN.
+    """
     for timing in (ba.SampledTime(T), ba.ContinuousTime()):
         with pytest.raises(InputError, match="restart=False"):
             walker(biped, gait, FaultyTouchdown(), timing=timing)

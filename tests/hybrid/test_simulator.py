@@ -1,4 +1,9 @@
-"""The hybrid loop against closed forms: events, resets, clocks, switching times, statuses."""
+"""The hybrid loop against closed forms: events, resets, clocks, switching times, statuses.
+
+A guard fires where its function of (t, x), the witness, falls through zero, and resets the state. `Ball` falls
+from a height onto a floor at 0; `Dropped(e)` has restitution e. `Timer(witness)` has x' = 1 from x = 0 and a
+guard on a function of time, whose reset adds 100; `go(system)` simulates it from 0 to 1 s with steps of 0.1 s.
+"""
 
 import json
 import math
@@ -38,6 +43,9 @@ class Ball(HybridSystem):
 
 @pytest.mark.parametrize("method", [RK4(1e-3), RK4(0.03), Adaptive()])
 def test_bouncing_ball_in_closed_form(method):
+    """Times of six bounces from 1 m with restitution 0.8, and speeds before and after them; each begins a new
+    arc. Motion between them is a parabola, exact in every method.
+    """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, method, t_end=10.0, stop_after=("bounce", 6))
     assert run.status is Status.COMPLETED
     first = math.sqrt(2.0 / G)
@@ -70,7 +78,10 @@ ALL_METHODS = [RK4(1e-3), RK4(0.05), Exponential(5e-3), Adaptive()]
 @pytest.mark.parametrize("method", ALL_METHODS)
 @pytest.mark.parametrize("start", [(0.01, 0.0), (0.0, 1e-3)])
 def test_bounces_that_accumulate_are_all_found_and_end_the_run(method, start):
-    """Hops last T e^k: they add up to T e / (1 - e) after the first landing, and the last are below 2 us."""
+    """Hop k lasts T e^k, with T = 2 v / g for a landing at v [m/s] and e = 0.7: they add up to T e / (1 - e)
+    after the first landing. Events closer than 1 us are not told apart, so the run ends as EVENT_LIMIT when
+    hops are below 2 us.
+    """
     e, (z, v) = 0.7, start
     speed = math.sqrt(v**2 + 2.0 * G * z)
     landing, hop = (v + speed) / G, 2.0 * e * speed / G
@@ -87,6 +98,9 @@ def test_bounces_that_accumulate_are_all_found_and_end_the_run(method, start):
 @pytest.mark.parametrize("method", ALL_METHODS)
 @pytest.mark.parametrize(("start", "bounces"), [((0.01, 0.0), 1), ((0.0, 0.0), 0)])
 def test_a_ball_at_rest_does_not_fall_through_the_floor(method, start, bounces):
+    """Restitution 0: from 1 cm it lands once, and from rest on the floor not at all; a next event would follow
+    at once, and the run ends as EVENT_LIMIT with the ball at 0.
+    """
     run = simulate(Dropped(0.0), np.array(start), 0, method, t_end=10.0)
     assert (run.status, len(run.events())) == (Status.EVENT_LIMIT, bounces)
     assert run.t_end == pytest.approx(math.sqrt(2.0 * start[0] / G), abs=1e-12)
@@ -117,7 +131,9 @@ class Balls(HybridSystem):
 @pytest.mark.parametrize("method", [RK4(1e-3), RK4(0.03), Adaptive()])
 @pytest.mark.parametrize("apart", [0.0, 1.2e-15, 1e-13, 1e-9])
 def test_balls_that_land_at_one_instant_all_bounce(method, apart):
-    """Each of the balls bounces at the times of a ball alone, and is at its height afterwards."""
+    """Each of the balls bounces at the times of a ball alone, and is at its height afterwards. apart [m]: how
+    much higher the second one starts, by a round-off and by more.
+    """
     start = [1.0, 0.0, 1.0 + apart, 0.0, 1.0, 0.0]
     run = simulate(Balls(), np.array(start), None, method, t_end=1.5)
     alone = simulate(Ball(), np.array([1.0, 0.0]), 0, method, t_end=1.5)
@@ -132,6 +148,7 @@ def test_balls_that_land_at_one_instant_all_bounce(method, apart):
 @pytest.mark.parametrize("method", ALL_METHODS)
 @pytest.mark.parametrize("start", [(0.0, -1.0), (-0.1, -1.0)])
 def test_a_ball_that_starts_at_or_below_its_floor_and_falls_bounces_at_once(method, start):
+    """At t = 0, from where it is, at 0.8 of its 1 m/s; its reset puts it onto the floor."""
     run = simulate(Dropped(0.8), np.array(start), 0, method, t_end=0.1)
     (event,) = run.events()
     assert (event.t, *event.x_minus) == (0.0, *start)
@@ -155,6 +172,10 @@ class Switched(Ball):
 
 
 def test_a_jump_below_a_floor_fires_at_once_and_a_time_that_is_over_does_not_again():
+    """At 0.2 s a reset puts the ball 0.5 m below its floor: it bounces at that instant, and again 2 0.8 v / g =
+    0.32 s later. In the second run the guard of 0.2 s stays after it has fired, with a negative witness, and is
+    silent.
+    """
     jump = simulate(Switched(-0.5, False), np.array([1.0, 0.0]), 0, RK4(1e-3), t_end=0.7)
     assert [event.guard for event in jump.events()] == ["switch", "bounce", "bounce"]
     times = [0.2, 0.2, 0.2 + 2 * 0.8 * 0.2]
@@ -182,6 +203,9 @@ def test_events_of_two_guards_in_turn_that_accumulate_end_the_run():
 
 
 def test_dense_output_gives_both_sides_of_an_event():
+    """run(t) is the state at t, at an event the one after it, with "left" the one before: the speed changes its
+    sign.
+    """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=1.2)
     t = run.events()[0].t
     assert run(t, "left")[1] < 0 < run(t)[1]
@@ -225,6 +249,9 @@ def go(system, method=None, t_end=1.0, **more):
 
 
 def test_a_zero_at_the_start_fires_where_the_witness_falls_and_one_at_the_end_does():
+    """Witness t rises from 0 and is no event; -t falls from 0 and is one at 0 s; 1 - t reaches 0 at the end of
+    the run, and is one there.
+    """
     assert not go(Timer(lambda t: t)).events()
     assert [event.t for event in go(Timer(lambda t: -t)).events()] == [0.0]
     events = go(Timer(lambda t: 1.0 - t), t_end=1.0).events()
@@ -233,6 +260,7 @@ def test_a_zero_at_the_start_fires_where_the_witness_falls_and_one_at_the_end_do
 
 @pytest.mark.parametrize(("sign", "time"), [(1.0, 0.25), (-1.0, 0.75)])
 def test_an_event_is_where_a_witness_falls_through_zero(sign, time):
+    """cos(2 pi t) falls at 0.25 s and rises at 0.75 s; its negative the other way."""
     events = go(Timer(lambda t: sign * math.cos(2 * math.pi * t))).events()
     assert [event.t for event in events] == pytest.approx([time], abs=1e-12)
 
@@ -253,6 +281,7 @@ def test_a_crossing_that_is_flat_is_found():
 
 
 def test_a_crossing_may_be_let_pass():
+    """A reset that returns None refuses its event: the run goes on without one, x = t."""
     run = go(Timer(lambda t: 0.55 - t, accept=False))
     assert not run.events()
     assert run.status is Status.COMPLETED
@@ -260,6 +289,7 @@ def test_a_crossing_may_be_let_pass():
 
 
 def test_a_terminal_guard_ends_the_run_with_its_status():
+    """A guard with a status ends the run where its witness crosses zero, and resets nothing."""
     run = go(Timer(lambda t: 0.35 - t, terminal=Status.FELL))
     assert run.status is Status.FELL
     assert run.t_end == pytest.approx(0.35)
@@ -267,6 +297,9 @@ def test_a_terminal_guard_ends_the_run_with_its_status():
 
 
 def test_clock_ticks_are_counted_not_accumulated_and_restart_at_events():
+    """Ticks are at k times 0.1 s bit for bit, not sums of 0.1 s; the event at 0.25 s begins mode 1, where the
+    count starts anew, and without restart does not.
+    """
     ticks = []
 
     def update(t, x, mode):
@@ -288,7 +321,9 @@ def test_clock_ticks_are_counted_not_accumulated_and_restart_at_events():
 
 
 def test_order_at_equal_times_is_reset_tick_flow():
-    """An impact and a tick at 0.2 s: the tick acts on the state after the reset."""
+    """An impact and a tick at 0.2 s: the one tick there acts on the state after the reset, x = 0.2 + 100, in
+    the new mode.
+    """
     seen = []
 
     def update(t, x, mode):
@@ -303,7 +338,9 @@ def test_order_at_equal_times_is_reset_tick_flow():
 
 
 def test_no_step_goes_across_a_switching_time():
-    """The flow is asked for its limit from the left there, then again from the right."""
+    """x' jumps from 0 to 1 at 0.123 s, which no step of 0.05 s meets: x is exact only if a step ends there. The
+    flow is asked for its limit from the left there, then again from the right.
+    """
 
     class Switch(Timer):
         def flow(self, t, x, mode):
@@ -316,12 +353,19 @@ def test_no_step_goes_across_a_switching_time():
 
 
 def test_time_out_and_event_limit():
+    """A run that is to stop at an event which does not come ends as TIME_OUT; a ball that bounces more often
+    than max_events = 20 ends as EVENT_LIMIT.
+    """
     assert go(Timer(lambda t: 1.0), stop_after=("g", 1)).status is Status.TIME_OUT
     zeno = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.05), t_end=50.0, max_events=20)
     assert zeno.status is Status.EVENT_LIMIT
 
 
 def test_a_state_that_is_not_finite_ends_the_run_with_the_last_good_one():
+    """The flow raises beyond 0.45 s: the step from 0.4 s is lost, and the run ends there with the status and
+    the words of the error.
+    """
+
     class Raises(Timer):
         def flow(self, t, x, mode):
             if t > 0.45:
@@ -361,6 +405,7 @@ def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(metho
 
 
 def test_a_run_that_cannot_begin_or_end_is_refused():
+    """A start of NaN, an end after the 0th event, no duration, an end at NaN, a negative step."""
     for wrong in (
         lambda: simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0),
         lambda: go(Timer(lambda t: 1.0), stop_after=("g", 0)),
@@ -373,6 +418,9 @@ def test_a_run_that_cannot_begin_or_end_is_refused():
 
 
 def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
+    """All arrays bit for bit, modes by a function of the user (`int_mode`) from their numbers; a file that is
+    cut off, missing or of another kind is refused by name.
+    """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=3.0, stop_after=("bounce", 3))
     save(run, tmp_path / "run.npz", {"note": "ball"})
     again = load(tmp_path / "run.npz", int_mode)
@@ -409,6 +457,10 @@ def twice(x):
 )
 @pytest.mark.filterwarnings("ignore:.*divi.*:RuntimeWarning")
 def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage):
+    """damage: array of the file -> its change. In turn: an arc shorter than its times; twice too many rates; a
+    short state after the event; times that fall, and that begin before or after the end of the arc before;
+    integers; infinite rates.
+    """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.1), t_end=9.0, stop_after=("bounce", 2))
     arrays = dict(np.load(save(run, tmp_path / "run.npz")))
     for name, change in damage.items():
@@ -432,6 +484,10 @@ def int_mode(*numbers):
     ],
 )
 def test_a_damaged_run_is_refused_with_the_reason(tmp_path, meta, text):
+    """meta: entries of the file's record that are replaced: its format, the events of its one arc (none, two),
+    and settings that are no text.
+    """
+
     class Still(HybridSystem):
         def flow(self, t, x, mode):
             return np.zeros(1)
@@ -445,6 +501,9 @@ def test_a_damaged_run_is_refused_with_the_reason(tmp_path, meta, text):
 
 
 def test_a_system_without_a_flow_and_a_slope_that_is_nan_are_named():
+    """The base class has no motion of its own; step control cannot choose a first step by a slope of NaN, here
+    at t = 2 s.
+    """
     with pytest.raises(NotImplementedError, match="HybridSystem has neither a flow nor a mover"):
         HybridSystem().flow(0.0, np.zeros(1), 0)
     steps = Adaptive().steps(lambda t, x: np.full(1, np.nan), 2.0, np.zeros(1), 3.0)

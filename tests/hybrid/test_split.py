@@ -1,4 +1,9 @@
-"""The coordinates of the exponential method: inverses, their derivatives against the flow, order, accuracy."""
+"""The coordinates of the exponential method: inverses, their derivatives against the flow, order, accuracy.
+
+A walker's `split` takes its state x to (w, E), with E' = A E + N_E linear up to a remainder, and w' = N_w; E
+are the observer's errors of each joint. WALKERS are ADRC with observers, gains and plants of several kinds;
+`states` are random states near the start of a step; `close` compares with the largest number.
+"""
 
 import numpy as np
 import pytest
@@ -46,6 +51,7 @@ def close(one, other, relative):
 
 @pytest.mark.parametrize("name", list(WALKERS))
 def test_to_and_back_are_inverse(biped, gait, name):
+    """At random states, up to round-off; E has a column for each of the four joints."""
     walker = WALKERS[name](biped, gait.constraint)
     split = walker.split(ba.Mode())
     for x in states(walker, gait):
@@ -58,7 +64,9 @@ def test_to_and_back_are_inverse(biped, gait, name):
 
 @pytest.mark.parametrize("name", list(WALKERS))
 def test_linear_part_and_remainder_are_the_derivative_along_the_flow(biped, gait, name):
-    """(w, E)' by differences of `to` along x', row by row."""
+    """(N_w, A E + N_E) is (w, E)' by differences of `to` along the walker's flow x', row by row; `back`, which
+    is linear, makes x' of it.
+    """
     walker = WALKERS[name](biped, gait.constraint)
     split = walker.split(ba.Mode())
     for x in states(walker, gait):
