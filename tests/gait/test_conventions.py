@@ -1,4 +1,8 @@
-"""Angle conventions against positions and energies computed from each convention's own definition."""
+"""Angle conventions against positions and energies computed from each convention's own definition.
+
+`convention(name).to_paper` maps angles and rates of a convention (q_own, v_own) to the paper's.
+random_states(n, count) yields random angles and rates.
+"""
 
 from typing import NamedTuple
 
@@ -96,9 +100,13 @@ def random_states(n, count=20):
 
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
+    """Angles of a convention, mapped to the paper's, put knees, hip and foot where the convention's own
+    definition puts them. POSES has that definition, written by hand in this file; a wrong sign or order moves a
+    point.
+    """
     model, position = biped.pinned.model, biped.pinned.position
     knees = [model.getFrameId(frame) for frame in ("left_knee", "right_knee")]
-    assert max(knees) < model.nframes
+    assert max(knees) < model.nframes  # an unknown name would get the index nframes
     for q_own, _ in zip(*random_states(5), strict=True):
         pose, q = POSES[name](q_own), convention(name).to_paper.angles(q_own)
         found = position(q, knees[0]), biped.hip(q), position(q, knees[1]), biped.swing_foot(q)
@@ -107,6 +115,7 @@ def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
 
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_conventions_place_the_feet_of_a_robot_without_knees(name):
+    """The same for legs of 1 m without a knee: thigh and shin of 0.5 m each, with a straight knee."""
     biped = ba.Biped.load("three_link")
     c = convention(name, knees=False)
     for q_own, _ in zip(*random_states(3), strict=True):
@@ -135,7 +144,11 @@ def energies(p, bodies):
 
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_energies_are_those_of_the_definition(name, bare):
-    """Which, unlike hip, knees and feet, know where the torso points."""
+    """Kinetic and potential energy of the mapped state are those of the links as the definition places them.
+    Unlike hip, knees and feet, they depend on where the torso points too. Velocities of the definition are
+    exact derivatives by a complex step: at q + 1e-30 i v the imaginary part of a place is 1e-30 times its
+    velocity.
+    """
     to_paper, bodies = convention(name).to_paper, bare.description.preset("identified-bare").bodies
     for q_own, v_own in zip(*random_states(5, 5), strict=True):
         kinetic, potential = energies(POSES[name](q_own + 1e-30j * v_own), bodies)
@@ -146,6 +159,9 @@ def test_energies_are_those_of_the_definition(name, bare):
 
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_the_phase_of_a_convention_is_the_paper_s_up_to_sign_and_constant(name, biped):
+    """c q of a convention is the paper's Theta less a constant, with the sign `sense`: -1 where the phase grows
+    in a walk to +x.
+    """
     c = convention(name)
     assert c.paper_phase == pytest.approx(biped.phase)
     constant = c.paper_phase @ c.to_paper.b
@@ -160,6 +176,7 @@ def test_what_the_sources_print():
     assert convention("tac2003").coordinates == ("q31", "q32", "q41", "q42", "q1")
     assert convention("frost").phase.tolist() == [1.0, 1.0, 0.5, 0.0, 0.0]
     assert convention("optimtraj").phase.tolist() == [0.5, 0.5, 0.0, 0.0, 0.0]
+    # both robots stand upright: the legs, which point down, are at pi in the paper's angles
     upright = convention("optimtraj").to_paper.angles(np.zeros(5))
     assert upright == pytest.approx([np.pi, np.pi, 0, 0, 0], abs=1e-15)
     standing = convention("frost").to_paper.angles(np.array([0, np.pi, 0, np.pi, 0]))
@@ -167,6 +184,7 @@ def test_what_the_sources_print():
 
 
 def test_maps_go_back_and_bad_ones_are_refused():
+    """The inverse map gives each angle back, to round-off; a name that is no convention is refused."""
     for name in CONVENTIONS:
         there = convention(name).to_paper
         for q, _ in zip(*random_states(5, 3), strict=True):

@@ -1,4 +1,8 @@
-"""Designed gaits, held against laws that their design does not use."""
+"""Designed gaits, held against laws that their design does not use.
+
+Fixtures: level, RABBIT's gait of 0.8 m/s and steps of 0.4 m on level ground; downhill, its gait of 0.7 m/s down
+a slope of 0.06 rad.
+"""
 
 from __future__ import annotations
 
@@ -47,10 +51,14 @@ def downhill() -> DesignedGait:
 
 
 def test_a_design_says_its_numbers_and_one_that_falls_is_refused(level: DesignedGait) -> None:
+    """The text has the step length that was asked for, 0.4 m. A gait is proved by a simulated walk: with a
+    fifth of its rates before impact the robot falls, and `certify` refuses it.
+    """
     assert "step length          0.400000 m" in level.text()
     still = replace(level.gait, v_minus=0.2 * level.gait.v_minus)
     biped = Biped.load("rabbit", preset="tac2003")
     with pytest.raises(GaitError, match="does not walk"):
+        # zeros: objective, iterations and seconds, which are not looked at
         certify(biped, level.request, Optimum(still, 0.0, 0, 0.0))
 
 
@@ -60,7 +68,11 @@ def test_a_design_says_its_numbers_and_one_that_falls_is_refused(level: Designed
     [("level", "tac2003", 0.8, 0.0), ("downhill", "identified-bare", 0.7, 0.06)],
 )
 def test_speed_slope_energy_and_limits(name, preset, speed, slope, request) -> None:
-    """Of each design; joint work and gravity pay for what the impact takes, and the orbit is stable."""
+    """Each design keeps laws that the optimiser does not use: the work of motors and gravity over a step (z < 0
+    downhill) is the kinetic energy that the impact takes. It has the slope and the speed asked for, the
+    simulated walk ends on the orbit (`gap`), and the orbit is stable (`multiplier`, at most 0.95 by the usual
+    limits).
+    """
     found, biped = request.getfixturevalue(name), Biped.load("rabbit", preset)
     gait = found.gait
     x, z = biped.swing_foot(gait.q_minus)
@@ -69,7 +81,7 @@ def test_speed_slope_energy_and_limits(name, preset, speed, slope, request) -> N
     impact = biped.impact(gait.q_minus, gait.v_minus)
     lost = biped.kinetic_energy(gait.q_minus, gait.v_minus)
     lost -= biped.kinetic_energy(impact.q, impact.v)
-    o = ZeroDynamics.of(biped, gait.constraint, 80).cycle
+    o = ZeroDynamics.of(biped, gait.constraint, 80).cycle  # 80 nodes of quadrature
     work = float(np.sum(o.u * o.v[:, : biped.p], axis=1) @ o.time_weights)
     assert work - biped.weight * z == pytest.approx(lost, rel=1e-8)
     assert found.gap < 1e-7
@@ -78,12 +90,14 @@ def test_speed_slope_energy_and_limits(name, preset, speed, slope, request) -> N
 
 
 def test_a_step_length_is_met_and_the_impulse_limited(level: DesignedGait) -> None:
+    """A step of 0.4 m was asked for; |F_T| / F_N of the impulse stays below the robot's friction of 0.6."""
     foot = Biped.load("rabbit", "tac2003").swing_foot(level.gait.q_minus)
     assert foot == pytest.approx([0.4, 0.0], abs=1e-9)
     assert level.certificate.impulse_ratio <= 0.6
 
 
 def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> None:
+    """Its slope of 0.06 rad is in the file too, and numbers come back to the last bit."""
     downhill.gait.save(tmp_path / "downhill.json")
     again = load_gait(tmp_path / "downhill.json", Biped.load("rabbit", "identified-bare"))
     assert again.slope == 0.06
@@ -91,7 +105,10 @@ def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> Non
 
 
 def test_the_slope_of_a_scenario_is_that_of_the_ground(downhill: DesignedGait, tmp_path) -> None:
-    """The gait's where it says none; another one is remarked, and touchdowns are judged by the gait's."""
+    """A scenario without a slope takes the gait's, 0.06 rad. Another one, 0.05 rad, is walked on with a remark,
+    while touchdowns are still detected by the gait's slope. A robot without a gait walks on the slope of the
+    scenario.
+    """
     downhill.gait.save(path := tmp_path / "downhill.json")
     robot = {"robot": {"name": "rabbit", "preset": "identified-bare"}, "gait": str(path)}
     s = Scenario("NPD", run={"impacts": 1, "h": 2e-3}, **robot)
@@ -108,6 +125,10 @@ def test_the_slope_of_a_scenario_is_that_of_the_ground(downhill: DesignedGait, t
 
 
 def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) -> None:
+    """Peak torque and cost of transport are more than 10 % less than those of `level`, which has the least
+    squared torque. The objective is computed on the exact orbit and the certificate from a simulated step,
+    hence 5 % and 3 %.
+    """
     peak = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="peak")
     assert peak.certificate.peak_torque < 0.9 * level.certificate.peak_torque
     assert peak.objective == pytest.approx(peak.certificate.peak_torque, rel=0.05)
@@ -117,7 +138,10 @@ def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) ->
 
 
 def test_the_gait_through_x_star_is_that_of_the_other_optimiser() -> None:
-    """Gauss-Newton on weighted residuals found the stored gait; the minimum is flat there."""
+    """The stored gait through x* was found by Gauss-Newton on weighted residuals, without a limit on the
+    impulse. The design finds the same state and the same integral of u^2 per metre, to 1e-3: the minimum is
+    flat there, so that the curves themselves may differ.
+    """
     biped = Biped.load("rabbit", "identified")
     q, v = onto_section(biped, X_STAR[:5]), np.array(X_STAR[5:])
     stored = load_gait("published", biped)
@@ -133,6 +157,9 @@ def test_the_gait_through_x_star_is_that_of_the_other_optimiser() -> None:
 
 
 def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
+    """A leg without a knee cannot be lifted in mid-step. Without a clearance (None) there is a gait
+    nevertheless: the simulated walk returns to it (`gap`), at the speed asked for.
+    """
     found = design_gait("three_link", 0.9, 0.6, limits=StepLimits(clearance=None))
     assert found.gap < 1e-6
     assert found.speed == pytest.approx(0.9, abs=1e-5)
@@ -148,6 +175,7 @@ def test_a_gait_turns_no_faster_than_the_urdf_states_of_either_leg(tmp_path) -> 
     slow = Biped.load(folder / "robot.toml")
     found = design_gait(slow, 0.9, 0.6, limits=StepLimits(clearance=None))
     walk = ba.walk(ba.Walker(slow, ba.NPDController(found.gait.constraint)), found.gait, 2)
+    # the hips come near the limit, so it binds, and do not pass it
     assert 2.3 < np.max(np.abs(walk.signals.v[:, :2])) < 2.5
     assert not {"rate", "range"} & set(walk.feasibility.reasons)
     assert [joint.speed for joint in slow.motor_joints[1]] == [np.inf, 2.5]
@@ -156,6 +184,9 @@ def test_a_gait_turns_no_faster_than_the_urdf_states_of_either_leg(tmp_path) -> 
 # -- the stored library ----------------------------------------------------------------------------
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
+    """Each stored gait has the speed of its name, violates no limit of its design (`audit`) at 120 nodes, more
+    than it was designed with, and v- is that of the periodic orbit of the zero dynamics.
+    """
     biped = Biped.load("rabbit", preset)
     for speed in SPEEDS:
         gait = load_gait(f"v{speed:g}", biped)
@@ -167,12 +198,16 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
 
 # -- bad input -------------------------------------------------------------------------------------
 def test_a_design_without_solution_names_the_limit_that_has_to_give() -> None:
+    """8 N m per motor are too few for 0.9 m/s with steps of 0.6 m, and the message names this limit."""
     weak = StepLimits(torque=8.0, clearance=None)
     with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):
         design_gait("three_link", 0.9, 0.6, limits=weak)
 
 
 def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
+    """2.5 m/s with steps of 0.3 m has no gait. Where no clearance was asked for, the foot has to be above the
+    ground in the second half of the step alone; the message names that, and no clearance.
+    """
     with pytest.raises(
         GaitError, match="swing foot above the ground after 50% of the step"
     ) as caught:
@@ -197,11 +232,17 @@ def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
     ],
 )
 def test_requests_without_a_gait(asked: dict, word: str) -> None:
+    """asked: arguments for which there can be no gait, such as a robot without motors (compass); word: what the
+    message has to name.
+    """
     with pytest.raises(InputError, match=word):
         design_gait(**asked)
 
 
 def test_ctrl_c_ends_ipopt(monkeypatch) -> None:
+    """SIGINT, sent 0.02 s after the solver was made, arrives while IPOPT iterates: KeyboardInterrupt is raised
+    and no gait returned. CasADi's nlpsol is replaced only to start that timer.
+    """
     request, me = GaitRequest(0.9, 0.6, limits=StepLimits(clearance=None)), get_ident()
 
     def interrupted(*arguments, nlpsol=ca.nlpsol):
@@ -215,6 +256,9 @@ def test_ctrl_c_ends_ipopt(monkeypatch) -> None:
 
 
 def test_a_design_that_ends_without_a_gait_says_how(monkeypatch) -> None:
+    """Two failures that real requests hardly give, made by replaced functions: IPOPT stops though the relaxed
+    problem violates no limit; and a solution at 8 nodes, and at twice as many, has no exact gait.
+    """
     biped, request = Biped.load("three_link"), GaitRequest(0.9, 0.6, nodes=8)
     failed = SimpleNamespace(solved=False, status="S", iterations=1)
     monkeypatch.setattr(optimisation, "solve_nlp", lambda *_: failed)

@@ -1,4 +1,10 @@
-"""The rows of a gait's programme and of its audit, each on numbers that violate it, by Pinocchio's model."""
+"""The rows of a gait's programme and of its audit, each on numbers that violate it, by Pinocchio's model.
+
+The programme is the nonlinear one that IPOPT solves; the audit is the judgement of a gait that is finished.
+Fixtures: robot and its stored gait v0.8; orbit, the periodic step of this gait at the programme's nodes;
+limits; unknowns, (the gait as unknowns of the programme, sign of Theta'); rows(name), for each constraint of
+this name its numbers at the gait, and its lower and upper bound.
+"""
 
 from __future__ import annotations
 
@@ -70,6 +76,9 @@ def rows(robot, limits, unknowns):
 
 
 def test_the_gait_is_a_solution_of_the_equations(rows):
+    """At a stored gait, with all numbers by Pinocchio, each equation of the CasADi programme (both bounds 0) is
+    satisfied: a wrong row would leave a residual.
+    """
     for name in ("the zero dynamics", "periodicity", "the impact", "the slope after impact"):
         ((value, low, high),) = rows(name)
         assert (low, high) == (0.0, 0.0)
@@ -77,9 +86,14 @@ def test_the_gait_is_a_solution_of_the_equations(rows):
 
 
 def test_limits_are_of_pinocchio_s_numbers_with_their_reserve(robot, gait, rows, orbit):
-    """Ten per cent of friction and of a quarter of a radian at the ends of ranges are kept back."""
+    """Each inequality has Pinocchio's number as its value, and as its bound the limit less a reserve of 10 %.
+    Limits: friction 0.5 (0.45 is left) and 0.4 of the impulse (0.36), 100 N m, delta^2 at most 0.7, and ranges
+    of the knees, of which 0.1 x 0.25 rad are kept back at either end. 0.5 is the unknown peak torque as a share
+    of its limit: torques lie between -0.5 and 0.5 of it.
+    """
     F_T, F_N = orbit.ground_reaction.T / robot.weight
     leg = float(np.linalg.norm(robot.hip(np.zeros(robot.n))))
+    # impulses are divided by m sqrt(g leg)
     scale = robot.mass * np.sqrt(robot.description.gravity * leg)
     P_T, P_N = robot.impact(gait.q_minus, gait.v_minus).impulse / scale
     share, index = orbit.u.ravel() / 100.0, robot.description.joint_index
@@ -103,7 +117,9 @@ def test_limits_are_of_pinocchio_s_numbers_with_their_reserve(robot, gait, rows,
 
 @pytest.mark.parametrize(("objective", "low"), [("torque", 0.9), ("peak", 0.0)])
 def test_the_peak_keeps_the_reserve(robot, limits, unknowns, objective, low):
-    """At most 0.9 of the torque limit, by the reserve of 0.1; fixed there unless it is to be minimised."""
+    """The last unknown is the peak torque over its limit: at most 0.9 by the reserve of 0.1, and fixed there
+    unless it is to be minimised (objective "peak").
+    """
     numbers, direction = unknowns
     asked = replace(ASKED, objective=type(ASKED.objective)(objective))
     _, symbols = transcribe(robot, asked, limits, direction)
@@ -112,6 +128,9 @@ def test_the_peak_keeps_the_reserve(robot, limits, unknowns, objective, low):
 
 
 def test_a_clearance_of_zero_keeps_the_foot_up_in_the_whole_step(robot, unknowns):
+    """Rows that keep the foot up are counted. Any clearance, also 0, has them in the whole step; None has them
+    in the second half alone (LATE), since legs without knees scuff at first.
+    """
     counts = []
     for clearance in (None, 0.0, 0.02):
         kept = StepLimits(clearance=clearance).of(robot)
@@ -138,12 +157,18 @@ def test_a_clearance_of_zero_keeps_the_foot_up_in_the_whole_step(robot, unknowns
     ],
 )
 def test_the_audit_names_the_limit_that_a_gait_misses(robot, gait, orbit, limits, word):
+    """The gait v0.8 keeps the usual limits ({}), and misses each of the others, which are too strict for it;
+    word: how the text on that limit begins.
+    """
     asked = replace(ASKED, limits=StepLimits(**limits))
     missed = audit(robot, gait, orbit, asked)
     assert any(text.startswith(word) for text in missed) if word else missed == []
 
 
 def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give(robot, limits, unknowns):
+    """`missed` has an entry for each limit of the programme: with a clearance for "foot clearance", without one
+    for the foot above the ground in the second half of the step, and never for both.
+    """
     numbers, direction = unknowns
     for clearance in (0.02, None):
         programme, _ = transcribe(robot, ASKED, replace(limits, clearance=clearance), direction)
@@ -158,6 +183,9 @@ def test_a_clearance_that_is_not_asked_for_is_not_what_has_to_give(robot, limits
 
 @pytest.mark.parametrize(("share", "count"), [(0.0, 0), (0.4e-4, 0), (1.1e-4, 1), (-1.1e-4, 1)])
 def test_the_audit_asks_for_speed_and_step(robot, gait, orbit, share, count):
+    """A gait may miss speed (relative) and step length (over the leg of 0.8 m) by 0.5e-4: shares of 0 and
+    0.4e-4 are accepted, 1.1e-4 to either side gives one remark.
+    """
     step = float(robot.swing_foot(gait.q_minus)[0])
     speed = step / orbit.period
     for asked in ((speed * (1.0 + share), None), (None, step + 0.8 * share)):

@@ -1,4 +1,8 @@
-"""Gaits and runs from and to arrays, JSON and MATLAB files, in every angle convention."""
+"""Gaits and runs from and to arrays, JSON and MATLAB files, in every angle convention.
+
+Fixtures: biped and gait, RABBIT and its published gait; record, this gait as arrays without state and period;
+recipe, a gait that is not hybrid-invariant. assert_same compares all numbers of two gaits.
+"""
 
 from dataclasses import replace
 
@@ -52,6 +56,9 @@ def record(gait):
 @pytest.mark.parametrize("suffix", [".json", ".mat"])
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_published_gait_through_every_convention_and_file(name, suffix, biped, gait, tmp_path):
+    """A gait that is written in the angles of a convention and read back is the same: to the last bit in the
+    paper's own angles, to round-off after a map there and back.
+    """
     path = tmp_path / f"gait{suffix}"
     export_gait(gait, path, name)
     back = import_gait(path, biped)
@@ -61,6 +68,9 @@ def test_published_gait_through_every_convention_and_file(name, suffix, biped, g
 
 
 def test_polynomials_that_are_not_hybrid_invariant(biped, recipe, tmp_path):
+    """The impact leaves the curves of the gait 'recipe', so that reading refuses them unless slopes=False
+    waives this check; then its polynomials come back.
+    """
     path = tmp_path / "recipe.mat"
     export_gait(recipe, path, "frost")
     assert_same(recipe, import_gait(path, biped, slopes=False))
@@ -69,6 +79,9 @@ def test_polynomials_that_are_not_hybrid_invariant(biped, recipe, tmp_path):
 
 
 def test_an_exported_mat_file_has_curves_phase_and_units(gait, tmp_path):
+    """As MATLAB reads it: a row for each motor's joint, FROST's own phase row, and units by name. FROST's hip
+    angles are 2 pi less the paper's, since they count clockwise, and its phase grows where the paper's falls.
+    """
     export_gait(gait, tmp_path / "gait.mat", "frost")
     raw = loadmat(tmp_path / "gait.mat")
     assert raw["coefficients"].shape == (4, 7)
@@ -83,6 +96,9 @@ def test_an_exported_mat_file_has_curves_phase_and_units(gait, tmp_path):
 
 # -- what comes from elsewhere -------------------------------------------------------------------
 def test_state_and_period_come_from_the_zero_dynamics(biped, gait, record):
+    """Of curves and Theta alone the state before impact and the period are computed, and are those stored with
+    the gait.
+    """
     found = import_gait(record, biped)
     assert_same(gait, found, abs=1e-9)
     assert found.provenance == {
@@ -94,6 +110,9 @@ def test_state_and_period_come_from_the_zero_dynamics(biped, gait, record):
 
 @pytest.mark.parametrize("factor", [-1.0, 2.0, -0.25])
 def test_phase_that_runs_the_other_way_or_in_other_units(factor, biped, gait, record):
+    """A file may have any multiple of the robot's phase, also a negative one: the gait is the same, in the
+    robot's phase.
+    """
     ends = {name: factor * getattr(record, name) for name in ("theta_plus", "theta_minus")}
     found = import_gait(replace(record, phase=factor * biped.phase, **ends), biped)
     assert_same(gait, found, abs=1e-9)
@@ -102,6 +121,9 @@ def test_phase_that_runs_the_other_way_or_in_other_units(factor, biped, gait, re
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial])
 def test_curves_under_affine_maps(kind):
+    """mapped(h, A, b) is A h + b: [0] is the value and [2] the second derivative, from which b is gone.
+    ramp(degree, 3.4, 2.9) is the straight line from 3.4 to 2.9.
+    """
     rng, degree = np.random.default_rng(5), 5
     h = kind(rng.normal(size=(3, degree + 1)))
     A, b = rng.normal(size=(2, 3)), rng.normal(size=2)
@@ -113,7 +135,9 @@ def test_curves_under_affine_maps(kind):
 
 
 def test_rows_that_are_other_outputs(biped, gait, record):
-    """y = H0 q: torso, angle between the thighs, knees."""
+    """A file may have outputs y = H0 q (torso, angle between the thighs, knees) in place of the joint angles:
+    solved for the angles, it is the same gait.
+    """
     H0 = np.array(
         [[0, 0, 0, 0, 1], [-1, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]], dtype=float
     )
@@ -123,6 +147,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
 
 
 def test_whole_turns_of_the_angles_are_taken_out_of_an_imported_gait(biped, gait, record):
+    """Both hips, and with them Theta, are a whole turn less in the file: the same gait, and it is remarked."""
     a = np.array(record.coefficients)
     a[:2] -= 2 * np.pi
     ends = {name: getattr(record, name) - 2 * np.pi for name in ("theta_plus", "theta_minus")}
@@ -189,6 +214,9 @@ OPEN = {
 
 @pytest.mark.parametrize("name", OPEN)
 def test_a_gait_that_is_not_one_of_the_robot_is_refused(name, biped, gait, record):
+    """OPEN[name] is (convention, change of the record, word of the message). The unchanged record is imported
+    first, so that it is the change that is refused.
+    """
     convention, change, word = OPEN[name]
     words = record if convention == "paper" else record_of(gait, biped, convention)
     import_gait(words, biped)
@@ -200,6 +228,9 @@ def test_a_gait_that_is_not_one_of_the_robot_is_refused(name, biped, gait, recor
     ("made", "claimed"), [("frost", "paper"), ("paper", "tac2003"), ("optimtraj", "frost")]
 )
 def test_wrong_convention_is_recognised(made, claimed, biped, gait):
+    """made: the convention that the numbers are in; claimed: the one that the record states. The error names
+    the true one, in which the gait would close.
+    """
     words = replace(record_of(gait, biped, made), phase=None)  # each with its own phase
     wrong = replace(words, convention=claimed)
     with pytest.raises(GaitError, match=made):
@@ -207,6 +238,9 @@ def test_wrong_convention_is_recognised(made, claimed, biped, gait):
 
 
 def test_gait_of_another_preset(gait):
+    """With other masses the impact leaves the curves, and the error names the preset that they were made for;
+    slopes=False waives the check.
+    """
     heavier = ba.Biped.load("rabbit", "tac2003")
     with pytest.raises(GaitError, match="preset identified"):
         import_gait(record_of(gait, heavier, "tac2003"), heavier)
@@ -233,7 +267,7 @@ def test_what_is_no_number_is_refused(record, wrong):
 @pytest.mark.parametrize(
     ("name", "data", "word"),
     [
-        ("none.mat", None, "not found"),
+        ("none.mat", None, "not found"),  # None: no file is written
         ("gait.txt", b"", "expected"),
         ("damaged.mat", b"not a MATLAB file", "MATLAB file"),
         (
@@ -246,6 +280,9 @@ def test_what_is_no_number_is_refused(record, wrong):
     ],
 )
 def test_files_that_cannot_be_read(tmp_path, name, data, word):
+    """Each message names the file and says why; for a file of MATLAB 7.3, which is HDF5, that it has to be
+    saved with '-v7'.
+    """
     path = tmp_path / name
     if data is not None:
         path.write_bytes(data)
@@ -255,6 +292,7 @@ def test_files_that_cannot_be_read(tmp_path, name, data, word):
 
 
 def test_cut_off_mat_files_are_input_errors(gait, tmp_path):
+    """Wherever the file ends too early (every 97 bytes), the error is the package's own and none of SciPy's."""
     export_gait(gait, tmp_path / "gait.mat")
     data = (tmp_path / "gait.mat").read_bytes()
     for length in range(0, len(data) - 1, 97):
@@ -265,7 +303,9 @@ def test_cut_off_mat_files_are_input_errors(gait, tmp_path):
 
 
 def test_a_run_comes_back_from_its_mat_file_with_units_and_note(biped, gait, tmp_path):
-    """MATLAB reads vectors as columns: a row per time."""
+    """Each signal comes back to the last bit. In MATLAB a vector is a column, (K, 1), with a row per time. A
+    name that ends with .csv is refused.
+    """
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     columns = vars(ba.walk(walker, gait, 1).signals)
     assert set(columns) == set(RUN_UNITS)
@@ -283,6 +323,7 @@ def test_a_run_comes_back_from_its_mat_file_with_units_and_note(biped, gait, tmp
 
 
 def test_a_file_says_its_convention_once(gait, tmp_path):
+    """The file states "frost"; the argument "paper" contradicts it and is refused."""
     path = tmp_path / "gait.json"
     export_gait(gait, path, "frost")
     with pytest.raises(GaitError, match="frost"):

@@ -1,4 +1,7 @@
-"""Curves, constraints, zero dynamics, gait files, and the gait through x*."""
+"""Curves, constraints, zero dynamics, gait files, and the gait through x*.
+
+biped and gait are RABBIT and its published gait; any_biped is RABBIT with each preset of its masses.
+"""
 
 import json
 from math import comb
@@ -15,7 +18,9 @@ from biped_adrc.gait.published import X_STAR
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial])
 def test_curves_are_the_sums_that_define_them(kind):
-    """Of Bernstein polynomials and of powers, and beyond the ends of the phase too."""
+    """At s inside and beyond the ends of the phase, 0 and 1, a curve is the sum of its coefficients times
+    Bernstein polynomials, or times powers of s.
+    """
     a = np.random.default_rng(0).normal(size=(3, 7))
     curve = kind(a)
     for s in (-0.1, 0.0, 0.3, 1.0, 1.2):
@@ -30,7 +35,9 @@ def test_curves_are_the_sums_that_define_them(kind):
 @pytest.mark.parametrize("kind", [Bezier, BSpline])
 @pytest.mark.parametrize("degree", [3, 4, 9])
 def test_coefficients_at_the_abscissae_are_the_straight_line(kind, degree):
-    """Linear precision: sum_k s_k N_k(s) = s, by SciPy's splines for those of pieces."""
+    """Linear precision: sum_k s_k N_k(s) = s with slope 1 and no curvature, where s_k are the abscissae.
+    B-splines are compared with SciPy's, of pieces of degree 3, on the same knots too.
+    """
     line = kind(kind.abscissae(degree)[np.newaxis])
     for s in (0.0, 0.137, 0.5, 0.9, 1.0):
         assert np.ravel(line(s)) == pytest.approx([s, 1.0, 0.0], abs=1e-12)
@@ -43,6 +50,7 @@ def test_coefficients_at_the_abscissae_are_the_straight_line(kind, degree):
 
 
 def test_curves_that_are_no_curves():
+    """Coefficients have to be finite and (outputs, at least 2), and the phase needs two different ends."""
     for bad in (np.zeros(3), np.zeros((2, 1)), np.full((2, 3), np.nan)):
         with pytest.raises(GaitError, match="curve coefficients"):
             Bezier(bad)
@@ -78,6 +86,7 @@ def test_published_gait_closes_on_the_published_state(any_biped):
     ],
 )
 def test_wrong_gait_files_are_refused_by_name(tmp_path, biped, gait, changes):
+    """changes: of the entries of a sound file; None takes the entry away. The message names the file."""
     path = tmp_path / "bad.json"
     gait.save(path)
     record = {**json.loads(path.read_text()), **changes}

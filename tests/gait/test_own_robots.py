@@ -1,4 +1,8 @@
-"""Gaits for any robot: its own coordinates, names and structs of other tools, samples over time, own cycles."""
+"""Gaits for any robot: own coordinates, names and structs of other tools, samples over time, own cycles.
+
+biped and gait are RABBIT and its published gait. Fixtures: step, samples (t, q, v) of one simulated step of
+this gait; turned, a robot whose phase grows. close(h, gait): the curves have the same coefficients.
+"""
 
 from __future__ import annotations
 
@@ -70,6 +74,9 @@ def turned_gait(gait, biped):
 
 @pytest.mark.parametrize("kind", ["json", "mat"])
 def test_a_robot_of_its_own_coordinates_gives_and_takes_gaits(turned, gait, tmp_path, kind):
+    """`turned` is RABBIT under another name with the phase -Theta, which no convention has. In the convention
+    "own" its gaits are written and read to the last bit.
+    """
     biped = turned
     own, path = turned_gait(gait, biped), tmp_path / f"own.{kind}"
     own.save(tmp_path / "stored.json")
@@ -82,6 +89,9 @@ def test_a_robot_of_its_own_coordinates_gives_and_takes_gaits(turned, gait, tmp_
 
 
 def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait):
+    """Row 3 of the curves is the right knee's: 0.1 rad more at its start and the error names this joint, not
+    one of a convention. Other conventions, and three rows for four motors, are refused too.
+    """
     biped = turned
     own = turned_gait(gait, biped)
     c, a = own.constraint, own.constraint.curve.coefficients.copy()
@@ -103,6 +113,9 @@ def entries(gait):
 
 
 def test_entries_of_a_struct_are_named(biped, gait, tmp_path):
+    """`names` says where in the file an entry of a gait is. Without it, or with a name that the file does not
+    have, the message lists what is there, such as "first".
+    """
     alpha, plus, minus = entries(gait)
     path = tmp_path / "R.mat"
     savemat(path, {"R": {"alpha": alpha, "th": {"first": plus, "last": minus}}})
@@ -132,6 +145,9 @@ def cells(*rows):
 
 @pytest.mark.parametrize("suffix", ["mat", "json"])
 def test_elements_of_arrays_are_named(suffix, biped, gait, tmp_path):
+    """Places are MATLAB's, counted from 1: element 2 of R, since element 1 has other numbers; curves stacked
+    column by column. From JSON only wrong places are tried.
+    """
     alpha, plus, minus = entries(gait)
     path, column = tmp_path / f"R.{suffix}", alpha.ravel(order="F")
     steps = [{"a": 0.0 * column, "p": [9.0, 9.0]}, {"a": column, "p": [minus, plus]}]
@@ -149,6 +165,7 @@ def test_elements_of_arrays_are_named(suffix, biped, gait, tmp_path):
 
 
 def test_rows_of_an_array_are_named_as_optimtraj_stacks_them(step, biped, gait, tmp_path):
+    """OptimTraj has one array of angles over rates: rows 1 to 5 are q and 6 to 10 are q', in its own angles."""
     back, path = convention("optimtraj").to_paper.inverse, tmp_path / "soln.mat"
     state = np.column_stack((back.angles(step.q), back.rates(step.v))).T
     savemat(path, {"soln": structs({"grid": {"time": step.t, "state": state}})})
@@ -186,6 +203,10 @@ def frost_domains(step, biped, left):
     ],
 )
 def test_results_of_frost_as_they_are(form, where, left, step, biped, gait, tmp_path):
+    """form: how the file holds domains (a step, an impact, a step); where: which one the import says that it
+    took. With `left`, the left leg stands in FROST's names of right and left, which the import remarks. The
+    gait is that of the samples each time.
+    """
     course, impact = frost_domains(step, biped, left)
     domains, names = (
         (course, impact, course),
@@ -207,6 +228,7 @@ def test_results_of_frost_as_they_are(form, where, left, step, biped, gait, tmp_
 # -- samples over time ------------------------------------------------------------------------------
 @pytest.mark.parametrize("rates", [True, False])
 def test_samples_give_back_the_gait_they_were_made_with(step, rates, biped, gait):
+    """Angles over time, with or without rates, determine curves, period and fit of the gait that was walked."""
     found = ba.import_gait(step if rates else step._replace(v=None), biped)
     assert close(found, gait, 1e-6)
     assert found.period == pytest.approx(gait.period, abs=1e-6)
@@ -214,7 +236,9 @@ def test_samples_give_back_the_gait_they_were_made_with(step, rates, biped, gait
 
 
 def test_a_fit_that_is_not_exact_closes_with_the_slopes_of_the_impact(step, biped):
-    """Degree 5 misses the samples by millimetres; ends and slopes are set, so the gait is still invariant."""
+    """Curves of degree 5 do not meet the samples exactly. Values and slopes at the ends are set and not fitted,
+    so that after the impact the robot is on the curve again, with its slope: the gait is hybrid-invariant.
+    """
     found = ba.import_gait(step, biped, degree=5)
     h, n = found.constraint, biped.n
     impact = biped.impact(found.q_minus, found.v_minus)
@@ -236,6 +260,7 @@ def test_samples_in_files(step, kind, biped, gait, tmp_path):
 
 
 def test_a_bad_fit_is_said_to_be_one(step, biped):
+    """Degree 4 is too low for these samples."""
     with pytest.raises(ba.BipedError, match="try a degree up to 12"):
         ba.import_gait(step, biped, degree=4)
 
@@ -252,12 +277,17 @@ def test_a_bad_fit_is_said_to_be_one(step, biped):
     ],
 )
 def test_samples_that_are_no_step_of_this_robot(step, biped, change):
+    """Cut off before the impact, in degrees, with four coordinates, backwards in time, with rates in another
+    order, and slower than the robot falls: each is refused.
+    """
     with pytest.raises(ba.BipedError):
         ba.import_gait(change(step), biped)
 
 
 def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
-    """Without rates the curves fit, and the time of the step gives it away; with rates the impact does."""
+    """A torso three times as heavy has another impact than the rates of the samples show; the message names
+    masses, as the curves themselves fit.
+    """
     heavy = ba.ModelErrors(mass={"torso": 2.0}, inertia={"torso": 2.0}).apply(biped)
     with pytest.raises(ba.BipedError, match="masses"):
         ba.import_gait(step, heavy)
@@ -278,6 +308,9 @@ def low(biped, step, height):
 
 @pytest.mark.parametrize("height", [-3e-3, -1.27e-3, 3e-3, 4e-3])
 def test_a_foot_near_the_ground_is_put_onto_it_and_that_is_said(height, step, biped, gait):
+    """height [m] of the foot above the ground at both ends of the samples: up to 5 mm it is put onto the
+    ground, and 7 mm are refused.
+    """
     found = ba.import_gait(low(biped, step, height), biped)
     assert abs(biped.swing_foot(found.q_minus)[1]) < 1e-9
     assert found.period == pytest.approx(gait.period, abs=4e-3)
@@ -290,8 +323,9 @@ def test_a_foot_near_the_ground_is_put_onto_it_and_that_is_said(height, step, bi
 
 @pytest.mark.parametrize("height", [-4.9e-3, -3e-3, 3e-3, 4.9e-3, -7e-3, 7e-3])
 def test_a_gait_tilted_about_its_stance_foot_is_put_onto_the_ground(height, biped, gait, tmp_path):
-    """The last joint, q_N, shifted by asin(height / length) through the step; the impact does not know
-    of it, so slopes that close still do. The trunk keeps the pitch of the file.
+    """The last joint, q_N, is shifted by asin(height / length) through the step, so that the foot ends `height`
+    [m] above the ground; up to 5 mm are taken away, more is refused. The impact does not know of the tilt, so
+    slopes that close still do. The trunk keeps the pitch of the file.
     """
     tilt = np.arcsin(height / gait.step_length(biped)) * np.array([0.0, 0.0, 0.0, 0.0, 1.0])
     record, path = record_of(gait, biped), tmp_path / "tilted.json"
@@ -313,7 +347,9 @@ def test_a_gait_tilted_about_its_stance_foot_is_put_onto_the_ground(height, bipe
 
 @pytest.mark.parametrize("k", [0.165, 0.378, 1.6])
 def test_another_gravity_is_told_from_other_masses_and_lengths(k, step, biped):
-    """q(t) in k times the gravity is q(sqrt(k) t)."""
+    """q(t) in k times the gravity is q(sqrt(k) t): samples on the Moon (0.165), on Mars (0.378) and in 1.6 g
+    are explained by gravity and by nothing else.
+    """
     there = Samples(step.t / np.sqrt(k), step.q, step.v * np.sqrt(k))
     with pytest.raises(
         ba.BipedError, match=rf"fit with gravity \(or one over all lengths\) times {k:g}"
@@ -345,6 +381,9 @@ OTHERS = {
 
 @pytest.mark.parametrize("cause", OTHERS)
 def test_lengths_and_masses_are_told_apart_before_one_is_named(cause, biped, gait):
+    """OTHERS: text of the message -> robot that made the samples. That robot takes them; RABBIT refuses them
+    and names the one change that explains them.
+    """
     other = OTHERS[cause](biped)
     samples = of_robot(other, gait)
     ba.import_gait(samples, other)
@@ -353,6 +392,9 @@ def test_lengths_and_masses_are_told_apart_before_one_is_named(cause, biped, gai
 
 
 def test_another_convention_of_samples_is_named(step, biped):
+    """Samples in OptimTraj's angles, taken for the paper's, are refused with the convention in which they
+    close.
+    """
     there = convention("optimtraj").to_paper.inverse
     with pytest.raises(ba.BipedError, match=r"close in .*optimtraj"):
         ba.import_gait(Samples(step.t, there.angles(step.q)), biped)

@@ -35,6 +35,9 @@ def test_inverse_kinematics_inverts_the_forward_kinematics(biped):
 
 
 def test_the_feet_and_the_hip_follow_the_recipe(biped):
+    """Over the share s of a step the hip goes forward evenly and up and down by a half sine, to its place in x*
+    at the end; the foot's height is a half sine. Places are by the robot's own kinematics.
+    """
     p = fit_to_x_star(biped)
     s = np.linspace(0.0, 1.0, 21)
     q = joint_trajectories(biped, p, s)
@@ -50,6 +53,7 @@ def test_the_feet_and_the_hip_follow_the_recipe(biped):
 
 
 def test_the_step_ends_in_the_pose_of_x_star_and_starts_in_it_relabelled(any_biped):
+    """So that the gait closes in its angles. The published x* has three decimals, hence 5e-4."""
     pose = onto_section(any_biped, X_STAR[:5])
     constraint, _ = recipe_constraint(any_biped, fit_to_x_star(any_biped))
     end, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_minus)
@@ -67,6 +71,9 @@ def test_the_path_leaves_in_the_direction_of_the_rates_of_x_star(biped):
 
 
 def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_biped):
+    """Jump of the actuated rates off the constraint by the impact [rad/s]: none for a hybrid-invariant gait.
+    The recipe sets no slopes at its ends, as the paper says of it.
+    """
     published, recipe = (
         impact_jump(any_biped, gait.constraint, gait.q_minus, gait.v_minus)[1]
         for gait in (load_gait(name, any_biped) for name in ("published", "recipe"))
@@ -82,11 +89,15 @@ def test_the_design_reproduces_the_stored_file(biped):
     np.testing.assert_allclose(
         [a.theta_plus, a.theta_minus], [b.theta_plus, b.theta_minus], atol=1e-12
     )
+    # "cycle" was added when the orbit of the closed loop took the place of the design's
     written = {k: v for k, v in stored.provenance.items() if k != "cycle"}
     assert written == dict(designed.provenance)
 
 
 def test_the_stored_state_is_a_fixed_point_of_the_walk_under_npd(any_biped):
+    """Of the closed loop, whose controller brings the robot back to the curve after each impact: P(s) = s for
+    the return map P of the simulated walk.
+    """
     gait = load_gait("recipe", any_biped)
     walker = Walker(any_biped, NPDController(gait.constraint))
     P = ReturnMap(walker, RK4(1e-3))

@@ -1,4 +1,11 @@
-"""Zero dynamics in closed form against simulations that know nothing of them, and against the rimless wheel."""
+"""Zero dynamics in closed form against simulations that know nothing of them, and the rimless wheel.
+
+zeta = sigma^2 / 2, with sigma the angular momentum about the stance foot just before an impact, describes a
+step; zeta_star is the fixed point of its map from step to step, rho. V_zero is the potential of the zero
+dynamics over the phase Theta, and delta = sigma+ / sigma- at the impact. Fixtures: bare and published, RABBIT
+without rotors and its published gait; orbits, their zero dynamics. wheel(slope) is the rimless wheel with its
+constraint.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +53,10 @@ def fast_walk(orbits, published):
 
 
 def test_the_map_from_step_to_step_is_that_of_the_simulated_walk(orbits, bare, fast_walk):
-    """zeta, the duration and the energy of each step of the simulated five-link robot."""
+    """zeta = sigma^2 / 2, with sigma the angular momentum about the stance foot before an impact. From 1.8
+    times the fixed point on, zeta, duration and energy of each step of the full five-link simulation are those
+    of the map in closed form.
+    """
     zeta = orbits.iterate(1.8 * orbits.zeta_star, 5)
     x = fast_walk.trajectory.before("foot_strike")
     sigma = np.array([bare.angular_momentum(x_k[:5], x_k[5:10]) for x_k in x])
@@ -61,6 +71,9 @@ def test_the_map_from_step_to_step_is_that_of_the_simulated_walk(orbits, bare, f
 
 
 def test_single_support_conserves_zeta_and_potential(orbits, bare, published, fast_walk):
+    """sigma^2 / 2 + V_zero(Theta) is constant in a simulated single support, while sigma^2 / 2 itself varies by
+    more than a fifth of it.
+    """
     arc = fast_walk.trajectory.arcs[0]
     theta = arc.x[:, :5] @ published.constraint.phase
     sigma = np.array([bare.angular_momentum(x[:5], x[5:10]) for x in arc.x])
@@ -70,6 +83,10 @@ def test_single_support_conserves_zeta_and_potential(orbits, bare, published, fa
 
 
 def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
+    """`lowest` is the zeta at which a step just comes over the top of V_zero: 0.2 % above it the simulated
+    robot walks, with the duration computed, and 0.2 % below it stalls. So near the top a step is long, hence 6
+    s.
+    """
     for share, walks in ((1.002, True), (0.998, False)):
         zeta = share * orbits.lowest
         run = walk_from(orbits, published, zeta, 1, ba.RK4(2e-3), max_step_time=6.0)
@@ -80,6 +97,9 @@ def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
 
 @pytest.mark.parametrize("limits", [DomainLimits(friction=0.5), DomainLimits(torque=90.0)])
 def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, published, limits):
+    """A simulated step from a zeta 0.5 % below the upper end keeps the limit, one 0.5 % above violates it. Only
+    the limit in question is tight (the other is 99 or 1 kN m), and forces are not averaged: a window of 1e-6 s.
+    """
     within = KnownLimits(limits.friction or 99.0, limits.torque or 1e3, 1e-6)
     upper = domain(orbits, limits).upper
     assert upper.cause == ("friction" if limits.friction else "torque")
@@ -92,12 +112,15 @@ def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, publi
 
 @pytest.mark.parametrize("share", [0.45, 2.1])
 def test_friction_of_a_step_decides_whether_it_is_in_the_domain(any_biped, share):
-    """Ratios of one step's own forces; of both signs, fast steps of two presets brake most."""
+    """|F_T| / F_N needed is taken along one step, a slow or a fast one (share of zeta*): with 2 % more friction
+    this zeta is in the domain, with 2 % less it is not. Two presets brake most in fast steps, so that F_T of
+    both signs matters.
+    """
     constraint = ba.load_gait("published", any_biped).constraint
     orbits = orbits_of(any_biped, constraint)
     zeta = share * orbits.zeta_star
     dense = ba.ZeroDynamics.of(any_biped, constraint, nodes=160)
-    step = dense.orbit(orbits.delta * orbits.sigma(zeta))
+    step = dense.orbit(orbits.delta * orbits.sigma(zeta))  # begins after the impact
     F_T, F_N = step.ground_reaction.T
     needed = float(np.max(np.abs(F_T) / F_N))
     assert domain(orbits, DomainLimits(friction=1.02 * needed)).holds(zeta)
@@ -105,7 +128,9 @@ def test_friction_of_a_step_decides_whether_it_is_in_the_domain(any_biped, share
 
 
 def test_the_fixed_point_is_the_published_state(any_biped):
-    """zeta* = -V_zero(Theta-) / (1 - delta^2), while x- of the gait was given before there was a curve."""
+    """zeta* = -V_zero(Theta-) / (1 - delta^2) has the sigma of the gait's state before impact, which was
+    published before there was a curve; rho(zeta*) = zeta*.
+    """
     gait = ba.load_gait("published", any_biped)
     orbits = orbits_of(any_biped, gait.constraint)
     sigma = any_biped.angular_momentum(gait.q_minus, gait.v_minus)
@@ -180,10 +205,14 @@ def test_a_spoke_pushes_along_itself():
 
 
 def test_multiplier_of_the_wheel_is_delta_squared():
+    """The return map of the simulated wheel, started 2 % too fast, has its fixed point at zeta*, and delta^2 of
+    the closed form as its multiplier.
+    """
     biped, constraint = wheel(0.12)
     orbits = orbits_of(biped, constraint)
     walker = ba.Walker(biped, ba.Passive(), slope=0.12, max_step_time=10.0)
     q, v = orbits.zero.end_state(orbits.sigma(orbits.zeta_star))
+    # pitch: where the search for the wheel's angle begins, upright
     found = ba.ReturnMap(walker, ba.Adaptive(), pitch=math.pi).fixed_point(np.append(q, 1.02 * v))
     assert found.multipliers[0].real == pytest.approx(orbits.delta**2, rel=1e-6)
     assert found.x_minus == pytest.approx(np.append(q, v), rel=1e-8)
@@ -191,6 +220,10 @@ def test_multiplier_of_the_wheel_is_delta_squared():
 
 # -- when there is no orbit ----------------------------------------------------------------------------
 def test_zero_dynamics_without_a_fixed_point_name_the_condition(bare, published, orbits):
+    """Each condition is broken alone: a slope too small to pass the top (V_max), one uphill, an impact that
+    gives energy (delta 1.1), curves on which I(Theta) changes its sign, so that Theta is no phase, and a zeta
+    from which a step is not completed.
+    """
     with pytest.raises(GaitError, match="V_max"):
         _ = orbits_of(*wheel(0.05)).zeta_star
     with pytest.raises(GaitError, match="expected below 0"):

@@ -1,4 +1,9 @@
-"""Logs as files: read as they were written, and refused with a sentence where they are damaged."""
+"""Logs as files: read as they were written, and refused with a sentence where they are damaged.
+
+Fixtures: log, of a walk of three steps, sampled at 1 kHz with exact sensors; lines, the lines of its file
+around the first touchdown, a list of texts each; read, which writes such lines to a file and reads the log in
+it.
+"""
 
 from __future__ import annotations
 
@@ -44,6 +49,9 @@ def column(lines, name):
 
 
 def test_a_log_comes_back_to_the_last_bit(log, biped, tmp_path):
+    """All arrays, with all rates measured, and with those of knees not measured (measured = 0), whose columns
+    the file then does not have; the rate of q5 is measured in both.
+    """
     back = ba.read_log(write_log(log, tmp_path / "log", biped), biped)
     assert all(np.array_equal(getattr(back, x), getattr(log, x)) for x in ARRAYS)
     assert back.remarks == ()
@@ -54,7 +62,9 @@ def test_a_log_comes_back_to_the_last_bit(log, biped, tmp_path):
 
 
 def test_in_the_file_a_joint_keeps_its_name_over_a_touchdown(log, lines):
-    """No angle jumps in the labels of the robot's legs; in those of the package the legs change places."""
+    """`lines` has 12 rows before and after the first touchdown. In the labels of the robot's legs no angle
+    jumps; in the log, labelled by stance and swing, the legs change places there.
+    """
     q = np.array([[float(x) for x in line[2:7]] for line in lines[1:]])
     assert np.max(np.abs(np.diff(q, axis=0))) < 0.02
     at = int(np.flatnonzero(log.step == 2)[0])
@@ -66,6 +76,9 @@ def test_in_the_file_a_joint_keeps_its_name_over_a_touchdown(log, lines):
 
 
 def test_labels_of_stance_and_swing_are_read_by_step(log, biped, lines, read):
+    """A file with the column `step` (number of the single support) in place of `contact` (the leg that stands)
+    has the labels of stance and swing already: both forms give the same log.
+    """
     legs = read(lines)
     at = column(lines, "contact")
     swapped = [[*lines[0][:at], "step", *lines[0][at + 1 :]]]
@@ -77,6 +90,9 @@ def test_labels_of_stance_and_swing_are_read_by_step(log, biped, lines, read):
 
 
 def test_other_units_are_converted_and_it_is_said(lines, read):
+    """Time in ms and one angle in degrees give the same log; a column that is none of a log, the current, is
+    left alone. Both are remarked.
+    """
     at, head = column(lines, "q2"), list(lines[0])
     head[0], head[at] = "t [ms]", "q2 [deg]"
     rows = [[*row] for row in lines[1:]]
@@ -138,6 +154,7 @@ DAMAGE = {
 
 @pytest.mark.parametrize("kind", DAMAGE)
 def test_damage_is_named_with_its_place(lines, read, kind):
+    """DAMAGE[kind] is (change of the file's lines, text of the error): the line or column has to be named."""
     change, said = DAMAGE[kind]
     with pytest.raises(InputError, match=f"^log '.*log.csv': .*{said}"):
         read(change(lines))
@@ -181,12 +198,19 @@ LATER = (1, 1, 1, 2, 2, 2)
     ],
 )
 def test_arrays_that_are_no_log_are_named_by_the_row(arrays, said):
+    """Six rows, with one thing wrong each; ways: times between rows in 1/64 s, which binary numbers hold
+    exactly; step: numbers of the single supports. Rows may be 1e-5 to 0.1 s apart, and half a period early or
+    late.
+    """
     with pytest.raises(InputError, match=said):
         log_of(**arrays)
 
 
 def test_what_lies_at_the_limits_is_a_log(biped):
-    """Rows half a period late or early, a row soon after a touchdown; half a turn, two turns, 100 peaks."""
+    """A row may be half a period late or early, and come soon after a touchdown; the clock is even to 0.1 % of
+    the period (0.9991, not 0.9989). An angle may change by half a turn, and by more at a touchdown; two turns
+    and 100 times the peak torque of 150 N m are plausible.
+    """
     logs = [log_of((1, 1, x, 1, 1)) for x in (1.5, 0.5, 0.9991, 1.0009, 0.9989, 1.0011)]
     assert [x.period for x in logs] == [1.0 / 64.0] * 6
     assert [x.even(1.0 / 64.0) for x in logs] == [False, False, True, True, False, False]
@@ -207,7 +231,9 @@ def test_what_lies_at_the_limits_is_a_log(biped):
     ],
 )
 def test_a_rate_is_within_half_and_twice_that_of_its_angle(biped, speed, rate, refused):
-    """Over one interval of 1/32 s; slower than 0.002 rad in it nothing is said."""
+    """speed of q4, and rate logged as v4 [rad/s]; refused: 1 or 0. Over one interval of 1/32 s; nothing is said
+    where both change by less than 0.002 rad in it, as at 0.06 rad/s.
+    """
     t, one = np.arange(6.0) / 32.0, np.eye(5)[3]
     log = t, np.ones(6), np.outer(speed * t, one), np.zeros((6, 4)), np.tile(rate * one, (6, 1))
     said = pytest.raises(InputError, match=r"q4 changes by .* times what v4 says, expected 1")
@@ -217,7 +243,10 @@ def test_a_rate_is_within_half_and_twice_that_of_its_angle(biped, speed, rate, r
 
 
 def test_a_log_of_one_window_is_compared_with_the_model_and_a_shorter_one_is_not(log, biped):
-    """A window of 40 rows of 1 ms, with 10 on each side for the differences."""
+    """A window of 40 rows of 1 ms, with 10 on each side for the differences, takes 61 rows. All torques have
+    the wrong sign here, so that a = -b in the balance of momentum and |a - b| is sqrt(2) = 141 % of sqrt(|a|^2
+    + |b|^2). With 60 rows nothing can be said.
+    """
     one, short = (RobotLog(log.t[:K], log.step[:K], log.q[:K], -log.u[:K]) for K in (61, 60))
     assert check_reading(short, biped) == ()
     with pytest.raises(
@@ -231,6 +260,9 @@ def test_a_log_of_one_window_is_compared_with_the_model_and_a_shorter_one_is_not
     [("none", "continuous time and has no sample"), ("ideal", "t = 0 s, before")],
 )
 def test_a_walk_without_sample_instants_has_no_log(hardware, said):
+    """Neither one in continuous time nor one that starts at 1e5 rad/s and is ended at t = 0, before it has a
+    sample.
+    """
     walk = ba.walk_scenario(ba.Scenario("NPD", hardware=hardware, start={"v5": 1e5}))
     with pytest.raises(InputError, match=said):
         logged(walk)

@@ -1,4 +1,10 @@
-"""What a replay shows: the walk's own torques again, and disturbances that are known."""
+"""What a replay shows: the walk's own torques again, and disturbances that are known.
+
+A replay feeds the log of a walk to the controller of a scenario, without a simulation. Fixtures:
+walked(**values), a walk of three steps of this scenario, under a pulse of 20 N m on both hips in the second
+single support; log, of such a walk with exact sensors at 1 kHz. asked(walk, log) is the replay's signals, where
+u is the torque in the log and torque the one that the controller asks for.
+"""
 
 from __future__ import annotations
 
@@ -36,13 +42,20 @@ def asked(walk, log=None):
     ids=lambda values: "-".join(f"{x}" for x in values.values()),
 )
 def test_the_torque_asked_for_is_the_one_that_the_walk_had(walked, values):
+    """x.torque, which the controller asks for when it is fed with the log alone, is x.u, the torque in the log.
+    From the second single support on, since the first state of an observer behind encoders was the true one in
+    the walk. A replay with other memory, clock or labels would differ.
+    """
     x = asked(walked(**values))
-    later = x.step > 1  # the first state of an observer behind encoders is the true one
+    later = x.step > 1
     assert len(np.unique(x.step[later])) == 2
     assert np.max(np.abs(x.torque - x.u)[later]) < ROUND_OFF
 
 
 def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
+    """The torque asked for in row k acts, and is logged, in row k + 1. In the same row both differ by more than
+    1 N m. Rows at an impact, where the clock starts anew, are left out.
+    """
     x = asked(
         walked(
             **LESO,
@@ -55,8 +68,9 @@ def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
 
 
 def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
-    """From the angles alone the replay finds the filtered rates of the walk; without its filter they are
-    noisier."""
+    """From the angles alone (v None) the replay finds the filtered rates of the walk, and the same torques.
+    Without the walk's filter they are noisier. One measured rate beside four found ones changes no torque.
+    """
     walk = walked(**LESO, **RABBIT)
     log = logged(walk)
     x, y = asked(walk), asked(walk, replace(log, v=None, measured=None))
@@ -97,6 +111,9 @@ LOGGED = {
 
 @pytest.mark.parametrize("values", LOGGED.values(), ids=LOGGED)
 def test_a_log_in_another_reading_is_refused_by_the_one_that_fits(walked, values):
+    """The log as it is has no remark under any of LOGGED, also where sensors, masses or ground differ from the
+    model. Each mistake of WRONG in its numbers is refused, and the message names the correction that undoes it.
+    """
     walk = walked(**values)
     log = replace(logged(walk), v=None, measured=None)
     assert ba.replay(log, ba.Scenario("NPD")).remarks == ()
@@ -113,7 +130,9 @@ def test_a_log_that_fits_in_no_reading_has_a_remark(log):
 
 
 def test_rates_that_the_log_has_not_begin_as_its_first_difference(log):
-    """Without a filter they are the difference of each two rows, and at the start that of the first two."""
+    """Without a filter a rate is the difference of each two rows of a single support, and in the first row that
+    of the first two. Measured rates (1 in `measured`) are kept as they are.
+    """
     bare = replace(log, v=None, measured=None)
     x = ba.replay(bare, ba.Scenario("NPD"), filter_time=0.0).signals
     rows = np.flatnonzero(np.diff(log.step) == 0.0)
@@ -165,17 +184,22 @@ def missed(walk, controller, order, bandwidth, unit):
     ("controller", "order", "unit"), [("DOB", 2, "N m"), ("ADRC assisted", 3, "rad/s^2")]
 )
 def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controller, order, unit):
-    """(w / (s + w))^2 with the two poles of the momentum observer, ^3 with m = 1: late by order / w."""
+    """The estimate of a known pulse is the pulse behind (w / (s + w))^order, w = 100 rad/s: order 2 with the
+    two poles of the momentum observer, 3 with m = 1. It is off this by less than a tenth of what it is off the
+    pulse itself, and half the period halves that (first order in T).
+    """
     walks = [walked(**{"hardware.period": T, "run.impacts": 2}) for T in (4e-3, 2e-3, 1e-3)]
     errors = [missed(walk, controller, order, 100.0, unit) for walk in walks]
     off, late = np.array(errors).T
     assert np.all(off < 0.1 * late)
-    assert np.all((off[:-1] / off[1:] > 1.6) & (off[:-1] / off[1:] < 2.5))  # of first order in T
+    assert np.all((off[:-1] / off[1:] > 1.6) & (off[:-1] / off[1:] < 2.5))
 
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
-    """20 N m within 1 N m, away from the touchdown, where contact makes more than 100 N m on soft ground
-    alone."""
+    """The estimate is 20 N m on both hips within 1 N m, from 50 ms after the pulse's onset on. Right after the
+    touchdown it has more than 100 N m of contact on soft ground alone, whose forces the rigid model does not
+    know.
+    """
     soft, rigid = (
         walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
         for x in ("mujoco", "rigid")
@@ -189,6 +213,10 @@ def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
 
 
 def test_the_parts_of_the_estimate_make_the_whole(log):
+    """The estimate is nominal model + contact (in the window of 0.03 s after a touchdown) + model error
+    (outside of it); a row's numbers are rms values and maxima over the second single support, computed here
+    again.
+    """
     found = ba.replay(log, ba.Scenario(**LESO), window=0.03)
     x = found.signals
     assert np.allclose(x.xi_nominal + x.xi_model_error + x.xi_contact, x.xi_estimate)
@@ -210,6 +238,7 @@ def test_the_parts_of_the_estimate_make_the_whole(log):
 
 
 def test_without_an_observer_nothing_is_estimated(log):
+    """NPD has none: the estimate is NaN, its column of the table a dash, and torques are there all the same."""
     found = ba.replay(log, ba.Scenario("NPD"))
     assert np.isnan(found.signals.xi_estimate).all()
     assert np.isfinite(found.signals.torque).all()
@@ -218,7 +247,9 @@ def test_without_an_observer_nothing_is_estimated(log):
 
 
 def test_another_period_is_resampled_and_said(log):
-    """From 1 ms to 2 ms each second row stays, and a torque is the mean of two."""
+    """From 1 ms to 2 ms each second row stays, and a torque is the mean of the two that were held in its
+    period.
+    """
     half = replace(log, t=log.t, remarks=())
     found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1

@@ -1,4 +1,8 @@
-"""Single support: two models agree, and the laws of mechanics hold."""
+"""Single support: two models agree, and the laws of mechanics hold.
+
+any_biped is RABBIT with each preset of its masses; states(n, count) yields random angles and rates of n
+coordinates.
+"""
 
 import math
 
@@ -18,6 +22,9 @@ def states(n, count, seed=0):
 
 
 def test_inertia_rate_minus_twice_coriolis_is_skew(any_biped):
+    """D' - 2 C is skew-symmetric, with D' by central differences over +-h; and C v + G is the bias of
+    Pinocchio.
+    """
     b, h = any_biped, 1e-6
     for q, v in states(b.n, 50):
         rate = (b.inertia(q + h * v) - b.inertia(q - h * v)) / (2 * h)
@@ -27,7 +34,7 @@ def test_inertia_rate_minus_twice_coriolis_is_skew(any_biped):
 
 
 def test_the_energy_grows_by_the_power_of_the_motors(any_biped):
-    """dE/dt = q_s'^T B_s u along the forward dynamics."""
+    """dE/dt = q_s'^T B_s u: dE/dt by central differences along the motion of the forward dynamics."""
     b, h = any_biped, 1e-5
     random = np.random.default_rng(3)
     for q, v in states(b.n, 30):
@@ -45,7 +52,9 @@ def test_the_energy_grows_by_the_power_of_the_motors(any_biped):
 
 
 def test_angular_momentum_about_the_foot_changes_by_gravity_alone(any_biped):
-    """sigma' = -dV/dq5, whatever the motors do."""
+    """sigma' = -dV/dq5, whatever the motors do: the last entry of G, as q5 turns the whole robot about the
+    foot. sigma' is by central differences along the motion.
+    """
     b, h = any_biped, 1e-6
     for q, v in states(b.n, 20):
         a = b.acceleration(q, v, b.B @ np.array([50.0, -30.0, 20.0, 10.0]))
@@ -83,7 +92,7 @@ def test_the_split_of_any_number_of_motors_is_the_system_solved_whole(p):
 
 
 def test_the_velocity_of_the_swing_foot_is_its_slope(biped):
-    """The foot itself by hand: gait/test_conventions.py."""
+    """By central differences of its place; that the place is right is shown in gait/test_conventions.py."""
     h = 1e-6
     for q, v in states(biped.n, 20):
         slope = (biped.swing_foot(q + h * v) - biped.swing_foot(q - h * v)) / (2 * h)
@@ -91,8 +100,8 @@ def test_the_velocity_of_the_swing_foot_is_its_slope(biped):
 
 
 def test_published_state_stands_on_the_ground(biped):
-    """And the step length [m], the velocities of foot and hip [m/s] and the rate of Theta [rad/s] that
-    follow.
+    """x* is printed to three decimals: the swing foot is on the ground to 0.15 mm. Step length [m], velocities
+    of foot and hip [m/s] and rate of Theta [rad/s] are those that follow from the printed numbers.
     """
     q, v = X_STAR[:5], X_STAR[5:]
     assert biped.swing_foot(q) == pytest.approx([0.3125, -0.0001], abs=5e-5)
@@ -102,7 +111,9 @@ def test_published_state_stands_on_the_ground(biped):
 
 
 def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
-    """The force at the stance foot that the unpinned model (2) needs for the same motion."""
+    """Of the unpinned model (2), whose last two coordinates are the foot's: rate of its linear momentum, by
+    central differences along the motion, plus the weight is the force at the stance foot.
+    """
     b, h = any_biped, 1e-6
     for q, v in states(b.n, 20):
         u = np.array([30.0, -20.0, 10.0, 5.0])

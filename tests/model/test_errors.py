@@ -1,4 +1,8 @@
-"""Model errors: what they change by the energies they imply, what they leave, and what is refused."""
+"""Model errors: what they change by the energies they imply, what they leave, and what is refused.
+
+An error is the relative change of a number: 0.2 makes a mass 1.2 times as large. biped is RABBIT, rough() is
+RABBIT with friction in its joints.
+"""
 
 import numpy as np
 import pytest
@@ -15,7 +19,9 @@ ERRORS = ModelErrors(
 
 
 def test_the_energies_are_those_of_the_bodies_one_by_one(biped):
-    """T and V summed over links from positions by differences, with the parameters asked for."""
+    """T and V are summed here link by link, with COMs from the links' angles and velocities by differences over
+    d, and with the masses, COMs and inertias times the factors 1 + error. Nothing of the wrong model is used.
+    """
     wrong, d = ERRORS.apply(biped), 1e-6
     random = np.random.default_rng(1)
     factors = {"torso": (1.2, 1.0, 0.8), "thigh": (1.0, 1.3, 1.0), "shin": (0.9, 1.0, 1.5)}
@@ -43,7 +49,7 @@ def test_the_energies_are_those_of_the_bodies_one_by_one(biped):
 
 
 def test_python_and_a_scenario_say_one_thing_alike(biped):
-    """Two tenths more of the torso's 12 kg are 14.4 kg."""
+    """The same errors by ba.ModelErrors and by a scenario give one plant: 0.2 of the torso's 12 kg more."""
     chosen = ba.ModelErrors(mass={"torso": 0.2}, inertia={"shin": -0.1})
     plants = [
         chosen.apply(biped),
@@ -66,6 +72,7 @@ ROOTS = [
 
 
 def test_what_is_gone_names_what_takes_its_place(biped):
+    """A method of earlier versions: the error names its successor; hasattr is false, as for any other name."""
     with pytest.raises(AttributeError, match=r"no attribute 'with_errors'; ba\.ModelErrors"):
         _ = biped.with_errors
     assert not hasattr(biped, "with_errors")
@@ -73,6 +80,9 @@ def test_what_is_gone_names_what_takes_its_place(biped):
 
 @pytest.mark.parametrize("robot", ["rabbit", "rimless_wheel"])
 def test_drawn_errors_leave_a_physical_robot_with_the_same_geometry(robot):
+    """Drawn errors of 10 % (the usual width) break no law of physics that the robot itself keeps, move no foot,
+    are the same for the same seed, and differ for five seeds.
+    """
     biped = ba.Biped.load(robot)
     q = np.random.default_rng(2).uniform(-1.0, 1.0, biped.n)
     masses = []
@@ -92,6 +102,9 @@ def test_drawn_errors_leave_a_physical_robot_with_the_same_geometry(robot):
 
 
 def test_drawn_errors_fill_their_width_evenly(biped):
+    """Uniform on +-0.2 they have the standard deviation 0.2 / sqrt(3); the mean of 300 has 0.0067, so that 0.03
+    is more than four of these. Errors of different bodies are not correlated, and a width of 0 draws zeros.
+    """
     many = [ModelErrors.drawn(biped, seed, mass=0.2, com=0.0) for seed in range(300)]
     e = np.array([list(errors.mass.values()) for errors in many])
     assert e.shape == (300, 3)
@@ -103,6 +116,9 @@ def test_drawn_errors_fill_their_width_evenly(biped):
 
 
 def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
+    """Each joint's friction is times 1 + error. A robot without friction has no such error; the four numbers
+    are the usual widths; -1 takes all friction away, and less than -1 is refused.
+    """
     rubbing = ba.Biped.load("rabbit", friction=True)
     errors = ModelErrors.drawn(rubbing, 4)
     assert errors.friction["left_knee"] == errors.friction["right_knee"] != 0.0
@@ -120,6 +136,9 @@ def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
 
 
 def test_impact_errors_are_uniform_and_repeated_by_their_seed():
+    """Five errors, of the rates after impact, for each of 200 seeds: within +-0.1, with the standard deviation
+    of a uniform distribution.
+    """
     e = np.array([impact_error(seed, 0.1, 5) for seed in range(200)])
     assert np.array_equal(e[3], impact_error(3, 0.1, 5))
     assert np.max(np.abs(e)) <= 0.1
@@ -128,6 +147,9 @@ def test_impact_errors_are_uniform_and_repeated_by_their_seed():
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_an_impact_error_of_plus_makes_the_rates_larger(bare, published, engine):
+    """Each rate after the simulated impact is that of the impact map times 1 + its error (`gain`), in both
+    engines.
+    """
     gain = (0.1, -0.05, 0.0, 0.02, 0.03)
     walker = ba.Walker(bare, ba.NPDController(published.constraint), impact_gain=gain)
     event = ba.walk(walker, published, 1, ba.RK4(2e-3), engine=engine).trajectory.arcs[0].event
@@ -150,6 +172,9 @@ def test_an_impact_error_of_plus_makes_the_rates_larger(bare, published, engine)
     ],
 )
 def test_errors_that_leave_nothing_or_do_not_fit_are_refused(make):
+    """No mass left, numbers that are not finite, a body or joint that is not there or has no mass or friction,
+    one leg alone, and a width of 900 %.
+    """
     with pytest.raises((InputError, ModelError)):
         make()
 
@@ -159,6 +184,7 @@ def rough():
 
 
 def test_limits_that_are_not_said_are_those_of_the_robot(biped):
+    """(friction, torque limit [N m], window of averaging [s]): RABBIT's own where none is given."""
     assert ba.Limits().of(biped.description) == (0.6, 150.0, 0.005)
     assert ba.Limits(1.0, 3.0, 0.01).of(biped.description) == (1.0, 3.0, 0.01)
     with pytest.raises(ba.BipedError, match=r"1\.01, expected a number above 0 and at most 1"):

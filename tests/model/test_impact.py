@@ -1,4 +1,8 @@
-"""The plastic impact (3)-(9)."""
+"""The plastic impact (3)-(9).
+
+any_biped is RABBIT with each preset of its masses; states(n, count) yields random angles and rates of n
+coordinates. D_e is the inertia matrix of the robot that is not pinned, and E_2 the Jacobian of its swing foot.
+"""
 
 import math
 
@@ -22,7 +26,9 @@ def states(n, count):
 
 
 def test_momentum_equation_and_standing_foot(any_biped):
-    """The impulse changes the momentum, the foot that landed stands; then left and right change their names."""
+    """D_e (v_e+ - v-) = E_2' impulse, and the foot that landed stands; rates v_e+ are of the floating robot.
+    Then stance and swing, hence entries 0, 1 and 2, 3, change their names.
+    """
     b = any_biped
     for q, v in states(b.n, 300):
         hit = b.impact(q, v)
@@ -36,7 +42,9 @@ def test_momentum_equation_and_standing_foot(any_biped):
 
 
 def test_angular_momentum_about_the_new_contact_is_kept(any_biped):
-    """By the links' own velocities; it is sigma of the next step, up to the sign of the pitch axis."""
+    """The impulse acts there and has no arm. By the links' own velocities before and after; it is sigma of the
+    next step, up to the sign of the pitch axis.
+    """
     b = any_biped
     for q, v in states(b.n, 100):
         hit, rates = b.impact(q, v), np.append(v, [0.0, 0.0])

@@ -1,4 +1,8 @@
-"""Robots from MJCF: MuJoCo's own mass matrix and bias, projected on the joints that are kept."""
+"""Robots from MJCF: MuJoCo's own mass matrix and bias, projected on the joints that are kept.
+
+The fixture own is the file of a robot of six joints, with soles, whose text is OWN. derive(file) imports a
+robot: its result has the biped, notes on what was read or left out, and the laws that it breaks.
+"""
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -66,6 +70,9 @@ def projected(path, biped, q, v):
 
 
 def test_inertia_and_bias_are_those_of_mujoco(own):
+    """D_s and Omega of the derived robot against `projected`: MuJoCo's own mass matrix and bias with the stance
+    ankle held at rest. Of Gymnasium's Walker2d and of a robot of this file with other axes, gears and soles.
+    """
     for path in (WALKER2D, own):
         derived = derive(path)
         biped, random = derived.biped, np.random.default_rng(3)
@@ -108,6 +115,9 @@ def test_places_in_the_world_are_places_in_the_bodies(tmp_path):
 
 
 def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path):
+    """As the file `OWN` states them: the weakest motor gives the torque limit. What a robot on points cannot
+    have, ankles and their motor, and shapes, is remarked as left out; the written record is the same robot.
+    """
     derived = derive(own)
     d = derived.biped.description
     assert (d.peak_torque, derived.biped.armature) == (
@@ -140,7 +150,10 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     ],
 )
 def test_the_torque_limit_is_the_least_that_an_actuator_reaches(own, old, new, torque):
-    """Gear times the nearer end of force or control, of all motors of a joint together, at most the joint's."""
+    """old -> new in the file, and the torque [N m] of the weakest joint: gear times the nearer end of force or
+    control, of all motors of a joint together, at most the joint's own. None: a motor without any limit is
+    refused.
+    """
     assert old in OWN
     own.write_text(OWN.replace(old, new))
     if torque is None:
@@ -151,7 +164,9 @@ def test_the_torque_limit_is_the_least_that_an_actuator_reaches(own, old, new, t
 
 
 def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
-    """`Hints.tip` is a point of the sole's own frame; foot and hip are where MuJoCo has them."""
+    """`Hints.tip` is a point of the sole's own frame, 0.1 m ahead of its origin; foot and hip, relative to the
+    stance foot, are where MuJoCo has them at the zero of six joints and the pitch.
+    """
     joints = [f"{side}_{joint}" for joint in ("hip", "knee", "ankle") for side in ("right", "left")]
     hints = Hints(("right_sole", "left_sole"), tuple(joints), torque=5.0, tip=(0.1, 0.0, 0.0))
     biped = derive(own, hints).biped
@@ -227,6 +242,9 @@ def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
     ],
 )
 def test_what_is_no_planar_biped_is_refused_in_one_sentence(own, old, new, word):
+    """old -> new in the file: a number that is none, an equality constraint, an axis out of the plane, a ball
+    joint, and a motor on a joint that is not there; word: what the message names.
+    """
     assert old in OWN
     own.write_text(OWN.replace(old, new))
     with pytest.raises(ModelError, match=word) as caught:

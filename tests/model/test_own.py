@@ -1,4 +1,10 @@
-"""A robot from one URDF: the same physics in all frames and senses, guesses said, refusals that help."""
+"""A robot from one URDF: the same physics in all frames and senses, guesses said, refusals that help.
+
+rabbit(...) and two_legs(...) are texts of URDFs, of RABBIT as FROST writes it and of a body on two legs without
+knees; the fixture urdf writes such a text to a file. derive(file, hints) imports a robot: its result has the
+biped, notes, and the laws that it breaks; biped_from_urdf gives the biped alone. states(n, count) yields random
+angles and rates; close compares to 1e-10.
+"""
 
 import math
 import re
@@ -71,7 +77,10 @@ SIDEWAYS = f"0 0 {math.pi / 2!r}"
     ids=["frost", "hanging", "hanging-2", "upside-down", "sideways", "no-base", "paper", "wide"],
 )
 def test_physics_is_that_of_rabbit(urdf, text, to_paper):
-    """D, Omega, energies, feet and impact in any frames and senses, at random states, to 1e-10."""
+    """text: RABBIT's URDF with frames and senses of another author; to_paper: the map q = A r + b of its angles
+    r to the paper's. D, Omega, energies, feet and impact are those of the registered robot at random states, to
+    1e-10; angles after impact up to whole turns.
+    """
     own, paper = biped_from_urdf(urdf(text)), ba.Biped.load("rabbit", "identified-bare")
     A = to_paper.A
     np.testing.assert_array_equal(own.phase, paper.phase @ A)
@@ -93,7 +102,9 @@ def test_physics_is_that_of_rabbit(urdf, text, to_paper):
 
 @pytest.mark.parametrize("name", ["compass", "three_link", "simplest"])
 def test_classic_walkers_are_found_again(name):
-    """From the URDF alone, against the hand-written record."""
+    """The import of the bare URDF finds joints, relabelling and phase of the hand-written record, and the same
+    dynamics. `hints` are what a URDF does not say: motors, a torque limit and gravity.
+    """
     record = ba.Biped.load(name)
     gravity = record.description.gravity
     actuated = record.description.actuated
@@ -110,7 +121,9 @@ def test_classic_walkers_are_found_again(name):
 
 
 def test_phase_is_the_slope_of_the_virtual_leg(urdf):
-    """Thigh and shin unequal: c is d(angle of hip to foot)/dq at the straight leg, and l_k / L."""
+    """The phase row of a robot with a thigh of 0.5 m and a shin of 0.3 m is the derivative of the angle of the
+    line from hip to stance foot at a straight knee (q3 = 0): 0.375 = 0.3 / 0.8 for the knee.
+    """
     own = biped_from_urdf(urdf(rabbit(thigh=0.5, shin=0.3)))
     assert own.phase == pytest.approx([-1.0, 0.0, -0.375, 0.0, -1.0], abs=1e-15)
     straight, h = np.array([3.3, 2.9, 0.0, 0.4, -0.1]), 1e-6
@@ -208,6 +221,9 @@ def ramp(slope):
     ],
 )
 def test_form_does_not_change_the_physics(urdf, text):
+    """text: the same two-legged robot, written with another namespace, base, world or axis than two_legs(),
+    whose base is free: inertia, bias, impact and swing foot are the same.
+    """
     one, own = (biped_from_urdf(urdf(x, f"{k}.urdf")) for k, x in enumerate((two_legs(), text)))
     for q, v in states(3):
         for found, expected in (
@@ -221,6 +237,10 @@ def test_form_does_not_change_the_physics(urdf, text):
 
 
 def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
+    """Slides on ground turned by 0.04 rad: the pitch counts from the slope, so q + turn is the same pose as on
+    level ground, and that is remarked. A body on the ground is left out by name; one that slides with the robot
+    and has more than 1 % of its mass is refused, and so are two parallel slides.
+    """
     one, derived = (
         biped_from_urdf(urdf(two_legs())),
         derive(urdf(two_legs(ramp(0.04)), "ramp.urdf")),
@@ -283,6 +303,9 @@ def leg(text, side, m=2.0, c=COM, yy=0.03, length=HIP):
 
 
 def test_legs_that_differ_slightly_are_the_mean_of_both(urdf):
+    """The right leg has its mass, COM, inertia and length up to 1 % off: the robot is that whose legs have the
+    mean of both, and the largest difference is remarked.
+    """
     other = {"m": 1.984, "c": 0.3015, "yy": 0.0297, "length": 0.7952}
     mean = {"m": 1.992, "c": 0.30075, "yy": 0.02985, "length": 0.7976}
     derived = derive(urdf(leg(two_legs(), "right", **other)))
@@ -303,6 +326,9 @@ def test_legs_that_differ_slightly_are_the_mean_of_both(urdf):
 def test_legs_that_differ_by_more_than_one_percent_are_refused_with_the_number(
     urdf, key, value, gap
 ):
+    """key: what differs in the right leg (m mass, c COM, yy inertia); value: its number, where the left leg has
+    2, 0.3, 0.03 and 0.8; gap: the relative difference that the message states.
+    """
     with pytest.raises(ModelError, match=f"legs differ.*_(leg|foot)', '{gap}'"):
         derive(urdf(leg(two_legs(), "right", **{key: value})))
 
@@ -351,6 +377,7 @@ def test_rotors_of_transmissions_are_reflected_by_their_gears(urdf):
 
 
 def test_rotors_that_differ_are_kept_by_the_record(tmp_path):
+    """Inertias of rotors by joint [kg m^2]: 0.83 on the diagonal of D_s becomes hip 0.5 and knee 0.2."""
     text = (data_folder("urdf") / "rabbit" / "robot.toml").read_text()
     one = ba.Biped.load("rabbit")
     (tmp_path / "robot.toml").write_text(
@@ -498,6 +525,7 @@ def test_a_sole_is_a_point_at_its_ankle_unless_its_joint_is_named(urdf):
 
 
 def test_parts_of_a_urdf_that_are_left_out_are_in_the_notes(urdf):
+    """Tags with how often each occurs, and the joint of the base, which the package makes anew."""
     text = two_legs('<link name="world"/><gazebo/><gazebo/>' + top("planar")).replace(
         '<link name="left_foot"/>', '<link name="left_foot"><collision/></link>'
     )
@@ -510,6 +538,9 @@ def test_parts_of_a_urdf_that_are_left_out_are_in_the_notes(urdf):
 
 
 def test_guesses_are_said_and_laws_hold(urdf):
+    """Of a URDF without base: feet, hip, joints, torque limit and base are guessed, each is remarked, and no
+    law of physics is broken.
+    """
     derived = derive(urdf(rabbit(base=False)))
     d = derived.biped.description
     assert (d.stance_foot, d.swing_foot, d.hip) == ("right_toe", "left_toe", "torso")
@@ -523,6 +554,9 @@ def test_guesses_are_said_and_laws_hold(urdf):
 
 
 def test_legs_that_are_not_alike_are_refused():
+    """By angles: relabelling with an offset of 0.1 rad in one hip and knee does not give the same pose back. By
+    mass: one shin is 10 % heavier.
+    """
     rabbit = ba.Biped.load("rabbit")
     offset = replace(
         rabbit, description=replace(rabbit.description, offset=(0.1, 0.0) * 2 + (0.0,))
@@ -542,7 +576,9 @@ def test_legs_that_are_not_alike_are_refused():
     ids=["phase", "hip"],
 )
 def test_a_broken_law_is_found(urdf, change, law):
-    """Each check can fail. The stance thigh's origin moves in re-rooting, so it is no hip."""
+    """Each check can fail: a wrong phase row breaks "Theta falls", and the thigh breaks the law of the hip, as
+    its origin moves when the tree is hung from the foot. The robot itself keeps all nine laws.
+    """
     biped = biped_from_urdf(urdf(rabbit()))
     broken = [check.name for check in physical_checks(change(biped)) if not check.holds]
     assert any(law in name for name in broken)
@@ -551,6 +587,9 @@ def test_a_broken_law_is_found(urdf, change, law):
 
 
 def test_written_record_is_loaded_again(urdf, tmp_path):
+    """The robot is the same to the last bit, but for the path of its URDF; files that exist are not
+    overwritten.
+    """
     derived = derive(urdf(rabbit(rpy=f"0 {math.pi!r} 0")), Hints(armature=0.1))
     record = derived.write(tmp_path / "mine")
     own, again = derived.biped, ba.Biped.load(record)
@@ -584,6 +623,10 @@ TOE = joint("left_end", "fixed", "left_shin", "left_toe", xyz="0 0 0.4")
     ],
 )
 def test_what_is_no_biped_is_refused_by_name(urdf, old, new, named):
+    """old -> new in RABBIT's URDF: an axis out of the plane, legs that differ in length or mass, a negative
+    mass, a circle of links, a mimic joint, a body that slides along, and broken XML; named: what the message
+    has to name.
+    """
     text = rabbit()
     assert old in text
     with pytest.raises(ModelError, match=named) as caught:
@@ -625,6 +668,7 @@ WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
     ],
 )
 def test_what_cannot_be_guessed_is_asked_for(urdf, text, hints, word):
+    """text: a URDF; hints: the options given with it; word: what the message asks for or names."""
     with pytest.raises(ModelError, match=word):
         derive(urdf(text), hints)
 
@@ -650,6 +694,9 @@ def robot(*arguments):
 
 
 def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypatch):
+    """`robot check` prints the mass and draws a picture, and fails for a tip of two numbers; `robot new` writes
+    a record with the torque that is asked for, and only once.
+    """
     monkeypatch.chdir(tmp_path)
     path, folder = urdf(rabbit()), tmp_path / "folder"
     good = robot("check", path, "--feet", "left_toe,right_toe", "--set", "armature=0.1")
@@ -670,6 +717,10 @@ NUMBERS = ("n", "tree", "description", "impact", "inertia", "bias")
     + [("bias", np.full(5, np.inf)), ("impact", SingularError("the impact (7) is singular"))],
 )
 def test_numbers_of_a_robot_that_cannot_be_used_are_refused(name, number):
+    """A stand-in with RABBIT's numbers passes the check. With an inertia that is indefinite, singular or NaN,
+    an infinite bias, or an impact without solution in their place it is refused.
+    """
+
     def wrong(*_):
         if isinstance(number, SingularError):
             raise number

@@ -1,4 +1,8 @@
-"""Robots are read strictly: what is not physical is refused with one message that names it."""
+"""Robots are read strictly: what is not physical is refused with one message that names it.
+
+FLOATING is RABBIT's own URDF, whose base floats; read(file) reads its tree of links and joints; reroot hangs a
+tree from a foot.
+"""
 
 import shutil
 from dataclasses import replace
@@ -54,6 +58,7 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
     ],
 )
 def test_bad_urdf_is_refused(tmp_path, old, new, message):
+    """old -> new in RABBIT's URDF, one mistake each; the message names the file and what is wrong."""
     text = FLOATING.read_text()
     assert old in text
     path = tmp_path / "bad.urdf"
@@ -65,6 +70,9 @@ def test_bad_urdf_is_refused(tmp_path, old, new, message):
 
 
 def test_stored_pinned_urdf_is_the_floating_one_rerooted():
+    """pinned.urdf, which the package stores beside it, is the floating robot hung from its left foot: the same
+    tree, link by link and joint by joint.
+    """
     stored = read(FLOATING.with_name("pinned.urdf")).tree
     derived = reroot(read(FLOATING).tree, "left_foot", "torso")
     assert stored.links == derived.links
@@ -72,6 +80,7 @@ def test_stored_pinned_urdf_is_the_floating_one_rerooted():
 
 
 def test_the_default_preset_is_what_the_urdf_says(biped):
+    """Mass, COM and moment about y (index 3 of ixx, ixy, ixz, iyy, iyz, izz) of each link."""
     for name, link in read(FLOATING).tree.links.items():
         if link.inertial is not None:
             one, other = link.inertial, biped.description.tree().links[name].inertial
@@ -92,7 +101,10 @@ def test_unknown_names_are_answered_with_the_known_ones(biped):
     assert robot_names() == ("compass", "rabbit", "rimless_wheel", "simplest", "three_link")
 
 
-def test_states_of_a_wrong_size_or_that_are_not_finite_are_refused(biped):
+def test_wrong_states_links_and_joints_are_refused_in_words_of_the_robot(biped):
+    """A state of 4 numbers for 5 coordinates, one with NaN, a foot that is no link of the leg, and joints of
+    which one leg has more than the other.
+    """
     with pytest.raises(InputError, match=r"shape \(5,\)"):
         biped.inertia(np.zeros(4))
     with pytest.raises(ModelError, match="foot 'torso' does not hang below 'left_thigh'"):
@@ -134,6 +146,9 @@ def test_states_of_a_wrong_size_or_that_are_not_finite_are_refused(biped):
     ],
 )
 def test_bad_robot_record_is_refused(tmp_path, old, new, message):
+    """old -> new in RABBIT's robot.toml: wrong numbers and names, keys with a typing error (the message names
+    the right one), and paths and links that lead out of the record's folder.
+    """
     folder = data_folder("urdf") / "rabbit"
     text = (folder / "robot.toml").read_text()
     assert old in text
@@ -152,7 +167,9 @@ def test_a_robot_of_links_into_one_folder_loads(tmp_path):
 
 
 def test_a_name_of_a_robot_is_no_way_out_of_the_package(tmp_path, biped):
-    """A gait and a cycle in a folder by whose path the robot calls itself."""
+    """A gait and a cycle lie in a folder by whose path the robot, or its preset, calls itself: names are no
+    paths, and neither file is found.
+    """
     shutil.copy(data_folder("gaits") / "rabbit" / "v0.5-identified.json", tmp_path)
     for name in (str(tmp_path), "../rabbit", ".."):
         named = replace(biped, description=replace(biped.description, name=name))

@@ -105,6 +105,10 @@ def tried(robot, seed, folder, derived):
 @pytest.mark.parametrize("derived", [False, True], ids=["record", "urdf alone"])
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
 def test_mutants_are_physical_or_refused(robot, derived, tmp_path):
+    """60 URDFs with one to three random changes, read with the robot's record or alone (`derived`): each is
+    refused by one line that names something of the file, or has positive masses, a positive D_s and finite
+    numbers. Some load and more than ten messages differ, so that the changes try something.
+    """
     found = Counter(tried(robot, seed, tmp_path, derived) for seed in range(60))
     assert found["loaded"] > 0
     assert len(found) > 10, "the mutants are refused for many reasons"
@@ -146,7 +150,9 @@ def edited(record, random):
 
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
 def test_edited_records_are_physical_or_refused(robot, tmp_path):
-    """Each refusal is one line that names the file."""
+    """80 records robot.toml with one value gone, doubled, exchanged or odd: each refusal is one line, and what
+    loads has positive masses and D_s. More than 20 outcomes show that the changes try something.
+    """
     source, found = data_folder("urdf") / robot, Counter()
     whole = tomllib.loads((source / "robot.toml").read_text())
     shutil.copy(source / "floating.urdf", tmp_path)

@@ -1,4 +1,8 @@
-"""What a scenario's numbers become: start, plant, hardware, and the columns of its walk."""
+"""What a scenario's numbers become: start, plant, hardware, and the columns of its walk.
+
+build(scenario) makes the walker; RobotAndGait.of(scenario) has its robot, gait and start; plant_of makes the
+robot with model errors.
+"""
 
 from __future__ import annotations
 
@@ -34,6 +38,9 @@ def drawn_start(seed: int, **values: object) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["start.speed_spread", "start.spread", "start.rate_spread"])
 def test_every_seed_has_its_own_start_which_all_controllers_share(name: str) -> None:
+    """name: what is spread, by 2 % or 0.02 rad, rad/s. Six seeds give six starts, and a seed gives the same one
+    with another controller, so that controllers can be compared pair by pair.
+    """
     values = {"start.speed_spread": 0.0, name: 0.02}
     starts = np.array([drawn_start(seed, **values) for seed in range(6)])
     assert len(np.unique(starts.round(12), axis=0)) == 6
@@ -41,6 +48,9 @@ def test_every_seed_has_its_own_start_which_all_controllers_share(name: str) -> 
 
 
 def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
+    """Rates are those of the orbit times 1 + 0.1 (speed) + 0.02 (spread) times the last normal number, which
+    comes after those of n angles and n rates: so a spread of these changes no speed.
+    """
     s = Scenario(run={"seed": 3}, start={"speed": 0.1, "speed_spread": 0.02})
     scene = RobotAndGait.of(s)
     q, v = scene.on_orbit
@@ -49,6 +59,7 @@ def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
 
 
 def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
+    """A load of 0.3 adds 0.3 of the torso's mass to the robot."""
     biped = ba.Biped.load("rabbit")
     torso = biped.tree.links[biped.description.trunk].inertial.mass
     loaded = plant_of(Scenario(errors={"trunk_load": 0.3}), biped)
@@ -56,6 +67,7 @@ def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
 
 
 def test_an_error_of_friction_is_the_same_in_all_joints() -> None:
+    """-0.5 halves the friction torque of every joint; on a robot without friction the error is refused."""
     rubbing = ba.Biped.load("rabbit", friction=True)
     halved, v = plant_of(Scenario(errors={"friction": -0.5}), rubbing), np.linspace(-1.0, 1.0, 5)
     assert halved.friction_torque(v) == pytest.approx(0.5 * rubbing.friction_torque(v), rel=1e-12)
@@ -64,6 +76,9 @@ def test_an_error_of_friction_is_the_same_in_all_joints() -> None:
 
 
 def test_rabbit_s_hardware_is_what_was_published_for_it() -> None:
+    """Period 1.5 ms, 8192 counts, rates by differences, 150 N m, and joints that rub: at +0.3 rad/s each of the
+    four motor joints is braked.
+    """
     s = Scenario(hardware="rabbit")
     h = s.hardware
     found = (h.period, h.encoders.counts, h.encoders.velocity, h.torque_limit, h.friction)
@@ -73,9 +88,10 @@ def test_rabbit_s_hardware_is_what_was_published_for_it() -> None:
 
 
 def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
-    """Against the trapezoid rule over the stored nodes of the same walk, which lie on the ticks.
-
-    A mean over ticks and one by trapezoids are not the same: hence 5 %, and 1 % for the outcome's.
+    """rms values of a row against the trapezoid rule over the stored nodes of the same walk, which lie on the
+    ticks; a mean over ticks and one by trapezoids are not the same, hence 5 %, and 1 % for the outcome's.
+    Distance, speeds and work by their definitions. A walk that starts at 1e4 rad/s ends at once: no speed, no
+    cost.
     """
     values = {
         "controller.name": "NPD",
@@ -115,7 +131,9 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     ],
 )
 def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
-    """And is taken with the value beside it that lets it act: no delay without a clock, for example."""
+    """idle: a value that can have no effect, as a delay without a clock; said: its name in the error.
+    with_effect: the value beside it with which it acts and is taken; None where there is none.
+    """
     with pytest.raises(ba.BipedError, match=said):
         build(Scenario(**idle))
     if with_effect is not None:
@@ -137,6 +155,7 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
     ],
 )
 def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_path) -> None:
+    """A text with a unit is the SI number, in Python, in a scenario file and on the command line."""
     by_text, by_number = Scenario(**{name: text}), Scenario(**{name: number})
     assert by_text == by_number
     assert by_text.dotted()[name] == pytest.approx(number, rel=1e-15)
@@ -193,6 +212,9 @@ def test_wrong_values_of_a_scenario_are_refused_by_name(values, message) -> None
     ],
 )
 def test_a_gain_has_the_unit_of_its_law_and_no_other(controller, number) -> None:
+    """The last value of each controller is a gain; number: what it is in SI units, by the law's own dimension
+    (PD: N m/rad, NPD: 1/s^2). None: its unit is of another dimension, and it is refused.
+    """
     if number is None:
         with pytest.raises(ba.BipedError, match=r"found .*, expected a (unit|number)"):
             Scenario(controller)
@@ -201,6 +223,7 @@ def test_a_gain_has_the_unit_of_its_law_and_no_other(controller, number) -> None
 
 
 def test_a_whole_number_takes_no_unit() -> None:
+    """run.impacts counts: a time, a share and an angle are refused."""
     for text in ("8 ms", "8 %", "8 rad"):
         with pytest.raises(ba.BipedError, match=r"run.impacts: found .* without a unit"):
             Scenario(run={"impacts": text})
@@ -232,6 +255,10 @@ def test_each_number_of_a_packaged_part_has_a_unit() -> None:
 
 
 def test_every_value_has_a_text_a_unit_and_a_default_that_changes_nothing() -> None:
+    """A scenario with one value set to the default that is printed for it is the scenario without it. Units are
+    asked for where the value may be a number; pushes and inner controllers begin with none, so they have no
+    such default.
+    """
     for name in Scenario.names():
         what = Scenario.field_of(name)
         if {float, tuple, dict} & set(what.types) and name != "pushes":
@@ -280,6 +307,9 @@ LATE = {"shape": "noise", "torque": 2.0, "joints": "q1", "step": 4, "onset": 0.1
     ],
 )
 def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> None:
+    """name: the attribute of the built walker in which the values of a scenario have to arrive; expected: what
+    it is then. Noise across impacts begins two periods of the gait later in the walk's time, hence PERIOD.
+    """
     found = operator.attrgetter(name)(build(Scenario("NPD", **values)))
     if isinstance(expected, tuple | float) and name != "ground_steps":
         np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-12)
@@ -308,6 +338,9 @@ def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> N
     ],
 )
 def test_a_push_that_cannot_act_is_refused(values, message) -> None:
+    """The walk has single supports 2 to 5, and pushes in 2 and 5, or without an end, are taken; each of the
+    others is refused with the reason.
+    """
     run = {"run.first_step": 2, "run.impacts": 4}
     for fits in ("q1=3@2:0-0.1", "q1=3@5:0-0.1", "q1=3@1:0.1-"):
         build(Scenario("NPD", pushes=fits, **run))
@@ -342,6 +375,9 @@ SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
 def test_numbers_have_these_defaults_and_ranges() -> None:
+    """RANGES, written by hand above, has for each number of a scenario that is bounded: name, default, limits
+    and unit. A change of any of them shows here.
+    """
     texts = []
     for what in map(Scenario.field_of, Scenario.names()):
         usual = "none" if what.default is None else what.default
@@ -352,6 +388,7 @@ def test_numbers_have_these_defaults_and_ranges() -> None:
 
 
 def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> None:
+    """The gait's file names the preset "identified"; the scenario's robot is "tac2003"."""
     gait = ba.load_gait("published", ba.Biped.load("rabbit"))
     path = tmp_path / "gait.json"
     gait.save(path)
@@ -391,11 +428,15 @@ FINE = {"pushes": "q1=3@2:0.1-0.3", "run": {"fine": 1e-4, "h": 1e-3, "impacts": 
     ],
 )
 def test_what_has_no_meaning_is_refused(call, message) -> None:
+    """Values that are right alone and contradict one another, or the function that is called with them."""
     with pytest.raises(ba.BipedError, match=message):
         call()
 
 
 def test_a_scenario_is_the_same_by_records_by_names_and_by_numpy() -> None:
+    """A push or a controller by its record, by a text or by dotted names, and numbers of NumPy, which become
+    Python's: equal scenarios.
+    """
     push = Push(joints="q1", torque=3.0, step=1, onset=0.1)
     assert Scenario(pushes=push) == Scenario(pushes="q1=3@1:0.1-0.3")
     law, bandwidth = ControllerRecord(name="LESO"), {"controller.observer.bandwidth": 3.0}
@@ -421,6 +462,9 @@ def test_a_scenario_is_the_same_by_records_by_names_and_by_numpy() -> None:
     ],
 )
 def test_a_push_is_said_in_words(joints, values, text) -> None:
+    """{} in `text` is where the words name the single support; a force on a link has no words and is shown by
+    its values.
+    """
     push = Push(joints=joints, torque=2.0, step=4, onset=0.1, **values)
     assert push.in_words() == "2 N m on " + text.format(" in single support 4")
     push = Push(link="torso", force=3.0, step=1, onset=0.0)
@@ -428,6 +472,10 @@ def test_a_push_is_said_in_words(joints, values, text) -> None:
 
 
 def test_the_method_of_a_walk_and_where_its_steps_are_fine() -> None:
+    """The integration method by controller, clock and engine, and the step `fine` [s] beside the edges of a
+    push. The push is in single support 3 of 6: fine in it and in the next, with the usual method in two before
+    and two after.
+    """
     push = "q1=3@3:0.1-0.3"
     for values, method, fine in (
         ({"controller": "NPD"}, ba.RK4(1e-3), None),
@@ -448,6 +496,9 @@ def test_the_method_of_a_walk_and_where_its_steps_are_fine() -> None:
 
 @pytest.mark.parametrize("method", ["adaptive", None])
 def test_half_a_step_is_half_or_a_hundredth_of_the_tolerance(method) -> None:
+    """The scenario that estimates the error of integration: both steps halved, or, for the adaptive method,
+    which has no step to halve, a hundredth of the tolerance.
+    """
     by_step = {"h": 1e-3, "fine": 1e-4}, {"h": 5e-4, "fine": 5e-5}
     by_tolerance = {"tolerance": 1e-6, "method": method}, {"tolerance": 1e-8, "method": "adaptive"}
     run, half = by_tolerance if method else by_step
@@ -456,7 +507,9 @@ def test_half_a_step_is_half_or_a_hundredth_of_the_tolerance(method) -> None:
 
 
 def test_a_class_and_its_name_have_the_same_settings() -> None:
-    """Each writes down its defaults, and they have to agree."""
+    """The controller by its name in a scenario equals that of its class without arguments: both have defaults
+    of their own, which have to agree.
+    """
     scene = RobotAndGait.of(Scenario("DOB"))
     named = build(Scenario("DOB"), scene).controller
     assert named == MomentumDOBController(scene.gait.constraint)
@@ -464,6 +517,7 @@ def test_a_class_and_its_name_have_the_same_settings() -> None:
 
 @pytest.mark.parametrize("name", ["q5", "v2"])
 def test_an_angle_or_rate_of_the_start_is_added(name: str) -> None:
+    """start.q5 adds to angle 5 alone, start.v2 to rate 2 alone, whatever the start is without it."""
     usual, moved = (Scenario(start=x) for x in ({}, {name: 0.01}))
     scene = RobotAndGait.of(usual)
     change = np.array(scene.start(moved)) - np.array(scene.start(usual))

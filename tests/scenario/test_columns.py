@@ -1,4 +1,7 @@
-"""One walk as a table: CSV, pandas, and back as samples."""
+"""One walk as a table: CSV, pandas, and back as samples.
+
+The fixture walk is RABBIT under NPD for two steps; biped and gait are RABBIT and its published gait.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +26,9 @@ def read(path):
 
 
 def test_columns_have_units_and_the_last_bit(walk, tmp_path):
+    """Each signal has its columns, numbered from 1, with its unit; read back, each number is equal, and no
+    column is left over but those of time, step and event.
+    """
     found, s = read(walk.to_csv(tmp_path / "walk.csv")), walk.signals
     assert list(found)[:4] == ["t [s]", "step", "event", "q1 [rad]"]
     assert np.array_equal(np.array(found["t [s]"], dtype=float), s.t)
@@ -44,6 +50,7 @@ def test_columns_have_units_and_the_last_bit(walk, tmp_path):
 
 
 def test_events_are_where_they_happen(walk):
+    """The row named foot_strike has the time of the event and the angles before the impact."""
     table = walk.to_pandas()
     at = table.index[table["event"] == "foot_strike"]
     events = walk.trajectory.events("foot_strike")
@@ -57,6 +64,7 @@ def test_events_are_where_they_happen(walk):
 
 
 def test_the_last_row_of_a_fall_names_what_ended_it(biped, gait):
+    """Motors of 5 N m cannot hold the robot: the last row has the name of the event that ended the walk."""
     weak = ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=5.0)
     fallen = ba.walk(weak, gait, 4)
     assert not fallen.trajectory.status.ok
@@ -64,6 +72,7 @@ def test_the_last_row_of_a_fall_names_what_ended_it(biped, gait):
 
 
 def test_the_command_writes_it_and_reads_a_step_of_it(biped, gait, tmp_path):
+    """The table of one step, imported as samples, gives back the gait's curves, which NPD tracks."""
     path, out = tmp_path / "step.csv", tmp_path / "gait.json"
     command("simulate", "--controller", "NPD", "--impacts", "1", "-o", path)
     assert list(tmp_path.iterdir()) == [path]

@@ -23,6 +23,7 @@ SCENARIOS = [
 
 @pytest.mark.parametrize("s", SCENARIOS)
 def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
+    """The remark of two lines becomes one comment line, so that it adds nothing to the values."""
     path = tmp_path / "s.toml"
     write_scenario(path, s, "two\nlines")
     assert read_scenario(path) == s

@@ -1,4 +1,9 @@
-"""Classes of one's own by module:Class: on the command line, in studies, comparisons and other processes."""
+"""Classes of one's own by module:Class: on the command line, in studies, and in other processes.
+
+The fixture own is the name of a module in the working directory, with the controllers Mine (NPD with a factor
+`gain`), Needy and Lawless, and a push Shove. peak(**values) is the largest tracking error of a walk of one
+step.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +23,9 @@ def peak(**values: object) -> float:
 
 
 def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
-    """`Mine` is NPD by other words; half its gain is half of K_p and K_d."""
+    """`Mine`, a class in a module of the working directory, is NPD by other words: the same largest error. Half
+    its gain is half of K_p = 5000 and K_d = 50.
+    """
     usual = peak(controller="NPD")
     assert peak(controller=f"{own}:Mine") == pytest.approx(usual, rel=1e-6)
     softer = peak(controller={"name": f"{own}:Mine", "gain": 0.5})
@@ -29,6 +36,7 @@ def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
 
 
 def test_an_own_controller_and_its_gain_are_taken_on_the_command_line(own: str) -> None:
+    """Its gain is in the stored scenario like a value of the package's own."""
     name = f"{own}:Mine"
     done = command(
         "simulate", "--controller", name, "--set", "controller.gain=0.5", "--impacts", "1", "--engine",
@@ -54,6 +62,9 @@ def test_a_push_of_ones_own_and_an_observer_of_the_package_are_built_by_their_na
 
 @pytest.mark.parametrize("name", ["", "of mine"])
 def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, name: str) -> None:
+    """name: that by which the class is registered, or "" for module:Class. A grid over its gain has both gains
+    in its rows, and half the gain has a larger error.
+    """
     if name:
         monkeypatch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
         ba.register("controller", name, registry.find("controller", f"{own}:Mine").load())
@@ -69,6 +80,9 @@ def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, name: str) -> 
 
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
+    """In any case of letters. Names that are taken, read as module:Class or are empty, kinds that there are
+    not, and what is no class are refused.
+    """
     monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     Mine = registry.find("controller", f"{own}:Mine").load()
     ba.register("controller", "mine", Mine)
@@ -108,12 +122,19 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
 def test_wrong_classes_of_the_user_s_are_refused_with_the_reason(
     own: str, values: dict, message: str
 ) -> None:
+    """OWN stands for the module of the fixture `own`, whose classes Lawless (no output) and Needy (an argument
+    that no scenario has) are wrong on purpose.
+    """
     values = {k: x.replace("OWN", own) if isinstance(x, str) else x for k, x in values.items()}
     with pytest.raises(InputError, match=message):
         ba.walk_scenario(ba.Scenario(**values))
 
 
 def test_a_controller_is_made_of_the_scenarios_values_and_of_its_own_defaults() -> None:
+    """What a scenario names is set and the rest is the class's own: order m and poles of observers, gains, and
+    the inner controller of an outer loop.
+    """
+
     def made(**values):
         return build(ba.Scenario(**values)).controller
 
@@ -141,6 +162,7 @@ def test_a_controller_is_made_of_the_scenarios_values_and_of_its_own_defaults() 
 
 
 def test_a_robot_and_a_gait_may_come_from_functions_of_ones_own(own: str, tmp_path) -> None:
+    """By module:function, called with preset and friction, and with the robot."""
     (tmp_path / f"{own}_parts.py").write_text(
         "import biped_adrc as ba\n"
         "def robot(preset=None, friction=False):\n"

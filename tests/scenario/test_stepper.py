@@ -1,4 +1,9 @@
-"""Walks moved on by one sample: those of their scenarios, alone or side by side, pushed from outside."""
+"""Walks moved on by one sample: those of their scenarios, alone or side by side, pushed from outside.
+
+A Stepper holds walks and moves each on to its next sample instant; `why` says why machine code does not move
+them, and is empty where it does. moved(stepper, samples, **inputs) moves so many samples under the same inputs;
+largest(a, b) is the largest difference of two arrays.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -40,6 +45,10 @@ def largest(a, b):
 
 @pytest.mark.parametrize("name", ["NPD", "TOUCHDOWN", "IN_PYTHON"])
 def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
+    """A Stepper moves a walk by one sample at a time; at each sample instant its state is that of the whole
+    simulated walk, and its single supports are judged alike. name: NPD in machine code; TOUCHDOWN, noticed
+    late, with a delay; IN_PYTHON, a controller without machine code, for which `why` has the reason.
+    """
     s = globals()[name]
     walk, stepper = ba.walk_scenario(s), ba.Stepper(s, within=ba.Limits())
     sample, count, over = stepper.reset(), 0, []
@@ -71,7 +80,9 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
 @pytest.mark.parametrize("restart", [True, False])
 @pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
 def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in_python):
-    """Sample instants are at t0 + k T, t0 the last impact, which no sample instant of before hits, or 0."""
+    """Sample instants are t0 + k T: with `restart` t0 is the time of the last impact, else 0. The impact is no
+    sample instant itself (T = 7 ms, by more than 1 % of T), so that both clocks differ.
+    """
     T, push = 7e-3, InPython() if in_python else None
     timing = ba.SampledTime(T, restart=restart)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push, timing=timing)
@@ -92,6 +103,9 @@ def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in
 
 @pytest.mark.parametrize("s", [NPD, IN_PYTHON, WAITING], ids=["NPD", "CLF-QP", "MuJoCo"])
 def test_save_and_restore_repeat_exactly(s):
+    """A saved state, restored in the same walk and in another one, goes on to the same numbers to the last bit;
+    40 samples of 1 ms in all.
+    """
     stepper = ba.Stepper(s, 2)
     stepper.reset(seed=3)
     moved(stepper, 20, torque=U)
@@ -106,6 +120,9 @@ def test_save_and_restore_repeat_exactly(s):
 
 
 def test_many_walks_are_single_ones_bit_for_bit():
+    """Walk i of many with the seed 5 is a single one with the seed 5 + i, under the same random torques and
+    forces. 450 samples pass the first impact, and different masses make the walks differ.
+    """
     s, rng = NPD.replace(errors={"mass_width": 0.05}), np.random.default_rng(0)
     many, single = ba.Stepper(s, 3), [ba.Stepper(s) for _ in range(3)]
     rows = [many.reset(seed=5)] + [one.reset(seed=5 + i) for i, one in enumerate(single)]
@@ -135,6 +152,9 @@ PUSHES = {
 @pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
 @pytest.mark.parametrize("name", PUSHES)
 def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python):
+    """A torque, or a force on the trunk, as an input of samples 10 to 49 (1 ms) moves the walk as a pulse from
+    0.01 to 0.05 s does, in machine code and, beside a disturbance that has none, in Python.
+    """
     push, inputs = PUSHES[name]
     push = push(biped) if callable(push) else push
     law = ba.NPDController(gait.constraint)
@@ -143,7 +163,6 @@ def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python
         alone = replace(alone, disturbance=InPython())
     pushed = replace(alone, disturbance=push if not in_python else InPython() + push)
     arc = ba.walk(pushed, gait, 1).trajectory.arcs[0]
-    # samples 10 to 49 of 1 ms are the time from 0.01 to 0.05 s of the pulse
     stepper = ba.Stepper(alone)
     stepper.reset(start=gait.start(biped))
     assert bool(stepper.why) is in_python
@@ -157,7 +176,9 @@ def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python
     "s", [WAITING, WAITING.replace(hardware={"delay": 0.0})], ids=["waiting", "at once"]
 )
 def test_inputs_act_on_a_plant_that_moves_by_itself(s):
-    """Compiled sample instants and Python's read the same inputs."""
+    """On MuJoCo's ground, compiled sample instants and Python's read the same inputs, whether torques wait for
+    a delay (0.4 ms) or act at once; with inputs the robot moves otherwise than without.
+    """
     walks = [ba.Stepper(s), ba.Stepper(s.replace(run={"engine": "pinocchio"}))]
     rest = ba.Stepper(s)
     rest.reset()
@@ -172,7 +193,9 @@ def test_inputs_act_on_a_plant_that_moves_by_itself(s):
 
 
 def test_signals_are_read_where_the_walks_are():
-    """In machine code, and in Python for a method that chooses its steps; the two walks have other torques."""
+    """The same signals by machine code and, for a method that chooses its steps, by Python. The two walks are
+    pushed with U and -U, so that a mix-up of walks would show in their torques.
+    """
     found = []
     for s in (NPD, NPD.replace(run={"method": "adaptive"})):
         stepper = ba.Stepper(s, 2)
@@ -181,7 +204,7 @@ def test_signals_are_read_where_the_walks_are():
             stepper.step([U, -U])
         found.append(stepper.read(signals_at))
     assert np.allclose(*found, rtol=1e-6, atol=1e-6, equal_nan=True)
-    assert largest(found[0][0, 13:17], found[0][1, 13:17]) > 1.0  # torques
+    assert largest(found[0][0, 13:17], found[0][1, 13:17]) > 1.0  # 13 to 16: torques
 
 
 def test_a_walk_that_has_ended_stays_where_it_is():
@@ -195,7 +218,9 @@ def test_a_walk_that_has_ended_stays_where_it_is():
 
 
 def test_a_stepper_is_refused_what_it_cannot_step(biped, gait):
-    """Continuous time, a finer integration at impacts, a step before the start, and inputs of a wrong kind."""
+    """Continuous time, a finer integration at impacts, a step before the start, inputs of a wrong kind, and the
+    saved state of a walk of another kind.
+    """
     with pytest.raises(InputError, match=r"give hardware\.period"):
         ba.Stepper(ba.Scenario("NPD"))
     with pytest.raises(InputError, match="fine"):

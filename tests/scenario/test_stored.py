@@ -1,4 +1,8 @@
-"""Runs on disk: complete in themselves, and readable without their author's classes."""
+"""Runs on disk: complete in themselves, and readable without their author's classes.
+
+same(one, other) asserts equal signals, verdicts and remarks of two walks. The fixture own is the name of a
+module in the working directory with a controller Mine.
+"""
 
 from __future__ import annotations
 
@@ -57,6 +61,9 @@ WRONG = {"impact_width": 0.02, "mass_width": 0.1}
     ],
 )
 def test_a_walk_comes_back(values: dict, tmp_path: Path) -> None:
+    """Signals, certificates, verdict, scenario and note of a stored walk are those of the walk, to the last
+    bit: with encoders and lag, outer loop and force, noise and model errors, and without motors.
+    """
     walk = ba.walk_scenario(ba.Scenario(**{**FAST, **values}))
     path = walk.save(tmp_path / "walk")
     again = ba.load_walk(path)
@@ -77,6 +84,7 @@ def test_a_walk_without_motors_has_an_outcome() -> None:
 
 
 def test_a_walk_of_python_goes_on_where_it_was_stored(biped, gait, tmp_path: Path) -> None:
+    """A walk of a Walker, without a scenario: the loaded walker walks on to the same final state."""
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), torque_limit=120.0)
     again = ba.load_walk(ba.walk(walker, gait, 1, engine="compiled").save(tmp_path / "a.npz"))
     assert again.scenario is None
@@ -109,6 +117,9 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
 
 
 def test_walks_of_one_controller_are_named_by_their_files(tmp_path: Path) -> None:
+    """One file: by the controller; two of the same controller: with their paths. A walk made again of its
+    scenario and trajectory is the same; a file that does not have the walker is refused.
+    """
     walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", **FAST))
     a, b = (walk.save(tmp_path / name) for name in ("a.npz", "b.npz"))
     assert list(load_walks([a])) == ["NPD"]
@@ -120,6 +131,9 @@ def test_walks_of_one_controller_are_named_by_their_files(tmp_path: Path) -> Non
 
 
 def test_a_disturbance_of_ones_own_is_absent_when_it_is_read_again(biped, gait, tmp_path) -> None:
+    """`Nothing` is a class of this file, which a reader does not have: signals come back from the file, and
+    only walking on, which would need the class, is refused.
+    """
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Nothing())
     with pytest.warns(ba.WalkWarning, match="Nothing did not act: it was zero"):
         walk = ba.walk(walker, gait, 1)
@@ -147,6 +161,9 @@ def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
 def test_an_own_controller_is_read_without_it(
     own: str, period: float | None, tmp_path: Path
 ) -> None:
+    """The module of the stored walk's controller is forgotten (`stored`): reading, plotting and animating
+    import nothing; only walking on needs the class and is refused.
+    """
     walk = stored(own, period)
     again = ba.load_walk("mine.npz")
     assert own not in sys.modules, "reading a file imports nothing"
@@ -203,6 +220,9 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
     ],
 )
 def test_signals_are_numbers_of_each_stored_time(name, change, biped, gait, tmp_path) -> None:
+    """name: a signal of a sound file, which is read; change: what is done to it (rows or columns lost, texts).
+    Then the file is refused by the name of the signal.
+    """
     path = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1).save(
         tmp_path / "a.npz"
     )

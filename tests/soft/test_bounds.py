@@ -1,4 +1,8 @@
-"""A run on a plant that moves by itself ends as run away, as a walker's does, and never as a crash."""
+"""A run on a plant that moves by itself ends as run away, as a walker's does, and never as a crash.
+
+The plant is MuJoCo's. LOOPS are the same closed loop in Python and in machine code; run_of simulates one of
+them.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +42,10 @@ def plant(biped):
 
 @pytest.mark.parametrize("made", LOOPS)
 def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
-    """By its torque: e^(1e3 t) is above 1000 times 150 N m from 12 ms on, unless a rate is too high before."""
+    """By its torque: e^(1e3 t) passes 1000 times 150 N m after 11.9 ms, at the tick of 12 ms. With a bound of
+    0.5 x RUNAWAY_RATE on the rates these end the run before. Both are statuses with finite numbers in both
+    loops (`made`).
+    """
     free = run_of(
         made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=math.inf), gait, 0.05
     )
@@ -56,8 +63,9 @@ def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
 
 @pytest.mark.parametrize("made", LOOPS)
 def test_the_bounds_are_the_loops(made, plant, gait):
-    """A bound 1 % below the peak of a walk ends it where the torque or rate passes it; 1 % above it does
-    not."""
+    """A bound 1 % below the peak of a walk ends it where the torque or rate passes it, one 1 % above does not.
+    A torque ends the run at its tick, a rate at the end of the last stretch in which it is within the bound.
+    """
     parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
     arc = run_of(made(*parts), gait, 0.05).arcs[0]
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
@@ -66,8 +74,6 @@ def test_the_bounds_are_the_loops(made, plant, gait):
         limit = float(0.99 * np.max(course))
         found = run_of(made(*parts, **{bound: limit}), gait, 0.05)
         assert found.status is ba.Status.RAN_AWAY
-        # a torque ends the run at its tick; a rate at the end of the last stretch in which it is within the
-        # bound
         assert found.t_end == pytest.approx(arc.t[np.argmax(course > limit) - ("speed" in bound)])
         whole = run_of(made(*parts, **{bound: float(1.01 * np.max(course))}), gait, 0.05)
         assert whole.status is ba.Status.COMPLETED
@@ -86,7 +92,10 @@ def test_the_bounds_are_the_loops(made, plant, gait):
 def test_a_walk_that_the_engine_loses_can_be_read(
     monkeypatch, tmp_path, engine, lost, status, after
 ):
-    """A walk that is lost at once or in its second single support is recorded up to there and can be stored."""
+    """The engine is replaced by one that fails from `after` [s] on (0.43 s: in the second single support) in
+    the way `lost`: NaN, rates of 1e4, or an error. The walk is recorded up to there, finite, and can be stored
+    and judged.
+    """
     moved = MuJoCoEngine.moved
 
     def fails(self, t, row, u, load, until):

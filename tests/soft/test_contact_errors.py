@@ -26,13 +26,17 @@ def walk(*humps, pushed=(2.0, 3.0)):
 
 
 def test_each_error_is_looked_for_in_its_own_time():
+    """humps: (time, size) of errors in two steps of 0.5 s, with a push from 0.6 to 0.8 s. Contact settles for
+    60 ms after the touchdown at 0.5 s, and a push counts to 50 ms after its end: 5 is of the touchdown, 2 of
+    the push.
+    """
     humps = (0.03, 9.0), (0.2, 3.0), (0.53, 5.0), (0.7, 2.0), (0.845, 1.0), (0.9, 4.0)
     found = contact_errors(walk(*humps, pushed=(0.6, 0.8)))
     assert found.touchdown_error == 5.0  # not the first step's 9: there was no touchdown before it
     assert found.pushed_error == 2.0  # not 4, which is 0.1 s after its end
     assert found.settled_error == 4.0
     squares = 9.0 + 4.0 + 1.0 + 16.0
-    nodes = 2 * (500 - 61)  # nodes that last, without 61 of each step
+    nodes = 2 * (500 - 61)  # without the 61 of each step in which contact settles
     assert found.settled_rms == pytest.approx(np.sqrt(squares / (2 * nodes)), rel=1e-3)
 
 
@@ -48,6 +52,9 @@ def test_each_error_is_looked_for_in_its_own_time():
     ],
 )
 def test_an_error_is_counted_to_the_touchdown_or_the_push_before_it(at, onset, where):
+    """at: time of the only error; onset: of a push that ends at 0.8 s; where: the number in which it appears,
+    None for neither. The touchdown is at 0.5 s.
+    """
     found = contact_errors(walk((at, 7.0), pushed=(onset, 0.8)))
     names = ("touchdown_error", "pushed_error")
     assert [name for name in names if getattr(found, name) == 7.0] == ([where] if where else [])

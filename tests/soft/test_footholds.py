@@ -1,4 +1,8 @@
-"""Steps of the ground in MuJoCo: where the foot comes down, when, and that nothing else changes."""
+"""Steps of the ground in MuJoCo: where the foot comes down, when, and that nothing else changes.
+
+walker_on(biped, gait, *steps) is RABBIT under NPD with these steps of the ground, walked(walker, gait) its loop
+and run in MuJoCo; the fixture level is both on level ground. StepDown(k, h): single support k ends h [m] lower.
+"""
 
 from __future__ import annotations
 
@@ -40,12 +44,15 @@ def level(biped, gait):
 
 @pytest.mark.parametrize("step", [ba.StepDown(2, 5e-3), StepUp(2, 5e-3)], ids=["down", "up"])
 def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, level, step):
+    """In single support 2 the foot lands 5 mm lower or higher, to the penetration of both feet, and the step
+    lasts longer or shorter by as much as on the rigid plant, to a tick. Single support 3 ends on even ground
+    again, and its stance foot is pressed in about as deep as on level ground.
+    """
     walker = walker_on(biped, gait, step)
     loop, run = walked(walker, gait)
     assert run.status is ba.Status.COMPLETED
     foot = biped.swing_foot(run.arcs[1].x[-1, :5])[1]
     assert foot == pytest.approx(-step.drop, abs=4e-4)  # penetration of both feet
-    # the single support is longer or shorter as on the rigid plant, to a tick; the third one is on level ground
     rigid = ba.walk(walker, gait, impacts=2).trajectory.events("foot_strike")
     flat = ba.walk(replace(walker, ground_steps=()), gait, impacts=2).trajectory.events(
         "foot_strike"
@@ -61,7 +68,10 @@ def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, leve
 
 
 def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
-    """Until the foot is at the ground the motion is that on level ground, bit for bit."""
+    """Until the foot is at the ground (below 5.5 mm, more than 0.35 s after its start) the motion is that on
+    level ground, bit for bit. Column 17 is the level under the swing foot: it changes once the foot is ahead of
+    the stance foot, where it is high enough.
+    """
     for step in (ba.StepDown(2, 5e-3), StepUp(2, 5e-3)):
         _, run = walked(walker_on(biped, gait, step), gait, 2)
         ours, theirs = run.arcs[1], level[1].arcs[1]
@@ -73,18 +83,21 @@ def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
         np.testing.assert_array_equal(run.arcs[0].x[:, :15], level[1].arcs[0].x[:, :15])
         moved = ours.x[:until, 17] == -step.drop
         ahead = np.array([biped.swing_foot(x[:5])[0] > 0.0 for x in ours.x[:until]])
-        np.testing.assert_array_equal(moved, ahead)  # the foot is high enough there
+        np.testing.assert_array_equal(moved, ahead)
 
 
 def test_a_step_up_that_is_not_cleared_is_not_there(biped, gait, level):
-    """The foot strikes the level behind it, where it would without the step."""
+    """A step of 0.2 m is higher than the foot, which strikes the level behind it, as without the step."""
     _, run = walked(walker_on(biped, gait, StepUp(1, 0.2)), gait, 1)
     np.testing.assert_array_equal(run.arcs[0].x[:, :10], level[1].arcs[0].x[:, :10])
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
-    """Depths in MuJoCo are the distances to both levels; also after other levels, and in another process."""
+    """Depths of both feet in MuJoCo are the distances to their levels [m], which are written into the state
+    (16: stance, 17: swing foot), along the normal `out` of the slope; also after other levels, and in a plant
+    that was sent to another process (pickle).
+    """
     ground = SoftGround(foot_radius=5e-3)
     plant = MuJoCoPlant(biped, ground, slope, ground_steps=(ba.StepDown(1, 0.01),))
     q, out = gait.start(biped)[0], ground_axes(slope)[1]
@@ -102,6 +115,9 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
 
 
 def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
+    """Each foot lands as much lower than the other as the rigid ground of the same seed is there (`drop`), to
+    the penetration of 0.5 mm; the steps differ by more than 2 mm.
+    """
     walk = ba.walk_scenario(
         ba.Scenario("NPD", run={"impacts": 3, "seed": 4}, ground={"rms": 2e-3}, **SOFT)
     )

@@ -1,4 +1,7 @@
-"""Motors with lag in MuJoCo: tau u_m' = u - u_m, by its closed form, by energy and against the rigid plant."""
+"""Motors with lag in MuJoCo: tau u_m' = u - u_m, by closed form, by energy and against the rigid plant.
+
+u is the torque asked for, u_m the one on the joints; TAU = 5 ms is the lag. TICK is a clock of 1 kHz.
+"""
 
 from __future__ import annotations
 
@@ -32,6 +35,9 @@ class Holds(ba.Controller):
 @pytest.mark.parametrize("tau", [1e-5, 50e-3])
 @pytest.mark.parametrize("method", ["rk4", "leapfrog"])
 def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau, method):
+    """For a constant torque u asked for from the start on, u_m = u (1 - exp(-t / tau)): for lags much shorter
+    and longer than the period of 1 ms, in both loops (`made`) and both methods.
+    """
     loop = made(MuJoCoPlant(biped, lag=tau, integrator=method), Holds(), None, TICK, biped)
     arc = run_of(loop, gait, 0.02).arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
@@ -42,7 +48,9 @@ U = np.array([40.0, -30.0, 20.0, -10.0])
 
 
 def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
-    """In free flight, 9 m up, half the step leaves a quarter of the error."""
+    """In free flight, 9 m up, where no contact jumps, half the step leaves a quarter of the error; 1/64 ms is
+    the exact one.
+    """
     soft = SoftGround(time_constant=5e-3)
     plants = [MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
     rows = []
@@ -57,6 +65,9 @@ def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
 
 
 def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
+    """The recorded torque goes to the torque that is held in x (its last four numbers) by exp(-dt / TAU),
+    stretch by stretch; in machine code and in Python alike.
+    """
     walks = [
         ba.walk_scenario(
             ba.Scenario("NPD", run={"engine": e, "impacts": 1}, **SOFT, **{"hardware.lag": TAU})
@@ -66,7 +77,6 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
     for walk in walks:
         assert walk.trajectory.settings["plant"]["lag"] == TAU
         assert walk.walker.held.motors.speed == 1.0 / TAU
-        # u_m goes to what is held of the asked torque, stretch by stretch
         arc, u = walk.trajectory.arcs[0], walk.signals.u[walk.signals.step == 1]
         ways, asked = np.diff(arc.t)[:, np.newaxis], arc.x[:-1, -4:]
         expected = asked + np.exp(-ways / TAU) * (u[:-1] - asked)
@@ -75,6 +85,9 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
 
 
 def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
+    """The lag goes from the motors to the plant, which integrates it, and the rate limit of 1e4 N m/s stays
+    with the loop. A lag in both, a negative one, and one in a loop whose plant has none are refused.
+    """
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=TICK, motors=Motors(1e4, TAU))
     loop = fastest_loop(walker, MuJoCoPlant(biped))
@@ -90,7 +103,9 @@ def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
 
 
 def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
-    """Forces of the ground under lagging motors are those of ideal motors with the torque u_m, not u."""
+    """Forces of the ground under lagging motors are those of ideal motors with the torque u_m, not u: 2 ms
+    after the start u_m is a third of u.
+    """
     plant, ideal = MuJoCoPlant(biped, lag=TAU), MuJoCoPlant(biped)
     u = 5.0 * U
     row = plant.advance(0.0, plant.start(0.0, *gait.start(biped)), u, None, 2e-3).row

@@ -23,7 +23,9 @@ def read_back(text):
 
 @pytest.mark.parametrize("robot", [("rabbit", "tac2003"), ("three_link", None)])
 def test_the_file_read_back_is_the_model_that_walks(robot):
-    """Bit for bit, with masses, a slope and a ground that six digits do not hold."""
+    """Bit for bit, all numbers of MuJoCo's model but those of shapes. Masses, slope and ground have more than
+    the six digits that MuJoCo would write itself.
+    """
     errors = ba.ModelErrors(mass={"torso": 1e-9 / 3})
     biped = errors.apply(ba.Biped.load(*robot, friction=True))
     plant = MuJoCoPlant(biped, GROUND, 0.1 / 3, h=4e-5)
@@ -53,6 +55,9 @@ def test_shapes_are_seen_and_touch_nothing(biped):
 
 
 def test_the_start_of_a_gait_is_a_keyframe_on_the_ground(biped, gait):
+    """In the file's keyframe the stance foot is at the origin, up to the 1e-6 m that it is pressed into the
+    ground, the swing foot where the robot's kinematics has it, and rates are the gait's.
+    """
     plant = MuJoCoPlant(biped)
     model = read_back(mjcf(plant, gait))
     data = mujoco().MjData(model)
@@ -66,6 +71,9 @@ def test_the_start_of_a_gait_is_a_keyframe_on_the_ground(biped, gait):
 
 
 def test_what_cannot_be_written_is_refused(biped, gait, tmp_path):
+    """A suffix other than .xml, steps of the ground, which no such file can have, no plant, and a folder;
+    nothing is left behind.
+    """
     steps = MuJoCoPlant(biped, ground_steps=(ba.StepDown(2, 5e-3),))
     for plant, path in (
         (MuJoCoPlant(biped), tmp_path / "a.png"),

@@ -1,4 +1,9 @@
-"""A biped in MuJoCo: its equations are Pinocchio's without contact, and Newton's laws hold with it."""
+"""A biped in MuJoCo: its equations are Pinocchio's without contact, and Newton's laws hold with it.
+
+placed(plant, q, v, own, ...) puts MuJoCo in a state: own is the time of the last touchdown, place and velocity
+of the floating base. loop_on makes a loop around the plant, run_of simulates it; the fixture walk is such a run
+of three steps under NPD.
+"""
 
 from __future__ import annotations
 
@@ -40,6 +45,9 @@ def in_joints_of(model, biped):
 
 
 def test_the_plant_on_a_pinned_foot_accelerates_as_pinocchio_computes(robot):
+    """The robot pinned at its foot, at random states under random forces: MuJoCo's accelerations, mapped by T
+    to our joints, are those of Pinocchio, to round-off.
+    """
     mj, model, random = mujoco(), model_of(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
     for _ in range(20):
@@ -60,7 +68,9 @@ def placed(plant, q, v, own, u=0.0, load=None):
 
 
 def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plant, gait):
-    """u' q_b' + zeta' q', although the base floats."""
+    """Power of all of MuJoCo's forces at its rates = u' q_b' + zeta' q', although the base floats; and the
+    state that was placed is read back.
+    """
     q, v = gait.start(plant.biped)
     f, random = plant.biped.floating, np.random.default_rng(5)
     speed = (f.velocity_map(q)[:, :5] @ v)[f.base]
@@ -95,6 +105,7 @@ def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
 
 
 def test_feet_and_hip_are_where_pinocchio_has_them(robot):
+    """With the stance foot at (3, 2) m, at random angles."""
     plant, random = MuJoCoPlant(robot), np.random.default_rng(6)
     f, at = robot.floating, np.array([3.0, 2.0])
     for _ in range(5):
@@ -120,7 +131,7 @@ def test_feedback_linearisation_walks(walk):
 
 
 def test_the_same_walk_bit_for_bit(plant, gait, walk):
-    """Whatever the engine did before: its work space is no state."""
+    """In the same engine again, whatever it did before, and in a new one: its work space is no state."""
     law = ba.NPDController(gait.constraint)
     again = run_of(loop_on(plant, law), gait, impacts=1)
     np.testing.assert_array_equal(again.arcs[0].x, walk.arcs[0].x)
@@ -130,11 +141,14 @@ def test_the_same_walk_bit_for_bit(plant, gait, walk):
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, gait, slope):
+    """A foot of 5 mm radius begins 1e-6 m (TOUCHING) deep in the ground, on a slope too; moved along it, its
+    force is -0.4 times the normal force, 0.4 the friction.
+    """
     plant = MuJoCoPlant(biped, SoftGround(friction=0.4, foot_radius=5e-3), slope)
     q = gait.start(biped)[0] - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
     along, out = ground_axes(slope)
     row = plant.start(0.0, q, np.zeros(5))
-    row[13:15] = 0.5 * along
+    row[13:15] = 0.5 * along  # velocity of the base [m/s]
     plant.engine.place(row)
     mujoco().mj_forward(plant.engine.model, plant.engine.data)
     assert plant.engine.data.contact[0].dist == pytest.approx(-TOUCHING, abs=1e-12)
@@ -164,6 +178,9 @@ def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait
 
 
 def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
+    """A force of 900 N upwards at the hip, nearly three times the weight, lifts it off; without motors and
+    force it falls.
+    """
     system = loop_on(plant, ba.Passive(), disturbance=ba.HipForce(plant.biped, (0.0, 900.0)))
     run = run_of(system, gait, 1.0)
     assert run.status is ba.Status.INFEASIBLE
@@ -172,12 +189,16 @@ def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
 
 
 def test_a_foot_inside_the_ground_is_no_start(biped, gait):
+    """A gait for level ground on a slope: its swing foot would begin inside the ground."""
     downhill = loop_on(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
     with pytest.raises(InputError, match="inside the ground"):
         downhill.initial_state(*gait.start(biped))
 
 
 def test_wrong_values_and_a_missing_mujoco_are_refused(biped, monkeypatch):
+    """None in sys.modules makes the import fail, as where MuJoCo is not installed: the message says how to
+    install it.
+    """
     for make in (
         lambda: SoftGround(friction=-1.0),
         lambda: SoftGround(impedance=(0.9, 1.0)),

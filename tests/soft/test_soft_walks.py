@@ -1,4 +1,8 @@
-"""A scenario's walk on soft ground: the same controller, another plant, by one argument everywhere."""
+"""A scenario's walk on soft ground: the same controller, another plant, by one argument everywhere.
+
+The fixture made is a walk of two steps of a scenario under NPD in MuJoCo; SOFT are the values of this scenario,
+plant, clock of 1 kHz and torque limit. loop_on makes a loop around a plant by hand, run_of simulates it.
+"""
 
 from __future__ import annotations
 
@@ -28,6 +32,9 @@ def made():
 
 
 def test_a_scenario_on_soft_ground_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
+    """A loop made by hand, in Python, has the same touchdowns and states: to the last bit as the scenario in
+    Python, to 1e-9 as the compiled one; `apart` is that difference, 1000 times as large for torques.
+    """
     loop = loop_on(MuJoCoPlant(biped), ba.NPDController(gait.constraint))
     run = run_of(loop, gait, impacts=2)
     plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio", "impacts": 2}, **SOFT))
@@ -42,6 +49,7 @@ def test_a_scenario_on_soft_ground_is_the_walk_of_a_loop_around_the_plant(made, 
 
 
 def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
+    """plant="mujoco" gives the scenario's walk to the last bit; a plant itself keeps its own friction."""
     walker = Walker(biped, ba.NPDController(gait.constraint), timing=TICK, torque_limit=150.0)
     walk = ba.walk(walker, gait, impacts=2, plant="mujoco")
     assert np.array_equal(walk.trajectory.final_state, made.trajectory.final_state)
@@ -51,6 +59,9 @@ def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
 
 
 def test_the_slope_of_a_plant_is_that_of_the_walk(biped, gait):
+    """A walker without a slope takes the plant's, with a warning as the gait was made for another; two slopes
+    that contradict one another are refused.
+    """
     walker = Walker(biped, ba.NPDController(gait.constraint), timing=TICK, torque_limit=150.0)
     plant = MuJoCoPlant(biped, slope=-0.01)
     with pytest.warns(ba.WalkWarning, match="made for a slope of 0 rad, and the ground has -0.01"):
@@ -107,11 +118,15 @@ def test_a_finished_soft_walk_has_a_verdict_and_slips_and_comes_back_from_its_fi
     ],
 )
 def test_wrong_values_of_soft_ground_are_refused(values):
+    """No friction, an error of the impact map, which soft ground has not, a misspelt plant, no clock, and an
+    engine's number below 0.
+    """
     with pytest.raises(InputError):
         ba.walk_scenario(ba.Scenario("NPD", **values))
 
 
 def test_what_only_the_rigid_plant_has_is_named(biped, gait):
+    """Errors of the impact map (impact_gain), and an integration method, since MuJoCo has its own."""
     law, plant = ba.NPDController(gait.constraint), MuJoCoPlant(biped)
     walker = Walker(biped, law, timing=TICK, impact_gain=(0.01,) * 5)
     with pytest.raises(InputError, match="impact"):
@@ -129,6 +144,9 @@ def test_what_only_the_rigid_plant_has_is_named(biped, gait):
     ],
 )
 def test_values_of_ground_and_engine_come_from_the_scenario(ground, h):
+    """h: the engine's step, a tenth of the time constant, at most 0.2 ms, or the one that is given. All values
+    of `ground` arrive in the plant, and the halved scenario has half the step.
+    """
     own = {"friction": 0.9, "impratio": 40.0}
     s = ba.Scenario("NPD", ground=own | ground, run={"impacts": 1}, **SOFT)
     plant = ba.walk_scenario(s).trajectory.settings["plant"]
@@ -141,13 +159,16 @@ def test_values_of_ground_and_engine_come_from_the_scenario(ground, h):
 
 
 def test_a_step_that_takes_too_long_is_told():
+    """A step takes about 0.42 s, and max_step_time is 0.1 s: the walk ends as stalled."""
     common = {"hardware.period": 1e-3, "run.impacts": 2, "run.max_step_time": 0.1}
     walk = ba.walk_scenario(ba.Scenario("NPD", ground="mujoco", **common))
     assert walk.trajectory.status is ba.Status.STALLED
 
 
 def test_a_stretch_no_longer_than_round_off_gives_no_acceleration():
-    """Where a push ends one bit beside a tick, 2e-16 rad/s in 1e-16 s would be an acceleration of 2 rad/s^2."""
+    """Where a push ends one bit beside a tick, 2e-16 rad/s in 1e-16 s would be an acceleration of 2 rad/s^2.
+    Here that stretch has 4e3: replaced by 7 of the stretch before it or, at the start of an arc, by 9 after it.
+    """
     t = np.array([0.0, 1e-3, 1e-3, np.nextafter(1e-3, 1.0), np.nextafter(1e-3, 1.0), 2e-3])
     a = np.array([7.0, 7.0, 4e3, 4e3, 9.0, 9.0])
     dx = np.column_stack((np.zeros(6), a))
@@ -161,7 +182,10 @@ PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3
 
 
 def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_error(biped, gait):
-    """From the push's onset to 50 ms after its end; not held it leaves more than half of it."""
+    """ADRC with a slow observer that restarts at each tick for 15 ms after a touchdown (Hold), under the same
+    push as NPD: largest error from the push's onset to 50 ms after its end. Not held, the observer takes
+    contact for a disturbance and leaves more than half of NPD's.
+    """
     h, plant, found = gait.constraint, MuJoCoPlant(biped, SoftGround(friction=0.8)), []
     slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))
     for controller in (ba.NPDController(h), Hold(slow, 0.015)):

@@ -1,4 +1,8 @@
-"""Touchdowns that a controller has to notice on soft ground, in Python and compiled."""
+"""Touchdowns that a controller has to notice on soft ground, in Python and compiled.
+
+walked(plant, gait, touchdown, ...) is a loop in MuJoCo, whose controller is told of touchdowns by the detector
+`touchdown` (None: at once), with its run.
+"""
 
 from __future__ import annotations
 
@@ -42,6 +46,9 @@ LEAVES = (
 
 @pytest.mark.parametrize("leaf", LEAVES, ids=lambda leaf: type(leaf).__name__)
 def test_compiled_as_in_python(plant, gait, leaf):
+    """leaf: how a touchdown is detected: late, by force or by kinematics. Final state and delays of the
+    compiled loop are those of the loop in Python; the walk has one touchdown, shortly before its end.
+    """
     (loop, compiled), (_, python) = (
         walked(plant, gait, leaf, kind) for kind in (CompiledLoop, SteppingLoop)
     )

@@ -1,4 +1,7 @@
-"""A row of a study from the table of the compiled walk, and from all nodes of the same walk by its signals."""
+"""A row of a study, from the table of the compiled walk and from all nodes of the same walk.
+
+run_trials(records) makes the rows of these scenarios, as a study does; walk_scenario gives the walk itself.
+"""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -31,6 +34,9 @@ CASES = {
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_row_has_the_numbers_of_the_signals_of_its_walk(name):
+    """A row of a study is computed from the table that the compiled walk fills; `counted_in` computes the same
+    columns from all signals of the same walk. They agree to round-off in each of CASES, falls included.
+    """
     s = ba.Scenario(**{"controller": "NPD", "run.impacts": 3, **CASES[name]})
     row, walk = run_trials([s.record()])[0], ba.walk_scenario(s)
     assert row["status"] == walk.trajectory.status.name
@@ -45,7 +51,9 @@ def test_a_row_has_the_numbers_of_the_signals_of_its_walk(name):
 def test_the_page_has_a_picture_of_feasible_walks_under_several_conditions_alone(
     tmp_path, conditions
 ):
-    """Under one they are a column of its table. The axis of a ratio has no unit."""
+    """Under one condition they are a column of the page's table. In the picture each of 2 laws has a dot under
+    each of 2 conditions; of one walk the share is 0 or 1. The axis of a ratio has no unit.
+    """
     laws = {f"K_p {x}": {"controller.K_p": x} for x in (4000.0, 5000.0)}
     tables = {
         "name": "page",
@@ -66,6 +74,9 @@ def test_the_page_has_a_picture_of_feasible_walks_under_several_conditions_alone
 
 
 def test_a_study_that_asks_for_rounding_has_it(tmp_path):
+    """The column `rounding` (how far two walks whose starts are 1e-12 apart differ) is that of the walk itself,
+    without and with encoder counts; in a row that does not ask for it, it is None.
+    """
     base = {"controller.name": "NPD", "run.impacts": 2}
     tables = {"name": "rounding", "column": "rounding", "base": base}
     tables["grid"] = {"hardware.encoders.counts": ["none", 8192.0]}
@@ -78,6 +89,9 @@ def test_a_study_that_asks_for_rounding_has_it(tmp_path):
 
 
 def test_errors_of_a_fall_are_those_of_the_walk_and_end_where_it_leaves_the_gait():
+    """A push of -150 N m throws the robot back, behind the start of the curve. The row's errors are the walk's,
+    up to there: less than a tenth of the distance from the curve that was reached while it fell.
+    """
     values = {"controller.name": "NPD", "gait.name": "v0.8", "run.impacts": 9}
     values |= {"hardware.torque_limit": 150.0, "hardware.period": 1e-3}
     values |= {"pushes": "q1,q2=-150@4:0.3-0.5"}

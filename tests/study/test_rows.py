@@ -1,4 +1,9 @@
-"""The same rows whoever makes them and whenever they are killed; what cannot run is refused before."""
+"""The same rows whoever makes them and whenever they are killed; what cannot run is refused before.
+
+Most tests run a stand-in for walks, `plants.rows`: 60 rows, cases a and b with run.impacts 1 to 30, whose
+number (101 to 130 in b) is the row's column impacts. made(folder, workers, ...) runs this study in so many
+processes (None: in a thread) and returns its rows, which the fixture expected has too.
+"""
 
 import json
 import signal
@@ -40,6 +45,7 @@ def expected(tmp_path_factory):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_rows_do_not_depend_on_the_number_of_workers(tmp_path, expected, workers):
+    """`expected` are the 60 rows made in this process; so are those of one and of two worker processes."""
     assert made(tmp_path, workers) == expected
 
 
@@ -52,6 +58,9 @@ def check_left_out(found, expected, status, detail):
 
 
 def test_a_row_that_kills_its_worker_is_named_and_left_out(tmp_path, expected):
+    """The stand-in row 105 kills its process: this row alone is CRASHED and a note names its values. The same
+    study again finds all 60 rows done and walks none.
+    """
     notes = []
     found = made(tmp_path, 2, {"controller.kill": 105}, progress=lambda p: notes.append(p.note))
     check_left_out(found, expected, "CRASHED", "died")
@@ -62,12 +71,18 @@ def test_a_row_that_kills_its_worker_is_named_and_left_out(tmp_path, expected):
 
 
 def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
+    """The first walk of row 7 kills its worker (and leaves a file, so that the second does not): all rows are
+    as expected.
+    """
     marked = tmp_path / "died"
     assert made(tmp_path / "out", 2, {"controller.once": str(marked)}) == expected
     assert marked.exists()
 
 
 def test_workers_that_die_now_and_then_do_not_end_the_study(tmp_path, monkeypatch):
+    """Two walks kill their workers and a study ends after two in a row (MOST_CRASHED, made small here): there
+    are others between them, so it goes on.
+    """
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
     cases = {x: {"controller.x": x, "controller.of": 0} for x in "ab"}
     base = {"controller.pause": 0.0, "controller.kill": 5}
@@ -77,6 +92,7 @@ def test_workers_that_die_now_and_then_do_not_end_the_study(tmp_path, monkeypatc
 
 
 def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
+    """Each walk kills its worker: after two in a row (MOST_CRASHED, made small here) the study ends."""
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
     base = {"controller.pause": 0.0, "controller.of": 0, "controller.kill": 5}
     study = {"name": "bad", "base": base, "grid": {"run.impacts": [5]}, "seeds": 4}
@@ -85,6 +101,9 @@ def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
 
 
 def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
+    """Row 105 raises: it is RAISED with the error's text, all others are as expected, and the pool of threads
+    still works.
+    """
     with ThreadPoolExecutor(2) as pool:
         found = made(tmp_path, pool, {"controller.raise": 105})
         assert pool.submit(int, "3").result() == 3
@@ -101,6 +120,9 @@ def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
     ],
 )
 def test_a_row_of_a_wrong_kind_says_why_it_is_refused(tmp_path, function, message):
+    """function: makes a row too few, values that JSON does not have, or ends the thread; every one of the 60
+    walks is then RAISED with the message.
+    """
     found = plants.carried(plants.ROWS, tmp_path, function)
     ((status, (count, detail)),) = found.statuses().items()
     assert (status, count) == ("RAISED", 60)
@@ -126,6 +148,9 @@ DEAD = BrokenExecutor("no")
 
 @pytest.mark.parametrize("errors", [(ValueError("no"),), (DEAD,), (DEAD, DEAD)])
 def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
+    """errors: the first is raised by the work; a second one already where work is handed in. A broken executor
+    is named as a dead worker, any other error by itself.
+    """
     said = r"to a worker or back: ValueError\('no'\)|a worker of the executor died, which the study"
     with pytest.raises(SimulationError, match=said.split("|")[errors[0] is DEAD]):
         plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(*errors))
@@ -162,6 +187,7 @@ STUDY = {
 
 
 def test_walks_are_the_same_in_processes_and_threads(tmp_path):
+    """Real walks, 2 controllers x 2 periods x 2 seeds: the rows of two processes equal those of two threads."""
     with ThreadPoolExecutor(2) as pool:
         apart, beside = (ba.study(STUDY, tmp_path / f"{x}", x) for x in (2, pool))
         assert list(apart.rows()) == list(beside.rows())
@@ -198,6 +224,10 @@ FIXED = {
 
 
 def test_a_study_knows_before_its_first_walk_where_something_is_drawn():
+    """`rehearse` returns the cases in which another seed changes nothing: all of FIXED and none of DRAWS, which
+    has an example of everything that is drawn (DRAWN). With one seed, or where some level of a grid draws,
+    there is none.
+    """
     assert set(DRAWS) == set(DRAWN)
     base = {"controller.name": "NPD", "run.impacts": 3}
     cases = {f"drawn {x}": base | y for x, y in DRAWS.items()}
@@ -210,7 +240,9 @@ def test_a_study_knows_before_its_first_walk_where_something_is_drawn():
 
 
 def test_a_walk_without_anything_drawn_is_made_once(tmp_path):
-    """Six seeds; the controller behind noise is compared with the one walk of the other."""
+    """NPD alone draws nothing: 1 walk, and 6 seeds of the case with noise make 7. Each of the 6 is compared
+    with that one walk.
+    """
     cases = {"NPD": {}, "noise": {"hardware.encoders.noise": 1e-5}}
     base = {"controller.name": "NPD", "run.impacts": 1}
     tables, notes = {"name": "a", "seeds": 6, "base": base, "cases": cases}, []
@@ -240,12 +272,18 @@ HOLD = {"controller.contact.name": "hold", "hardware.period": None}
     ],
 )
 def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tables, message):
+    """A misspelt name, a value that is none of the robot's, and parts that do not fit in one case; no folder is
+    left behind.
+    """
     with pytest.raises(InputError, match=message):
         ba.study({"name": "typo", **tables}, tmp_path / "out", 1)
     assert not (tmp_path / "out").exists()
 
 
 def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
+    """Results of a study with another value, a text in their place, and half a file: each is refused and no
+    byte of them changes.
+    """
     made(tmp_path, 1)
     before = (tmp_path / RESULTS).read_bytes()
     with pytest.raises(InputError, match=r"base\.controller\.more"):
@@ -304,6 +342,9 @@ def changed(path, *commands):
     ],
 )
 def test_a_database_of_somebody_else_is_refused_in_a_sentence(tmp_path, commands, message):
+    """commands: what is changed in the SQLite file of a finished study (form, tables, program, its record); the
+    file is left as it is.
+    """
     made(tmp_path, None)
     changed(tmp_path / RESULTS, *commands)
     before = (tmp_path / RESULTS).read_bytes()
@@ -313,6 +354,9 @@ def test_a_database_of_somebody_else_is_refused_in_a_sentence(tmp_path, commands
 
 
 def test_rows_of_other_types_are_walked_again(tmp_path, expected):
+    """Rows 0 to 4 become bytes, a broken text, nothing, a number and a row with NaN, and row 30 goes to place
+    777: reading refuses the first, and the study makes all of them again.
+    """
     made(tmp_path, None)
     values = (
         "x'00ff'",
@@ -330,6 +374,9 @@ def test_rows_of_other_types_are_walked_again(tmp_path, expected):
 
 
 def test_a_study_that_is_told_to_end_says_one_sentence_and_keeps_its_rows(tmp_path, started):
+    """A study of 400 walks in a process of its own is terminated once it has a row: exit code 130, and the rows
+    are still there.
+    """
     path, out = tmp_path / "long.toml", tmp_path / "out"
     path.write_text('name = "long"\nseeds = 400\nbase = { start.spread = 1e-3 }\n')
     line = (
@@ -362,6 +409,9 @@ def count(path):
 
 
 def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
+    """The gait's file is written anew between two runs, with other spaces: the study sees another file and
+    refuses to go on with the old rows.
+    """
     gait, out = tmp_path / "mine.json", tmp_path / "out"
     gait.write_text((data_folder("gaits") / "rabbit" / "published-identified.json").read_text())
     study = {"name": "a", "base": {"gait.name": str(gait), "run.impacts": 1}}

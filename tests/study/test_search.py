@@ -1,4 +1,10 @@
-"""The search against an optimum that is known exactly, the same whoever walks, on three sets of walks."""
+"""The search against an optimum that is known exactly, the same whoever walks, on three sets of walks.
+
+In place of walks, `plants.costs` computes the cost of a linear regulator with gains k1, k2 and observer gains
+l1, l2, whose optimum is Riccati's. plants.tables(...) are the tables of a search over them, plants.carried runs
+it as a study, found_by(...) runs the search alone. A candidate is one setting of the gains, number 0 the case
+itself.
+"""
 
 import math
 import re
@@ -34,7 +40,10 @@ def found_by(**search):
 
 
 def test_the_optimum_of_riccati_is_reached():
-    """Within 1 % with each of three seeds, within 0.05 % in the mean; no candidate is better, to round-off."""
+    """The search over the gains of a regulator and its observer comes to 1 % from the optimum of Riccati with
+    each of three seeds, 0.05 % in the mean, and never below it. Candidate 0 is the case itself, and 200 are
+    walked.
+    """
     missed = []
     for seed in (1, 2, 3):
         search, found = found_by(seed=seed)
@@ -45,7 +54,9 @@ def test_the_optimum_of_riccati_is_reached():
 
 
 def test_any_workers_give_the_same_bits(tmp_path):
-    """One process, two, and threads. Two walks are those of the test: the choice, and the case itself."""
+    """One process, two, and threads have the same rows and choices. Walks: 30 of the search, those of the
+    second set, and two of the test: the choice, and the case itself. Another seed gives other candidates.
+    """
     tables = plants.tables(budget=30, generation=8)
     with ThreadPoolExecutor(3) as pool:
         one, two, three = (
@@ -61,7 +72,9 @@ def test_any_workers_give_the_same_bits(tmp_path):
 
 
 def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choice(tmp_path):
-    """Seeds 0, 1 and 2 are those of search, choice and test; candidate 0 is the case itself."""
+    """Seeds 0, 1 and 2 are those of search, choice and test: 6 candidates, then the finalists, then the choice
+    and the case itself (candidate 0). Sets that share a seed are refused.
+    """
     seen = []
 
     def rows(records):
@@ -79,6 +92,7 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
 
 
 def test_a_candidate_is_told_when_it_becomes_the_best_and_not_again(tmp_path):
+    """Notes name candidates in the order of their numbers, each once, and the last one is the best."""
     notes, tables = [], plants.tables(budget=9, generation=3)
     found = plants.carried(tables, tmp_path, plants.costs, progress=lambda x: notes.append(x.note))
     (choice,), told = found.choices.values(), [x for x in notes if ": candidate " in x]
@@ -89,6 +103,9 @@ def test_a_candidate_is_told_when_it_becomes_the_best_and_not_again(tmp_path):
 
 
 def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
+    """`when` makes l2 a variable of the case with run.impacts = 3 alone: the other case has no candidate with
+    it. Each case has its choice, a line before and after, and a file.
+    """
     tables = plants.tables(budget=12, generation=4)
     tables["cases"] = {"narrow": {"run.impacts": 2}, "all": {"run.impacts": 3}}
     tables["search"]["variables"]["controller.l2"] |= {"when": {"run.impacts": 3}}
@@ -103,6 +120,10 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
 
 
 def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
+    """Bandwidth and order act under LESO alone, run.impacts with order 2 or 3 alone: `values` has only what
+    acts, in a chain of two `when`. The objective is the order here, 9 without one, so that the best of 30 has
+    order 1.
+    """
     when = {"when": {"controller.name": "LESO"}}
     bandwidth, order = "controller.observer.bandwidth", "controller.observer.order"
     variables = {
@@ -118,7 +139,9 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     assert search.values({"a": 1}, chosen | npd) == {"a": 1, **npd}
     middle = chosen | {bandwidth: pytest.approx(100.0), order: 3}
     assert [*search.values({}, chosen | {order: 4})] == [*chosen][:3]
+    # some: the middle of all variables, then each choice beside it; a study is rehearsed with them
     assert list(search.some({})) == [npd, npd, middle]
+    # 3 candidates; 5 finalists and the case; the choice and the case: times the walks of each set
     assert search.count({"search": 2, "choice": 3, "test": 5}) == 3 * 2 + 6 * 3 + 2 * 5
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
     search = search.model_copy(update={"budget": 30, "generation": 5, "walks": search.walks})
@@ -131,7 +154,10 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
 
 
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
-    """The ripple, made to be k1 here: candidates above 20 are not walked, and the budget counts walks alone."""
+    """The ripple, known without a walk, is replaced by k1: candidates above 20 are not walked, and the budget
+    of 30 counts walks alone. With a limit that none keeps, only the case is walked, and a generation asks 8
+    times for each of its 10.
+    """
     known = lambda _, values: {"ripple": values["controller.k1"]}  # noqa: E731
     monkeypatch.setattr(search_room, "numbers_without_walk", known)
     limits = [{"column": "ripple", "most": 20.0, "over": "worst"}]
@@ -148,6 +174,9 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
 
 
 def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path):
+    """peak_error is k1 - bonus, and k1 is at least 1: a median of at most 0.5 is kept with the bonus alone.
+    Without any case that keeps it the study fails; beside one that does, it is a failure among the results.
+    """
     limits = [{"column": "peak_error", "most": 0.5, "over": "median"}]
     tables = plants.tables(budget=8, generation=4, limits=limits)
     message = r"median peak_error at most 0.5: missed by 8.*nearest is"
@@ -175,6 +204,10 @@ def of(found, kind=Aim, column="rms_error", **more):
 
 
 def test_falls_and_infeasible_walks_rank_worst_and_are_not_dropped():
+    """The number of an aim is a median or mean over walks, in which a bad walk counts as infinite, the worst
+    way: so a fall with a tiny error makes a candidate no better. counts="made" takes infeasible walks by their
+    error, and falls as before.
+    """
     most = {"goal": "maximise"}
     assert of(walks(3.0, 1.0, 2.0)) == 2.0
     assert of(walks(1.0, 2.0)) == 1.5
@@ -187,12 +220,18 @@ def test_falls_and_infeasible_walks_rank_worst_and_are_not_dropped():
 
 
 def test_quantiles_are_numbers_of_walks_in_the_order_of_the_goal():
+    """Of 1 to 10: the least number that a share p of the walks does not exceed, always that of one walk;
+    "worst" is the largest. To be maximised, they count from above.
+    """
     x = walks(*range(1, 11))
     assert [of(x, over=p) for p in (0.5, 0.9, 0.91, "worst")] == [5, 9, 10, 10]
     assert [of(x, over=p, goal="maximise") for p in (0.5, 0.9, 0.91, "worst")] == [6, 2, 1, 1]
 
 
 def test_every_walk_counts_in_a_share():
+    """Of four walks two are feasible: 0.5, which misses at least 0.9 by 0.4, as a share of the limit. The worst
+    torque of 165 N m misses 150 by a tenth; a limit of 0 is missed by the number itself.
+    """
     feasible, torque = Limit(column="feasible", least=0.9), {"most": 150.0, "over": "worst"}
     x = feasible.of([*walks(1.0, 1.0), FELL, REFUSED], {})
     assert (x, feasible.excess(x)) == (0.5, pytest.approx(0.4 / 0.9))
@@ -203,6 +242,10 @@ def test_every_walk_counts_in_a_share():
 
 
 def test_candidates_are_ranked_by_limits_then_objective():
+    """known: (objective, by how much limits are missed). Candidates without a miss come first, by objective,
+    equal ones by number, an infinite one last; then those with a miss. Candidate 6, which was not walked, has
+    no rank.
+    """
     search = read_study(plants.tables()).search
     known = [(3.0, 0.0), (1.0, 0.0), (0.1, 0.2), (2.0, 0.0), (INF, 0.0), (1.0, 0.0)]
     found = [Candidate(i, {}, {}, x, (m,), True) for i, (x, m) in enumerate(known)]
@@ -211,9 +254,8 @@ def test_candidates_are_ranked_by_limits_then_objective():
 
 
 def test_columns_without_a_walk_are_those_of_the_specification():
-    """Numbers of the linear loop at its ticks, none in continuous time; the ground changes none.
-
-    Where the loop is unstable its margins are 0, and it has no ripple.
+    """Numbers of the linear loop at its ticks, none in continuous time; the ground changes none. With a delay
+    of 12 ms the loop is unstable: its margins are 0, and it has no ripple.
     """
     names = ("stable", "delay_margin", "disk_margin", "ripple")
     values = {"controller.name": "NPD", "run.impacts": 2}
@@ -269,6 +311,9 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
 
 
 def test_a_study_without_any_walk_ends_with_an_exit_code(tmp_path, monkeypatch):
+    """The controller's output is no function, so that each walk raises: the command ends with an error, from
+    which its exit code comes, and not with an empty page.
+    """
     text = "import biped_adrc as ba\n\n\nclass Bad(ba.Controller):\n    output = 3\n"
     (tmp_path / "without.py").write_text(text)
     (tmp_path / "s.toml").write_text('name = "s"\nbase = {controller.name = "without:Bad"}\n')

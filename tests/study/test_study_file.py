@@ -1,4 +1,8 @@
-"""Studies from files: what they mean and what is refused; samples, units and tables by closed forms."""
+"""Studies from files: what they mean and what is refused; samples, units and tables by closed forms.
+
+read_study reads a study from a file, for which `written` writes a text, or from tables. For tables of results a
+stand-in `rows` makes up the walks of cases a and b under conditions x and y, and plants.carried runs it.
+"""
 
 import csv
 import hashlib
@@ -52,6 +56,9 @@ def written(tmp_path, text):
 
 
 def test_points_are_all_combinations_in_si_units(tmp_path):
+    """2 cases x 2 conditions x 3 bandwidths x 2 periods x 2 starts x 4 draws x 3 seeds, each once; the scenario
+    of every seventh has the values that its point names.
+    """
     study = read_study(written(tmp_path, STUDY))
     points = list(study.points())
     assert len(points) == study.count == 2 * 2 * 3 * 2 * 2 * 4 * 3
@@ -90,6 +97,9 @@ def test_the_scenario_of_a_study_lies_beside_it(tmp_path):
 
 
 def test_another_study_has_another_hash_and_another_description_has_not(tmp_path):
+    """old -> new in the file; same: whether results may go on. Another seed of draws or value of a condition
+    changes the hash; the same text, a description and a comment do not.
+    """
     study = read_study(written(tmp_path, STUDY))
     for old, new, same in (
         ("seed = 1", "seed = 2", False),
@@ -123,6 +133,9 @@ def test_another_study_has_another_hash_and_another_description_has_not(tmp_path
     ],
 )
 def test_wrong_lines_of_a_study_file_are_refused_by_name(tmp_path, old, new, message):
+    """old -> new in STUDY, one mistake each; the message names the file, the place and, for a misspelt key, the
+    right one.
+    """
     assert old in STUDY
     with pytest.raises(InputError, match=f"(?s)study.toml'.*{message}"):
         read_study(written(tmp_path, STUDY.replace(old, new)))
@@ -150,6 +163,9 @@ SPAN = {"from": 1, "to": 2}
     ],
 )
 def test_mistakes_of_a_search_are_named_by_their_place(change, message):
+    """change: of the search's tables. Case names that would give one file name, or one too long (89 letters, 88
+    are taken), and tables that a search does not have are refused too.
+    """
     with pytest.raises(InputError, match=message):
         read_study(plants.tables(**change))
     for more, said in (
@@ -169,6 +185,9 @@ def test_mistakes_of_a_search_are_named_by_their_place(change, message):
 
 
 def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
+    """Values of base come before those of the file (5 impacts, not 3), and an axis of the grid takes the place
+    of the file's bandwidth.
+    """
     path, controller = tmp_path / "s.toml", {"name": "LESO", "observer": {"bandwidth": 77.0}}
     write_scenario(path, ba.Scenario(controller=controller, run={"impacts": 3}), "short")
     grid = {"controller.observer.bandwidth": [1.0, 2.0]}
@@ -178,7 +197,9 @@ def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
 
 
 def test_a_module_beside_the_study_is_found_and_others_there_are_not_run(tmp_path):
-    """The folder is on the path, at its end, while the class that the study names is imported."""
+    """The study's folder is on the path, at its end, only while the class that the study names is imported:
+    files there called like installed modules (optuna) are not run in their place.
+    """
     module = "import sys\nimport biped_adrc as ba\nPATH = list(sys.path)\n\n"
     (tmp_path / "beside_it.py").write_text(module + "class Mine(ba.NPDController):\n    pass\n")
     (tmp_path / "optuna.py").write_text("raise SystemExit('planted')")
@@ -198,6 +219,7 @@ def test_a_module_beside_the_study_is_found_and_others_there_are_not_run(tmp_pat
 
 
 def test_the_versions_of_a_study_are_those_of_its_files_classes_and_plants():
+    """A file that is not there has the hash of no bytes, math:sin no source, the rigid plant no engine."""
     values = [("ground.plant", x) for x in ("mujoco", "rigid")] + [("controller.name", "math:sin")]
     assert versions_of([*values, ("gait.name", "none.json"), ("robot.name", "no/robot.toml")]) == {
         "engine of mujoco": importlib.metadata.version("mujoco-core"),
@@ -208,6 +230,7 @@ def test_the_versions_of_a_study_are_those_of_its_files_classes_and_plants():
 
 
 def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():
+    """A stone at 0.9 m is known to be out of reach only when the walk comes to it: the rehearsal passes."""
     base = {"controller.name": "footstep", "ground.stones": [0.4, 0.9]}
     read_study({"name": "a", "base": base}).rehearse()
     (row,) = run_trials([base])
@@ -215,6 +238,7 @@ def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():
 
 
 def test_levels_have_both_ends_and_even_steps():
+    """Even differences, or even ratios on a logarithmic scale; one level is the lower end."""
     linear = Levels(low=0.1, high=0.7, count=7).levels()
     assert (linear[0], linear[-1]) == (0.1, 0.7)
     assert np.diff(linear) == pytest.approx(0.1)
@@ -226,9 +250,9 @@ def test_levels_have_both_ends_and_even_steps():
 
 @pytest.mark.parametrize("kind", ["random", "sobol"])
 def test_samples_fill_their_ranges_evenly(kind):
-    """Also on a logarithmic scale and over whole numbers; a longer list begins with the shorter one.
-
-    The deviation from an even spread falls with 1/n for Sobol points and with 1/sqrt(n) for random ones.
+    """Samples are scaled back to [0, 1), on a logarithmic scale too: sorted, they deviate from an even spread
+    by less than 2/n (Sobol) or 2/sqrt(n) (random); the four whole numbers are equally frequent, to five
+    standard deviations. A longer list begins with the shorter one, and another seed gives another list.
     """
     n = 4096
     log, whole = {"from": 1e-3, "to": 1e3, "scale": "log"}, {"from": 2, "to": 5, "whole": True}
@@ -250,7 +274,10 @@ def test_samples_fill_their_ranges_evenly(kind):
 
 
 def test_paired_ratios_against_a_closed_form():
-    """Ratios k/10 of k = 1 .. 20; order statistics 6 and 15 hold 95.9 % by the binomial distribution."""
+    """Ratios k/10 of k = 1 .. 20: median 1.05, and order statistics 6 and 15 hold 95.9 % by the binomial
+    distribution. p is the sign test's: 9 below 1, 10 above, one equal. Infinite numbers are falls; two of them
+    have no ratio. 8 of 10 by Wilson's interval.
+    """
     y = np.random.default_rng(1).uniform(1.0, 9.0, 20)
     x = y * np.random.default_rng(2).permutation(np.arange(1, 21)) / 10.0
     found = paired(x.tolist(), y.tolist())
@@ -267,7 +294,9 @@ def test_paired_ratios_against_a_closed_form():
 
 
 def test_equal_numbers_have_no_sign_and_one_walk_no_interval():
-    """Zeros on both sides are a tie; the next float is none, though its ratio rounds to 1."""
+    """Zeros on both sides are a tie; the next float is none, though its ratio rounds to 1: six pairs on one
+    side have p = 2 x 2^-6. One walk has a number without interval or p.
+    """
     assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[0].value == 1.0
     assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[1:] == (1.0, 3)
     y = np.array([1.9] * 6)
@@ -301,7 +330,9 @@ def _row(record):
 
 
 def test_the_table_pairs_walks_by_seed_and_counts_what_is_feasible(tmp_path):
-    """20 ratios on one side of 1 have p = 2 x 2^-20 in the sign test."""
+    """Errors of a are 1 to 20 by seed and those of b half of them; under y the five seeds 0, 4, .. 16 of b are
+    not feasible. 20 ratios on one side of 1 have p = 2 x 2^-20 in the sign test.
+    """
     tables = TABLE | {"seeds": 20, "base": {"controller.pause": 0.0, "run.impacts": 3}}
     found = plants.carried(tables, tmp_path, rows)
     a_x, a_y, b_x, b_y = found.table()
@@ -328,6 +359,9 @@ def equal(records):
 
 
 def test_rows_that_are_equal_to_the_last_bit_are_one_walk(tmp_path):
+    """`equal` makes rows of which a under x has one and b under x has two that differ, among 20 seeds: they
+    count as 1 and 2 walks, so that no interval is made of copies. By a grid over run.seed it is the same.
+    """
     tables = TABLE | {"seeds": 20, "base": {"controller.pause": 0.0, "run.impacts": 3}}
     found = plants.carried(tables, tmp_path, equal)
     a_x, a_y, b_x, _ = found.table()
@@ -356,6 +390,7 @@ def test_there_is_no_interval_over_declared_walks(tmp_path):
 
 
 def test_tables_come_back_to_the_last_bit(tmp_path):
+    """Each number in the CSV is the same float as in the results; 1/900 has no short decimal form."""
     tables = TABLE | {"grid": {"run.impacts": [1, 2], "hardware.period": [1e-3, 1 / 900]}}
     found = plants.carried(tables, tmp_path, rows)
     expected = list(found.rows())
@@ -370,6 +405,9 @@ def test_tables_come_back_to_the_last_bit(tmp_path):
 
 
 def test_an_axis_with_many_numbers_is_cut_into_cells_of_equal_width():
+    """More than 40 numbers make 20 cells of equal width, of about 1000 of 20 000 uniform numbers each; few
+    levels have a cell each, numbers first, then none, then texts.
+    """
     x = np.random.default_rng(2).uniform(-1.0, 1.0, 20_000)
     cells, names = cut(x.tolist())
     assert len(names) == 20

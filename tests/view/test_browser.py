@@ -1,4 +1,9 @@
-"""The animation in headless Chromium: where it draws the links, that it loads nothing and says nothing."""
+"""The animation in headless Chromium: where it draws the links, that it loads nothing and says nothing.
+
+The fixture walks has two walks of RABBIT, under NPD and ADRC; opened is the browser with their page, and its
+file. seek shows the walk at a time, world reads the placement of a node in the scene, and floating computes
+placements by Pinocchio.
+"""
 
 from __future__ import annotations
 
@@ -47,6 +52,7 @@ def end_of(walks: dict[str, Walk]) -> float:
 
 
 def test_nothing_else_is_loaded_and_nothing_is_complained_of(opened: tuple[Chrome, Path]) -> None:
+    """The browser asked for the page's own file and no other address, and its console has no warning."""
     browser, path = opened
     assert browser.execute_script("return viewer.animator.time > 0 || document.readyState") in (
         True,
@@ -59,6 +65,9 @@ def test_nothing_else_is_loaded_and_nothing_is_complained_of(opened: tuple[Chrom
 def test_links_are_where_pinocchio_puts_them(
     opened: tuple[Chrome, Path], biped: Biped, walks: dict[str, Walk]
 ) -> None:
+    """In the scene of the running page each link has the placement that Pinocchio computes for the walk at t.
+    The last walk is drawn in lane 0, the other one as its ghost 0.4 m behind it (y).
+    """
     browser, _ = opened
     solid = list(walks)[-1]
     for t in np.linspace(0.0, 0.999 * end_of(walks), 4):
@@ -76,6 +85,9 @@ def test_links_are_where_pinocchio_puts_them(
 
 
 def test_the_player_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Path]) -> None:
+    """An arrow key is one frame of 1/60 s, the space bar plays and pauses, Home goes to 0; the clock shows the
+    time.
+    """
     browser, _ = opened
     body = browser.find_element(By.TAG_NAME, "body")
     seek(browser, 0.2)
@@ -94,6 +106,9 @@ def test_the_player_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Pa
 def test_a_walk_that_fell_says_so_and_its_arrow_is_cut(
     browser: Chrome, walks: dict[str, Walk], tmp_path: Path
 ) -> None:
+    """A walk is changed so that it ends as fallen: the message is shown at its end and not at 0.5 s. A force of
+    1e15 N, put in by script, has an arrow as long as the longest, 1.2 m, and the clock says so.
+    """
     walk = walks["NPD"]
     *before, last = walk.trajectory.arcs
     event = Event("hip_too_low", float(last.t[-1]), last.x[-1], None)

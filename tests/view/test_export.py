@@ -1,4 +1,8 @@
-"""Moving pictures and strips: where they draw the robot, how long they last, that they repeat; notebooks."""
+"""Moving pictures and strips: where they draw the robot, how long they last, that they repeat; notebooks.
+
+The fixture walks has two walks of RABBIT, under NPD and ADRC; fallen(walk, status) is one as if it had ended
+so. A Clip is the part that is shown: start and stop [s], frames per second.
+"""
 
 from __future__ import annotations
 
@@ -48,6 +52,7 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
 
 
 def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(walks):
+    """Two panels of half the width, each 1.5 m wide around the hip of its own walk."""
     figure, show = moving_figure(walks, "2 times slower", apart=True)
     show(0.1)
     assert [axes.get_position().bounds[::2] for axes in figure.axes] == [(0.0, 0.5), (0.5, 0.5)]
@@ -89,6 +94,9 @@ def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
 def test_the_suffix_says_what_is_written_and_what_a_clip_may_ask_for(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:
+    """The first bytes of each file are those of its format. An unknown suffix, and clips that a format cannot
+    have (100 frames per second in a GIF, an end before the start, walks apart on a page), are refused.
+    """
     clip = Clip(0.1, 0.2, fps=10.0)
     starts = {"html": b"<!DOCTYPE html>", "gif": b"GIF89a", "png": b"\x89PNG", "svg": b"<?xml"}
     for suffix, start in starts.items():
@@ -109,7 +117,9 @@ def test_the_suffix_says_what_is_written_and_what_a_clip_may_ask_for(
 
 @pytest.mark.parametrize("fps", [0.1, 29.97, 45.0])
 def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
-    """Its frames are shown for whole hundredths of a second, which differ where they have to."""
+    """A GIF counts in hundredths of a second: each frame ends within 5 ms of k / fps, as durations differ where
+    they have to. The last of the 40 frames is shown 2 s longer.
+    """
     frames = [np.full((20, 60, 3), 255, dtype=np.uint8) for _ in range(40)]
     for k, frame in enumerate(frames):
         frame[5:15, k : k + 15] = 0
@@ -133,6 +143,9 @@ def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:
 
 
 def test_an_ending_says_how_when_and_why(walks: dict[str, Walk]) -> None:
+    """The reason is the event that ended the walk, or the detail of its status, or the status itself; each
+    status that is no success has words.
+    """
     walk = walks["NPD"]
     at = f"at {walk.trajectory.t_end:.2f} s"
     assert ending(walk.trajectory) == ""
@@ -150,6 +163,9 @@ def test_an_ending_says_how_when_and_why(walks: dict[str, Walk]) -> None:
 def test_a_walk_that_fell_has_one_frame_more_which_stays_for_two_seconds(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:
+    """The last 0.2 s at 10 frames per second, of the walk as it is and as if it had fallen: the end itself is a
+    frame more, for 2 s and its own 0.1 s.
+    """
     end = walks["NPD"].trajectory.t_end
     frames, durations = {}, {}
     for status in (Status.COMPLETED, Status.FELL):
@@ -164,6 +180,9 @@ def test_a_walk_that_fell_has_one_frame_more_which_stays_for_two_seconds(
 
 
 def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
+    """The title of the strip names the end, but where the strip stops before it (0.4 s); a walk that went well
+    has the time between its poses.
+    """
     with new_figure(6.0, 4.0) as figure:
         axes = figure.subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), Clip())
@@ -193,6 +212,9 @@ def test_the_run_is_drawn_solid_and_its_ghost_behind(
 
 # -- notebooks --------------------------------------------------------------------------------------
 def test_a_walk_shows_its_animation_and_its_figures(walks: dict[str, Walk]) -> None:
+    """What a notebook shows of a walk: a sentence, the page in a frame of its own, from which it can run
+    scripts and nothing else, and one PNG.
+    """
     shown = walks["ADRC"]._repr_html_()
     frame = re.search(r'<iframe[^>]*sandbox="allow-scripts"[^>]*srcdoc="([^"]*)"', shown)
     assert frame is not None

@@ -1,4 +1,9 @@
-"""The walk in Meshcat: what the page holds, that it stands alone, that it repeats."""
+"""The walk in Meshcat: what the page holds, that it stands alone, that it repeats.
+
+The fixture walks has two walks of RABBIT, under NPD and ADRC, and page is the HTML of both. scene(page) are its
+settings and commands, data(robot) the arrays that the player gets, a row per node: joints, loads (ground
+reaction, then a push on each joint), points (hip, swing foot).
+"""
 
 from __future__ import annotations
 
@@ -61,6 +66,10 @@ def placed(biped: Biped, walk: dict, values: np.ndarray) -> dict[str, np.ndarray
 
 
 def test_the_animation_plays_the_walk(biped: Biped, walks: dict[str, Walk], page: str) -> None:
+    """Joint values in the page, placed by Pinocchio: in each arc the stance foot stands on its foothold, no
+    foot is below the ground by more than 0.1 mm, and hip and swing foot are the points that are drawn. The feet
+    take turns, left first. Numbers are of single precision, hence 1e-5.
+    """
     found = robot_of(scene(page)[0], "ADRC")
     d, walk = data(found), WalkScene.of(walks["ADRC"])
     moving = {j.name for j in biped.tree.joints if j.type != "fixed"}
@@ -82,7 +91,9 @@ def test_the_animation_plays_the_walk(biped: Biped, walks: dict[str, Walk], page
 
 
 def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
-    """The ground reaction against Newton's law for the centre of mass, from the nodes themselves."""
+    """The ground reaction of the page at its nodes, against that of the walk's signals, interpolated in each
+    arc: to 2 %, as both have other nodes. Without a push all other loads are 0.
+    """
     walk = walks["NPD"]
     d = data(robot_of(scene(page)[0], "NPD"))
     s = walk.signals
@@ -109,6 +120,9 @@ def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
 
 
 def test_the_page_stands_alone(page: str) -> None:
+    """A page of less than 4 MB, which may load nothing (default-src 'none') and has no address but the name of
+    a namespace, which is never loaded.
+    """
     assert len(page.encode()) < 4_000_000
     assert "default-src 'none'" in page
     assert not re.search(r"""(src|href)\s*=\s*["']?\s*(https?:)?//""", page)
@@ -119,6 +133,7 @@ def test_the_page_stands_alone(page: str) -> None:
 
 
 def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> None:
+    """A name that would end the script and begin markup is text in the page; the mark comes back unchanged."""
     bad = "</script><b>&"
     text = animation_html({bad: walks["NPD"]}, Clip(fps=30.0), [(0.1, 0.3, bad)])
     assert "<b>" not in text.split("</style>")[1].split("<script>")[0]

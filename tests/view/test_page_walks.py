@@ -79,12 +79,19 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
 
 
 def test_every_controller_that_is_traced_is_here() -> None:
+    """WALKS and NOT_TRACED, those that have no machine code for a page, are all registered controllers: a new
+    one has to be put into one of them.
+    """
     walked = {revised(FIRST, x).controller.name for x in WALKS.values()}
     assert walked | NOT_TRACED == {*REGISTRY["controller"]}
 
 
 @pytest.mark.parametrize("name", WALKS)
 def test_what_a_hand_did_is_walked_again(browser: Chrome, tmp_path: Path, name: str) -> None:
+    """Script HAND walks 2 s in the page with a push and a pull, and returns states and the scenario that the
+    page saves. The package's simulator, given that scenario, has the same states at the same times, and the
+    same end.
+    """
     found = browser.execute_script(HAND, name, 2.0)
     path = tmp_path / "by_hand.toml"
     path.write_text(found["text"], encoding="utf-8")

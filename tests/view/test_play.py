@@ -1,4 +1,9 @@
-"""The page of `play`: its walks are those of the simulator, under a hand by script, mouse, finger and keys."""
+"""The page of `play`: its walks are the simulator's, under a hand by script, mouse, finger and keys.
+
+The fixture browser is Chromium with the page of OTHERS, paused; until(browser, script) waits for a script of
+the page to be true, keys presses keys. FIRST is the scenario that walks first, revised(FIRST, values) the one
+with these values.
+"""
 
 from __future__ import annotations
 
@@ -66,6 +71,7 @@ def test_the_hand_is_drawn_in_front_of_the_walk_and_its_ghost_behind() -> None:
 
 @pytest.mark.parametrize("m", [1, 2, 3, 7])
 def test_a_walk_to_choose_from_has_the_observer_of_its_name(m: int) -> None:
+    """m: order of the observer in the name of a walk that the page offers."""
     observer = {"order": m, "bandwidth": 300.0}
     assert CHOICES[f"ADRC, m = {m}, 300 rad/s"] == {
         "controller": {"name": "ADRC", "observer": observer}
@@ -163,13 +169,18 @@ def walked(started: Chrome, path: Path) -> dict[str, Any]:
 def test_what_is_drawn_and_plotted_is_what_the_finished_walk_has(
     walked: dict[str, Any], tmp_path: Path
 ) -> None:
+    """The script WALKED walks 0.7 s under a push and a pull; the scenario that the page saves is walked by the
+    simulator, and `is_drawn` compares pose, loads and plotted signals at the end.
+    """
     file = tmp_path / "by_hand.toml"
     file.write_text(walked["text"], encoding="utf-8")
     is_drawn(ba.walk_scenario(read_scenario(file)), walked["t"], walked["frame"]["walks"][0])
 
 
 def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict[str, Any]) -> None:
-    """Stiffness and damping on the point that is held; the script pulls hard enough for 100 N at least."""
+    """The hand's force is stiffness and damping on the point of the torso that is held, cut to the largest one;
+    computed here again from the recorded states. The script pulls hard enough for 100 N at least.
+    """
     plant = RobotAndGait.of(FIRST).biped
     n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
     largest = 0.0
@@ -203,6 +214,10 @@ return found;
 def test_sliders_set_the_values_of_the_scenario(
     browser: Chrome, tmp_path: Path, delay: float
 ) -> None:
+    """Sliders of gains, delay, torque limit, friction and slope are set in the page, which walks 0.6 s. The
+    saved scenario has their values (0.5 times friction is an error of -0.5), and its simulation has the page's
+    state.
+    """
     file, values = tmp_path / "tuned.toml", {"controller.K_p": 3000.0, "hardware.delay": delay}
     values |= {"controller.observer.bandwidth": 300.0, "hardware.torque_limit": 120.0}
     values |= {"hardware.friction": 0.5, "ground.slope": 0.01}
@@ -216,6 +231,9 @@ def test_sliders_set_the_values_of_the_scenario(
 
 
 def test_a_slider_ends_where_its_controller_refuses_more() -> None:
+    """NPID is stable only in a range of K_p: it can be built at both ends of the slider, and not at half the
+    lower one.
+    """
     walk = PageWalk.of("NPID", revised(FIRST, {"controller": "NPID"}))
     found = walk.sliders()
     assert {"controller.K_p", "controller.K_d", "controller.K_i"} <= found.keys()
@@ -275,6 +293,9 @@ return [["torso", 0.3], ["left_shin", 0.3], ["right_shin", 0.3]].map(([name, z])
 
 @pytest.mark.parametrize("camera", ["side", "perspective"])
 def test_links_are_painted_where_they_are_in_their_colours(browser: Chrome, camera: str) -> None:
+    """PAINTED reads the pixels (red, green, blue) at which torso, left and right shin lie in the camera's view,
+    and one beside the robot: grey, one leg mostly red and the other mostly blue, white.
+    """
     browser.execute_script("look(arguments[0])", camera)
     torso, left, right, beside = browser.execute_script(PAINTED)
     assert max(torso) - min(torso) < 40, "grey"
@@ -300,6 +321,10 @@ def torso(browser: Chrome) -> tuple[int, int]:
 
 
 def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Chrome) -> None:
+    """A drag gives the hand a force of at most 300 N, which ends with the drag. Keys: the arrow goes on by a
+    sample, two - slow down to 0.2 of real time, two + undo that, space plays and pauses, b goes back to where
+    the step began. The console stays empty.
+    """
     mouse = ActionChains(browser)
     mouse.w3c_actions.pointer_action.move_to_location(*torso(browser))
     mouse.click_and_hold().move_by_offset(60, -20).perform()
@@ -322,6 +347,10 @@ def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Ch
 
 
 def test_a_finger_on_the_robot_pulls_it(browser: Chrome) -> None:
+    """By touch events of Chromium: a finger that rests holds without a force (the anchor is at the point), one
+    that moves pulls, and lifted it lets go.
+    """
+
     def touch(kind: str, *place: float) -> None:
         points = [dict(zip("xy", place, strict=True))] if place else []
         browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
@@ -339,6 +368,10 @@ def test_a_finger_on_the_robot_pulls_it(browser: Chrome) -> None:
 
 
 def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> None:
+    """Walk and ghost are chosen from lists. Numbers out of range, no number, a slider moved while it walked,
+    which no scenario can say, and too large a torque are refused with a sentence that the next good input
+    removes.
+    """
     choose = "element(arguments[0]).value = arguments[1]; element(arguments[0]).onchange({ target: "
     choose += "element(arguments[0]) })"
     browser.execute_script(choose, "walk", "m = 3")
@@ -461,6 +494,9 @@ def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Ch
 
 
 def test_names_are_text_and_nothing_is_loaded(started: Chrome, path: Path) -> None:
+    """ODD, a walk whose name is a script, is a name and does not run: the title is unchanged. No other address
+    is asked for.
+    """
     requested(started)
     opened(started, path)
     assert ODD in started.execute_script("return names")
@@ -497,12 +533,14 @@ def test_the_same_walks_give_the_same_page(path: Path) -> None:
 def test_what_a_page_cannot_walk_is_refused(
     tmp_path: Path, scenario: Any, others: Any, said: str
 ) -> None:
+    """scenario: what walks first; others: those to choose from; said: the reason. No file is written."""
     with pytest.raises(BipedError, match=said):
         ba.play(tmp_path / "play.html", scenario, others)
     assert not (tmp_path / "play.html").exists()
 
 
 def test_another_controller_comes_without_the_observer_of_the_one_before() -> None:
+    """NPD in the place of ADRC has no bandwidth left over, while a new bandwidth alone keeps ADRC's order."""
     s = ba.Scenario(
         {"name": "ADRC", "observer": {"bandwidth": 200.0, "order": 1}}, hardware="ideal"
     )
@@ -511,6 +549,10 @@ def test_another_controller_comes_without_the_observer_of_the_one_before() -> No
 
 
 def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`play` and the browser are replaced by recorders: with -o the page is written to that file, without it to
+    a file that is opened; the ghost is the first walk to choose from. A browser that does not open (None) is
+    remarked.
+    """
     asked: list[Any] = []
     shown: list[str] = []
     monkeypatch.setattr("biped_adrc.extras.play.page.play", lambda *given: asked.append(given))
@@ -530,6 +572,7 @@ def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch)
 def test_the_name_is_looked_at_before_anything_is_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """A wrong suffix or a folder is refused although the function that makes the page is deleted here."""
     monkeypatch.delattr("biped_adrc.extras.play.page.page")
     (tmp_path / "folder.html").mkdir()
     for name in ("own.txt", "folder.html"):
@@ -538,6 +581,7 @@ def test_the_name_is_looked_at_before_anything_is_made(
 
 
 def test_a_page_says_that_its_motors_have_no_torque_limit(path: Path, tmp_path: Path) -> None:
+    """The page of a scenario without hardware.torque_limit says so, the usual one, with a limit, does not."""
     said = "motors without a torque limit"
     unlimited = ba.play(
         tmp_path / "x.html", ba.Scenario(controller="NPD", hardware={"period": 1e-3})

@@ -1,4 +1,8 @@
-"""Figures: what they show, that they repeat."""
+"""Figures: what they show, that they repeat.
+
+Fixtures: pushed, walks of RABBIT under NPD and ADRC with a push in step 2; fallen, a walk that a push throws
+backwards. drawn_lines(axes) are the data of the named lines, without NaN.
+"""
 
 from __future__ import annotations
 
@@ -63,6 +67,10 @@ def fallen(biped: Biped) -> Walk:
 
 
 def test_a_fall_has_no_error_where_the_curve_has_ended(fallen: Walk, tmp_path: Path) -> None:
+    """Thrown backwards in its last step, the robot passes the start of the gait's curve, behind which q_d means
+    nothing (more than 100 rad off). From there on the error is NaN; the largest error is that before, also from
+    a file.
+    """
     s, h = fallen.signals, fallen.gait.constraint
     assert fallen.trajectory.status is Status.FELL
     off = s.theta > h.theta_plus  # the phase falls from theta_plus to theta_minus
@@ -78,6 +86,9 @@ def test_a_fall_has_no_error_where_the_curve_has_ended(fallen: Walk, tmp_path: P
 
 
 def test_the_panels_of_a_fall_show_what_a_robot_can_do(fallen: Walk) -> None:
+    """No drawn angle is beyond a whole turn and no error above 0.5 rad: references of 100 rad, behind the start
+    of the curve, would leave nothing else to be seen in the panels.
+    """
     angles, knees, _, errors = fallen.plot().axes
     for axes in (angles, knees):
         assert max(np.max(np.abs(finite(x))) for x in axes.get_lines()) < 2.0 * np.pi
@@ -101,6 +112,9 @@ def drawn_lines(axes: Axes) -> dict[str, np.ndarray]:
 
 
 def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> None:
+    """Lines are the signals themselves, by name and unit: angles and references, torques with the limit, errors
+    in the unit of the label, energies with the least potential at 0, and the phase portrait.
+    """
     s = pushed["ADRC"].signals
     axes = axes_of_my_own()
     assert over_time.joint_tracking(axes, s, [0, 2]) is axes
@@ -133,6 +147,7 @@ def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> 
 
 
 def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
+    """The edge of the cone is |F_T| = 0.5 F_N, as line and as area; the course is the ground reaction."""
     s = pushed["NPD"].signals
     axes = over_time.friction_cone(axes_of_my_own(), s, mu=0.5)
     edge = next(x for x in axes.get_lines() if x.get_label() == "cone, $\\mu$ = 0.5")
@@ -151,6 +166,7 @@ def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
 def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
     pushed: dict[str, Walk],
 ) -> None:
+    """Bars of largest error and rms, for an error that is 0.02 rad times a sine of 5 Hz in each joint."""
     t = np.linspace(0.0, 1.0, 1001)
     error = 0.02 * np.sin(2 * np.pi * 5 * t)
     sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
@@ -163,7 +179,9 @@ def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_has_labels_with_units(pushed: dict[str, Walk], name: str) -> None:
-    """But for axes that share their label with a neighbour, and axes over names of joints or controllers."""
+    """Each axis has a label with [unit], but for axes that share a label with their neighbour, and for those
+    over names of joints or controllers. As SVG it has less than 4 MB.
+    """
     figure = draw(name, pushed)
     for axes in figure.axes:
         place = axes.get_subplotspec()
@@ -186,6 +204,9 @@ HIP = """<joint name="{0}_hip" type="continuous"><parent link="trunk"/><child li
 
 @pytest.mark.parametrize(("com", "end"), [("0 0 0.3", (0.0, 0.3)), ("0.1 0 0.3", (0.1, 0.3))])
 def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Path) -> None:
+    """com: centre of mass of the trunk, in its frame at the hip; without a shape the trunk is a line from the
+    hip to `end`, which is there. A leg without shapes is a ball and a rod.
+    """
     legs = "".join(LIMB.format(x, "0 0 -0.4") + HIP.format(x) for x in ("left_leg", "right_leg"))
     path = tmp_path / "points.urdf"
     path.write_text(f'<robot name="points">{LIMB.format("trunk", com)}{legs}</robot>')
@@ -198,7 +219,9 @@ def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Pa
 
 @pytest.mark.parametrize("name", ["rabbit", "compass", "three_link"])
 def test_a_checked_robot_is_drawn_with_its_joints_masses_and_feet(name):
-    """Arrows turn counter-clockwise for an axis along -y; texts name all joints and masses."""
+    """Arrows turn counter-clockwise for an axis along -y and clockwise for +y, by the sign of the area within
+    their rim. Texts name all joints, masses and feet, and the title has the phase row.
+    """
     biped = Biped.load(name)
     for axis in (-1.0, 1.0):
         tree = replace(
@@ -236,6 +259,9 @@ def test_five_controllers_have_five_colours_in_the_bars(pushed: dict[str, Walk])
 
 
 def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
+    """A mark at 50 (axhline, two points) would squash the data from 0 to 1, which fill their panel but for
+    margins of 6 %.
+    """
     axes = Figure().subplots()
     axes.plot([0.0, 1.0, 2.0], [0.0, 1.0, 0.5])
     axes.axhline(50.0)
@@ -245,7 +271,10 @@ def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
 
 
 def test_a_map_has_a_panel_for_each_case_and_no_more() -> None:
-    """Means of the finite numbers of a cell; cells without one have no text."""
+    """Five panels in rows of four, with labels at the outermost ones alone. A cell has the mean of its finite
+    numbers as text: k and k + 2 at (1, 3). The cell (2, none) has an infinite one, two cells have none: no
+    text.
+    """
     x, y = [1.0, 1.0, 2.0], [3.0, 3.0, "none"]
     panels = {f"case {k}": (x, y, np.array([k, k + 2.0, np.inf])) for k in range(5)}
     figure = map_figure(panels, ("x [1]", "y [1]"), "error", log=False)
@@ -259,6 +288,9 @@ def test_a_map_has_a_panel_for_each_case_and_no_more() -> None:
 
 @pytest.mark.parametrize(("less", "best"), [(True, [np.inf, 4, 4, 2]), (False, [-np.inf, 4, 4, 4])])
 def test_the_path_of_a_search_is_the_best_so_far_that_keeps_its_limits(less, best) -> None:
+    """path: (number, objective, whether limits are kept). Lines: dots of candidates that keep them, crosses of
+    the others, and the best so far among the first; less: whether less is better. "$" in a name is no formula.
+    """
     path = [(0, 1.0, False), (1, 4.0, True), (2, np.inf, False), (3, 2.0, True)]
     figure = path_figure({"a": path, "$b": path[:2]}, "error [1]", less)
     found = [line.get_xydata().tolist() for line in figure.axes[0].lines[:3]]
@@ -273,6 +305,7 @@ def test_what_cannot_be_drawn_is_refused() -> None:
 
 
 def test_a_box_is_the_line_along_its_longest_edge() -> None:
+    """A box at (1, 2, 3) with edges 0.1, 0.6, 0.2 [m] is a line along y, a cylinder along z, a ball none."""
     box = Visual("box", (0.1, 0.6, 0.2), (1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0))
     np.testing.assert_allclose(side_view._axis(box), [[1.0, 1.7, 3.0], [1.0, 2.3, 3.0]])
     rod = replace(box, shape="cylinder", size=(0.1, 0.6))
@@ -306,6 +339,9 @@ def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
 def test_an_observer_without_extended_states_has_no_curve_of_an_estimate(
     biped: Biped, m: int
 ) -> None:
+    """m: number of extended states. With m = 0 the second panel, of the disturbance's estimate, has a text in
+    place of a curve; curves have more than 100 points, marks fewer.
+    """
     observer, gait = GPIObserver.from_bandwidth(300.0, m=m), load_gait("published", biped)
     report = observer_report(observer, robot=biped, gait=gait)
     panels = observer_figure(report).axes

@@ -59,6 +59,9 @@ ANIMATION = '<!DOCTYPE html><html><body><p id="a">"&amp;\'</p></body></html>'
 
 
 def test_report_escapes_and_stands_alone(biped: Biped, svg: bytes) -> None:
+    """SUMMARY has markup in each of its texts: none of it is markup in the page. The page is the same twice,
+    has no address of another, and holds its figures and the animation itself.
+    """
     picture = render(check_figure(biped), "png", dpi=30)
     figures = {"figure1": svg, "<other>": picture}
     text = report_html(SUMMARY, figures, ANIMATION)
@@ -77,6 +80,7 @@ def test_report_escapes_and_stands_alone(biped: Biped, svg: bytes) -> None:
 
 
 def test_report_states_verdicts_and_what_was_left_out() -> None:
+    """One of the two checks of SUMMARY holds, one of its claims is replicated; numbers have four digits."""
     text = report_html({**SUMMARY, "left_out": ["the map"]}, {})
     for part in ("1 of 2 checks hold", "✗ does not hold", "✓ replicated", "1.235e-12", "the map"):
         assert part in text

@@ -1,4 +1,9 @@
-"""Walks on slopes and over steps down: links against Pinocchio, feet and ground against closed forms."""
+"""Walks on slopes and over steps down: links against Pinocchio, feet and ground against closed forms.
+
+The fixture walks has four, by NAMES: a passive compass and a rimless wheel on their slopes, RABBIT on 0.02 rad,
+and RABBIT down two steps (DROPS). WalkScene.of(walk) is what is drawn of a walk: footholds, heights, joint
+values over time.
+"""
 
 from __future__ import annotations
 
@@ -69,6 +74,7 @@ def ground(walk: Walk, i: int, x: float) -> float:
 
 
 def test_the_angles_of_a_passive_walk_are_drawn(walks: dict[str, Walk]) -> None:
+    """A robot without motors has a plot too: the lines of its first panel are its angles."""
     walk = walks["compass"]
     lines = walk.plot().axes[0].lines
     for line, q in zip(lines, walk.signals.q.T, strict=False):
@@ -77,6 +83,9 @@ def test_the_angles_of_a_passive_walk_are_drawn(walks: dict[str, Walk]) -> None:
 
 
 def test_on_soft_ground_the_foot_is_drawn_where_it_slips() -> None:
+    """With friction 0.55 the feet slip in both steps: place of the stance foot, hip and forces of the ground on
+    both feet are those recorded in the middle of each step, and the drawing marks contact that changes.
+    """
     ground = {"plant": "mujoco", "friction": 0.55}
     walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", ground=ground, run={"impacts": 2}))
     scene, at = WalkScene.of(walk), 0
@@ -96,6 +105,9 @@ def test_on_soft_ground_the_foot_is_drawn_where_it_slips() -> None:
 
 
 def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]) -> None:
+    """0.4 m for the robot's weight, at most 1.2 m; a cut arrow has words with the true force, and a force that
+    is not finite has no arrow.
+    """
     view = SideView(WalkScene.of(walks["slope"]))
     drawn = DrawnWalk(Figure().subplots(), view, 1.0, 1)
     weight = walks["slope"].walker.plant.weight
@@ -112,6 +124,9 @@ def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]
 
 
 def test_stones_are_drawn_where_the_next_foot_has_to_land() -> None:
+    """Each stone lies one wanted step length ahead of the foothold, on the ground there, and is as wide as the
+    tolerance to either side.
+    """
     s = ba.Scenario({"name": "footstep", "inner": "NPD"}, hardware="ideal")
     walk = ba.walk_scenario(s.replace({"ground.stones": [0.4, 0.3], "run.impacts": 2}))
     scene, axes = WalkScene.of(walk), Figure().subplots()
@@ -161,6 +176,9 @@ def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) ->
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: str) -> None:
+    """The drawn surface has the height of each foothold; between the steps down it has the walk's slope, at
+    them it falls by DROPS, and its tiles join without a gap.
+    """
     scene, slope = WalkScene.of(walks[name]), walks[name].walker.slope
     for i, x in enumerate(scene.footholds):
         z = scene.heights[i]
@@ -197,6 +215,9 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
 
 
 def test_a_passive_walk_needs_a_robot_without_motors_and_a_slope_downwards() -> None:
+    """RABBIT has motors; and where the ground rises by 0.1 rad (slope -0.1) the compass does not come to a next
+    step.
+    """
     with pytest.raises(InputError, match="'passive' does not fit robot 'rabbit' with 4 motors"):
         ba.walk_scenario(ba.Scenario("passive"))
     with pytest.raises(SimulationError, match="no return"):
