@@ -16,7 +16,10 @@ machine code; the others one by one (`engine.samples`).
 
 A sample is the motion from one sample instant to the next one, or to the end of the walk; it ends at an impact
 if the clock restarts there. To judge a single support is to compare the ground forces and torques that it needs
-with limits (`analysis.certificate`).
+with limits (`analysis.certificate`). A kernel is a function of the engine's machine code, which gets arrays as
+addresses in memory. q, v (n,) [rad, rad/s] are coordinates and rates, the first p of them of joints with
+motors; x (nx,) is the state of a walk, (q, v, controller, hardware); a mode is a single support, its number
+from 1 and the time at which it began. A node is an instant whose signals are stored.
 """
 
 from __future__ import annotations
@@ -101,6 +104,7 @@ class Stepper:
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
         """The curve of the scenario's gait, from which errors are measured; None for a walker."""
+        # read as: (period is None) of a scenario, (not sampled) of a walker
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError("no sample instants; give hardware.period or timing=SampledTime(1e-3)")
         if isinstance(what, Scenario):
@@ -141,7 +145,7 @@ class Stepper:
 
     @property
     def sample(self) -> Sample:
-        """Time, step, state and status of each walk now; the arrays are copies."""
+        """Time, number of the single support, state and status of each walk now; the arrays are copies."""
         rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
         return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
 
@@ -174,6 +178,7 @@ class Stepper:
             mode = Mode(s.run.first_step)
             if seed is not None:  # only the seed changes, so nothing else is checked again
                 s = s.model_copy(update={"run": s.run.replace(seed=seed)})
+            # outside (p + 2,): torque and force that a sample in Python reads
             walker, outside = with_inputs(build(s, self.scene))
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
@@ -189,16 +194,19 @@ class Stepper:
         else:
             self.why = "the plant moves by itself"
         walk: CompiledWalk | PythonWalk | None = None
+        # of the compiled walk the nodes are kept (last argument) only if single supports are to be judged
         if not self.why:
             try:
                 walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.within is not None)
             except NotCompiled as reason:
                 self.why = str(reason)
         self.walkers[i] = walker
+        # 0 is the code of a walk that goes on
         self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
         """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
+        # at: its loop, time [s], state and mode
         _, t, x, mode = walk.at
         if not self.rows.size:  # the first walk says how many numbers x has
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
@@ -209,6 +217,7 @@ class Stepper:
         self.walks[i], self.codes[i] = walk, code
         self.addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
+        # the functions that `read` has been called with have other machine code for another walk
         for view, (laws, _, _) in self._laws.items():
             laws[i] = self._law(i, view)
 
@@ -237,6 +246,7 @@ class Stepper:
         self.over = self._judged() if ends > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk) and self.codes[i] == 0:
+                # the walk after the sample, its status, and the arcs of single supports that ended in it
                 after, status, over = walk.sample(self.inputs[i])
                 self._put(i, after, STATUS.index(status))
                 self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
@@ -246,11 +256,13 @@ class Stepper:
         walk; returns each with the number of its walk.
         """
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
-        moved = self._impacts >= 0
+        moved = self._impacts >= 0  # -1 is of walks that machine code did not move
         for i in np.flatnonzero(moved & ((self._impacts > 0) | (self.codes != 0))).tolist():
             walk, impacts, ended = self.walks[i], int(self._impacts[i]), self.codes[i] != 0
             assert isinstance(walk, CompiledWalk)
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
+            # the nodes since the last single support that was judged; n.steps are the numbers of the single
+            # supports in them, n.edges the index of the first node of each
             n = Nodes(walk.run.rows(), plant.n, plant.p)
             q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
             # right after an impact there is no node of the next single support: the state gives the momentum
@@ -265,11 +277,13 @@ class Stepper:
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
         """Judge one single support of walk i, moved in Python by `loop`; `arc` has all its nodes."""
-        # the status says nothing here; the engine lets signals be computed in machine code
+        # the status, COMPLETED, says nothing here; with this engine in its settings signals are computed in
+        # machine code where that is possible
         run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
         # states of a plant that moves by itself are brought into the layout of a walker's
         run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
         walk = Walk(cast(Walker, self.walkers[i]), self.scene.walked, run)
+        # the run has one arc, so one single support
         return walk.feasible_within(cast(Limits, self.within)).supports[0]
 
     def save(self, i: int = 0) -> Snapshot:
@@ -304,10 +318,12 @@ class Stepper:
         if self.curve is None or not self.rows.size:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
         if view not in self._laws:
+            # the size of a row is found by computing one in Python
             first = next(walk for walk in self.walks if walk is not None)
             size = len(python_row(first, view, self.curve))
             laws = np.array([self._law(i, view) for i in range(len(self.walks))], dtype=np.int64)
             result = np.zeros((len(laws), size))
+            # kept for later calls: addresses of code, memory of the result, and both as the kernel takes them
             self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
         _, result, at = self._laws[view]
         # rows of walks in Python are written here, those of compiled walks by the kernel
