@@ -1,17 +1,20 @@
 """What a walk or a gait means: signals, certificates of steps, stability of the cycle, statistics.
 
 Of a finished walk:
-- `signals`                        all time series of a walk, and integrals and means of them
-- `certificate`, `feasibility`     whether a real robot could have made these steps, by `ground_force` and the
-                                 compiled loops in `demands`
-- `touchdowns`                     when they were noticed
-- `soft_steps`                     what the feet did on soft ground, and what that does to the error
+- `signals`                        all time series of a walk, and integrals and peaks of them
+- `certificate`, `feasibility`     whether a real robot could have made these steps; `ground_force` and
+                                 `demands` compute the force of the ground that they need
+- `touchdowns`                     when the controller detected the touchdowns, if it has to detect them itself
+- `soft_steps`                     what the feet did on soft ground, and what that does to the tracking error
 - `statistics`                     shares and medians over many walks
 
 Of a closed loop or a gait:
 - `return_map`, `variational`      the Poincare map, its fixed point and its derivative
-- `stability`                      multipliers by both methods side by side
-- `zero_report`, `stride_gain`     predictions of the zero dynamics; gains from step to step
-- `gait_design`                    a gait for a speed, proved by a walk
-- `observer`, `loops`              the observer assistant; margins of a whole walker
+- `stability`                      its eigenvalues by differences and by the variational equation, side by side
+- `tick_derivative`                derivative of a sample instant, for `variational` and `loops`
+- `zero_report`                    what the zero dynamics predict of a gait
+- `stride_gain`                    gains of a PI controller that corrects the walking speed once in each step
+- `gait_design`                    a gait for a speed, proved by a simulated walk
+- `observer`                       what an observer demands of encoders, sampling and motors
+- `loops`                          margins of the sampled loop of a whole walker
 """

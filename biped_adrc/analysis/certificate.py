@@ -8,9 +8,18 @@ adds numbers of a step that ended in an impact: whether the old foot lifts off, 
 the joint work and the energy lost at impact, which on a periodic gait on level ground are equal. Forces are
 those on the plant.
 
-A node is an instant at which the run keeps its state, an arc the nodes of one single support; a walk has K
-nodes and S single supports, of which the last may be unfinished. `certificates` and `supports` compute these
-numbers from the nodes; `feasibility` summarises them for the walk.
+    node           an instant at which the run keeps its state; a walk has K of them
+    arc            the nodes of one single support; a walk has S, of which the last may be unfinished
+    mean force     of the ground, over a window that ends at a node; there is none at the first nodes of a
+                   single support, where no window has passed yet
+    impacts        number of single supports that ended in an impact: the first ones
+    after          momentum (2,) [N s] just after the impact with which a walk ends, as no node follows it; None
+                   for a walk that ends otherwise
+    stones         places on which the feet have to land (`model.ground.Stones`)
+    soft ground    that of a simulator with contacts, which limits the friction itself
+
+`Limits` may leave numbers to the robot's record, `KnownLimits` has them all. `certificates` and `supports`
+compute these numbers from the nodes; `feasibility` summarises them for the walk.
 """
 
 from __future__ import annotations
@@ -92,6 +101,7 @@ class Support(Shown):
         """The numbers that are not within their limits: name in `REASONS` -> sentence about it; empty for a
         feasible step.
         """
+        # of(name): the joint of a number; None where it belongs to no joint
         k, numbers = self.limits, {name: getattr(self, x) for name, x in REASONS.items()}
         broken, of = {i: x for i, x in numbers.items() if not keeps(i, x, k)}, self.joints.get
         return {name: violation(name, x, k, of(name)) for name, x in broken.items()}
@@ -140,8 +150,8 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
     """Whether numbers x (...,), of the kind `name` in `REASONS`, are within the limits k; NaN is not.
 
     An infinite friction ratio, where the ground never pushed, counts as within: the normal force then violates
-    its own limit. Scuffing, angles beyond a range and missed stones have to be 0. The friction cone is wider by
-    ROUND_OFF.
+    its own limit. Scuffing, angles beyond a range and missed stones have to be 0, rates are shares of their
+    limits. The friction cone is wider by ROUND_OFF.
     """
     cone = (1.0 + ROUND_OFF) * k.friction
     if name == "normal_force":
@@ -155,8 +165,10 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
 def violation(name: str, x: float, k: KnownLimits, j: Joint | None) -> str:
     """Text about a number x of the kind `name` in `REASONS` that is not within its limit in k.
 
-    j: the joint that has the number; None for numbers that belong to no joint.
+    j: the joint that has the number; None for numbers that belong to no joint. A rate is a share of j.speed
+    [rad/s], the joint's limit.
     """
+    # without a joint these are placeholders, for sentences that are not chosen then
     i, speed, (low, high) = (j.name, j.speed, j.range) if j else ("a joint", 1.0, (0.0, 0.0))
     over = f"over {1e3 * k.window:g} ms"
     return {
@@ -183,12 +195,13 @@ def limit_series(
     is inf and its friction ratio -inf; the ratio is -inf too where the mean force does not push.
 
     n: the nodes. k: the limits. impacts: number of single supports that ended in an impact. after (2,) [N s]:
-    momentum after the last impact, where the walk ends with it, else None. Where friction is not limited, on
-    soft ground, impulses are 0.
+    momentum just after the impact with which the walk ends, as no node follows it, else None. Where friction is
+    not limited, on soft ground, impulses are 0.
     """
     at_ends = {"stones": missed_stones(walker, n, impacts), IMPULSE: np.zeros(len(n.steps))}
     if k.friction < math.inf:
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
+    # rows 0 to 5: the numbers, in the order of AT_NODES; rows 6 to 8: the joint that has each of the last three
     needed = demands(walker, n, k.window, impacts)
     which = dict(zip(_OF_JOINTS, needed[len(AT_NODES) :], strict=True))
     # joints with the angles q_1 .. q_p in single supports of odd number; in even ones the legs are swapped
@@ -201,6 +214,7 @@ def limit_series(
         # % p: an entry of swap from p on is joint swap - p with the other sign
         return own[j if n.at.step[i] % 2.0 else walker.plant.swap[j] % n.p]
 
+    # not strict: the rows of the joints are left out
     return dict(zip(AT_NODES, needed, strict=False)) | at_ends, joint
 
 
@@ -214,10 +228,11 @@ def supports(
 ) -> tuple[Support, ...]:
     """Extremes of each of the S single supports of a walk, of which the first `impacts` ended in an impact.
 
-    n: the nodes. k: the limits. after (2,) [N s]: momentum after the last impact, where the walk ends with it,
-    else None. slips: slip of each single support on soft ground [m], in place of the friction cone; None on the
-    rigid plant.
+    n: the nodes. k: the limits. after (2,) [N s]: momentum just after the impact with which the walk ends, as
+    no node follows it, else None. slips: slip of each single support on soft ground [m], in place of the
+    friction cone; None on the rigid plant.
     """
+    # first: first node of each single support; worst: the numbers at the nodes, by name in REASONS
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
     worst, joint = limit_series(walker, n, k, impacts, after)
@@ -230,7 +245,10 @@ def supports(
     for name in AT_NODES:
         extreme = np.minimum if name == "normal_force" else np.maximum
         worst[name] = extreme.reduceat(worst[name], first)
-    # the largest ratio is -inf where no mean force pushed: 0 if there was no mean at all, else infinite
+    # `limit_series` has no mean force as F_N = inf and ratio = -inf, a mean that does not push as ratio -inf
+    # alone. So a largest ratio of -inf says that no mean force pushed; a least F_N of inf says that there was
+    # none, in a single support too short for it. Then the friction is 0, since nothing is to be judged; else
+    # the ground never pushed, and it is infinite.
     never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)
     worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
     worst["slip"] = np.zeros(len(first)) if slips is None else np.asarray(slips, dtype=float)
@@ -248,6 +266,7 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
     """
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
+        # from horizontal lengths to lengths along the ground
         lengths = n.at.reading.swing_foot[n.last, 0] / math.cos(walker.ground_slope)
         for k, step in enumerate(n.steps[:impacts]):
             missed[k] = walker.stones.missed(step, float(lengths[k]))
@@ -277,6 +296,7 @@ def certificates(
 
     signals: those of the trajectory. limits: None for those of the robot's record.
     """
+    # `of` takes the numbers that the limits leave open from the robot's record
     k = limits or Limits()
     k = k.of(walker.plant.description) if isinstance(k, Limits) else k
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
@@ -291,7 +311,8 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     """Certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc.
 
     s: signals of the step. support: its extremes. The height of the swing foot is above the ground on which the
-    step ends, which `walker.drop` lowers. Friction is infinite where the ground never pushed.
+    step ends: by slope and `walker.drop` [m], how much lower a step of the ground is than the plane through the
+    stance foot. Friction is infinite where the ground never pushed.
     """
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
@@ -303,6 +324,7 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.ground_slope)
     after = b.kinetic_energy(impact.q, impact.v)
+    # F (nodes, 2): force along the ground and out of it; its ratio is -inf at nodes where it does not push
     F = s.ground_reaction @ np.array(ground_axes(walker.ground_slope)).T
     friction = float(np.max(ratios(F, -np.inf)))
     return Certificate(

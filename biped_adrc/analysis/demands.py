@@ -11,6 +11,12 @@ a window begins at one too, and P is taken as linear between nodes where it does
 controller makes the force jump from sample to sample, and a foot slides by what acts over some milliseconds:
 so a step is judged by means (`analysis.certificate`).
 
+    t, w           time of the node [s], and length of the window [s] that ends there
+    m g e_z        weight of the robot, upwards; v_com is the velocity of its COM
+    e, u           tracking error (p,) [rad] and torque (p,) [N m] of the joints with motors
+    at, T..FOOT    at[T], at[STEP], .. are the places in a row where its columns begin; it begins with the time
+    `inner`        marks a function that numba compiles into its callers, `unit` one that Python calls
+
 Arrays are pointers here, without a shape: `shift(x, i)` points to entry i of x. Shapes in the docstrings say
 how the numbers lie behind a pointer, K nodes, S single supports and p motors.
 """
@@ -39,12 +45,14 @@ def loads(row: Array, at: Ints, p: int, joints: Array, out: Array, count: int) -
     """Write one node's largest torque [N m], share of the limit of a rate [1], angle beyond a range [rad], 0
     for none, and the joints that have these three, counted from 0.
 
-    out: pointer to the node's place in the first of six rows of `count` numbers. at: where in the node's `row`
-    each column begins. joints (2, p, 3): as in `Known`, even single supports first.
+    out: pointer to the node's place in the first of six rows of `count` numbers, these three and their joints.
+    at: where in the node's `row` each column begins. joints (2, p, 3): of each joint with a motor the largest
+    rate [rad/s], and both ends of its range [rad]; even single supports first, then odd ones.
     """
     for j in range(6):
         out[j * count] = 0.0
     for i in range(p):
+        # [0] the largest rate, [1] and [2] the ends of the range, of joint i in a support of this parity
         limit = shift(joints, 3 * (p * (int(row[at[STEP]]) % 2) + i))
         u, q, v = row[at[U] + i], row[at[Q] + i], row[at[V] + i]
         beyond = max(limit[1] - q, q - limit[2])
@@ -65,11 +73,13 @@ def demands(
     known: Array,
     out: Array,
 ) -> None:
-    """Write to out (11, K) the nine rows of `analysis.ground_force.demands`, then P - int f dt (2, K) [N s].
+    """Write for each node to out (11, K): F_N [N] and |F_T| / F_N of the mean force in the window up to it,
+    F_N out of the ground and F_T along it; depth of the swing foot below the ground [m]; the six numbers of
+    `loads`; and P - int f dt (2, K) [N s].
 
     rows (K, width): the nodes. at: where in a row each column begins. first (S + 1,): first node of each of the
-    S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: the numbers of
-    `ground_force.Known`.
+    S = `supports` single supports, and K; the first `impacts` of them ended in an impact. known: constants of
+    the walk, `ground_force.Known`, each at its place WINDOW, WEIGHT and so on.
     """
     count, before, foot, P = first[supports], rows, at[FOOT], at[MOMENTUM]
     F_N, ratio, depth = out, shift(out, count), shift(out, 2 * count)
@@ -77,7 +87,10 @@ def demands(
     window, weight, tangent = known[WINDOW], known[WEIGHT], known[TANGENT]
     ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
     joints = shift(known, FALLS + supports)
-    # i: last node before a window begins. above: whether the foot was above the ground in this single support
+    # i: last node before a window begins. above: whether the foot was above the ground in this single support.
+    # near, far: times since its start between which a depth of the swing foot counts; without an impact at its
+    # end the depth there counts too. before: the node before, at the first node itself; half: half the time
+    # since it, for the trapezoidal rule
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
@@ -90,7 +103,7 @@ def demands(
             pushed_z += half * (row[OUTSIDE + 1] + before[OUTSIDE + 1])
             before = row
             P_x[k], P_z[k] = row[P] - pushed_x, row[P + 1] - pushed_z
-            F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0
+            F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0  # no mean force, no depth
             loads(row, at, p, joints, shift(out, 3 * count + k), count)
             # t - start falls short of w by round-off where a window begins at the touchdown
             if w > SHORTEST and since >= w - same:
@@ -104,6 +117,7 @@ def demands(
                 F_N[k] = F_x * normal[0] + F_z * normal[1]
                 if not F_N[k] <= 0.0:  # so that NaN goes on into the ratio
                     ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
+            # of the swing foot above the ground at the height of the lower foothold
             height = row[foot + 1] + tangent * row[foot] + known[FALLS + s]
             if height > 0.0:
                 above = True
@@ -124,8 +138,9 @@ def totals(rows: Array, width: int, at: Ints, p: int, count: int, out: Array) ->
         row = shift(rows, k * width)
         e, u, q = shift(row, at[ERROR]), shift(row, at[U]), shift(row, at[Q])
         for i in range(p):
-            if abs(e[i]) > out[0] or e[i] != e[i]:
+            if abs(e[i]) > out[0] or e[i] != e[i]:  # NaN too, which then stays
                 out[0] = abs(e[i])
+        # row[0] is the time of this node, row[width] that of the next one: equal at a jump
         if k + 1 < count and row[width] > row[0]:
             out[1] += 1.0
             for i in range(p):

@@ -4,8 +4,11 @@
 the reasons in words, and the extreme numbers over all steps (`Feasibility`). `until_infeasible` cuts a walk at
 its first violation, for studies that count feasible steps only. `scenario.walk` calls both.
 
-A node is an instant at which the run keeps its state, an arc the nodes of one single support. "Broken" limits
-are those that a step does not keep, by their names in `certificate.REASONS`.
+A node is an instant at which the run keeps its state, an arc the nodes of one single support. A mean force is
+that of the ground over a short window that ends at a node. F_N and F_T are the force of the ground out of it
+and along it. "Broken" limits are those that a step does not keep, by their names in `certificate.REASONS`. On
+soft ground a simulator with contacts limits the friction itself, and the distance that feet slip is judged in
+its place.
 """
 
 from __future__ import annotations
@@ -154,12 +157,13 @@ def first_violation(
     violates a limit; or None.
 
     n: its nodes. k: the limits. impacts: number of its single supports that ended in an impact. after (2,)
-    [N s]: momentum after the last impact, where the walk ends with it, else None.
+    [N s]: momentum just after the impact with which the walk ends, as no node follows it, else None.
     """
     # the first violation of each kind; a number that is one per single support counts at its end
     result = []
     numbers, joint = limit_series(walker, n, k, impacts, after)
     for name, x in numbers.items():
+        # [:1]: the first only, if there is any
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
             at = i if name in AT_NODES else n.last[i]
             support = int(np.searchsorted(n.last, at))
@@ -185,6 +189,7 @@ def until_infeasible(
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:
         k = k._replace(friction=math.inf)
+    # first: the first violation at a node or impact; slips: those of the feet; the earlier one cuts the walk
     impacts, after = sum(map(ended_in_impact, arcs)), after_last_impact(walker, trajectory)
     first = first_violation(walker, Nodes.of(signals), k, impacts, after)
     text = f"a foot slips by more than {1e3 * SLIP:g} mm"
@@ -193,6 +198,7 @@ def until_infeasible(
     if result is None:
         return trajectory
     arc = arcs[result.support]
+    # number of the arc's nodes up to the violation; the arc then ends without an event
     kept = int(np.searchsorted(arc.t, result.t, side="right"))
     cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
     detail = f"single support {arc.mode.step}, {result.t:.4f} s: {result.what}"

@@ -1,19 +1,26 @@
 """Design of a gait for a speed or a step length, proved by a simulated walk before it is returned.
 
-`gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore simulates the
-result under NPD: it has to return to its orbit within RETURNS, and its first step has to keep the limits. The
-result is a `DesignedGait`, gait and proof together.
+`gait.design` optimises on the zero dynamics, the motion of the robot on the gait's curves without an error, and
+never integrates the robot. `certify` therefore simulates the result under NPD, the paper's PD controller with
+feedback linearisation: it has to return to its orbit within RETURNS, and its first step has to keep the limits.
+The result is a `DesignedGait`, gait and proof together.
 
-A family of gaits is a library by speed and step length, and two fits.
+A family gives a gait for every speed and step length within a range. It is made of a library and two fits.
 
     library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
     steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
 
-A member of the family is the gait of one pair (v, L). A step goes from the member that ended the step before to
-another one, which is chosen during the step, at its share DECISION in Theta (`control.footstep`).
-Along it W, the work of gravity, and J are integrals over Theta, without a simulation. delta is the ratio of the
-angular momenta about the stance foot after and before an impact (`gait.zero_dynamics`).
+    v, L           speed [m/s] and step length [m]; a member of the family is the gait of one pair (v, L)
+    Theta          phase of a gait, Theta = c q [rad]; Theta+ where a step begins, Theta- where it ends
+    h(Theta)       the angles q_b (p,) [rad] of the joints with motors; the pitch q_N has no motor
+    sigma          angular momentum about the stance foot [kg m^2/s]
+    delta          sigma after an impact over sigma before it; delta^2 is the multiplier of a periodic gait
+    I              sigma / Theta' on the curve [kg m^2]; G_N gravity's torque on the pitch [N m]
+    W, J           int -G_N I dTheta, the work of gravity on sigma^2 / 2, and int I dTheta (`_integrals`)
+
+A step goes from the member that ended the step before to another one, which is chosen during the step, at its
+share DECISION in Theta (`control.footstep`). Integrals over Theta take the place of its simulation.
 """
 
 from __future__ import annotations
@@ -149,6 +156,7 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     Raises GaitError when the gait does not walk, violates a limit, or leaves its orbit.
     """
     gait, limits = optimum.gait, request.limits.of(biped)
+    # longest: time limit of one single support [s]
     longest = max(Walker.max_step_time, 2.0 * gait.period)
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
     x, end = walker.initial_state(*gait.start(biped)), _STEPS * longest
@@ -164,6 +172,7 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     missed = certificate.violations(free)
     if missed:
         raise GaitError(f"the designed gait does not pass its certificate: {'; '.join(missed)}")
+    # the state (q, q') before the last impact; NPD has no states of its own
     before = run.before(FOOT_STRIKE)[-1]
     gap = float(np.max(np.abs(before - np.concatenate((gait.q_minus, gait.v_minus)))))
     if not gap <= RETURNS:
@@ -258,10 +267,12 @@ def design_family(
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    # a row of `ends`: v, before, L, end, ahead, the arguments of `step_integrals`
+    # a row of `ends`: v, before, L, end, ahead, the arguments of `step_integrals`; low and high are ends of the
+    # ranges (speed, length)
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
+    # to the impact of the second step: 2 W, J; to its decision: delta^2, 2 W', J', dq_b/dTheta
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
     earlier = np.column_stack((v, before, L, ahead))
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
@@ -282,11 +293,14 @@ def step_integrals(
     # Theta at the start and end of the first step; the step before it ended on `earlier`
     earlier = family.member(v, before)
     plus = float(c @ biped.relabel(configuration(c, earlier.h, earlier.theta_minus)[0]))
+    # curve()[2] is Theta-, h(mu, Theta+, Theta) the member's curve in a step that begins at Theta+
     minus = family.curve(mu)[2]
     q, dq, _ = configuration(c, lambda theta: family.h(mu, plus, theta), minus)
+    # q' at |Theta'| = 1 rad/s, in the sense in which Theta runs; delta does not depend on the speed
     v_minus = np.sign(minus - plus) * dq
     impact = biped.impact(q, v_minus)
     delta = biped.angular_momentum(impact.q, impact.v) / biped.angular_momentum(q, v_minus)
+    # the second step: it begins at Theta = start with `slope` = dq_b/dTheta, `reset` blends that into the curve
     start = float(c @ impact.q)
     slope = impact.v[:p] / float(c @ impact.v)
     reset = step_reset(family, np.array((v, ahead)), start, impact.q[:p], slope)
@@ -305,6 +319,7 @@ def _integrals(
     c (n,): Theta = c q. G_N is gravity's torque on the unactuated row, and sigma = I(Theta) Theta' on the
     curve.
     """
+    # s, weights: on [0, 1]; `inertia` is I = D_N dq/dTheta, D_N the row of the pitch in the inertia matrix
     s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
@@ -321,6 +336,7 @@ def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[flo
     h: the member's constraint.
     """
     orbit = ZeroDynamics.of(biped, h).cycle
+    # at the nodes of the orbit, on level ground
     F_T, F_N = orbit.ground_reaction.T
     numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)
     return (v, L, *(round(float(x), 3) for x in numbers))

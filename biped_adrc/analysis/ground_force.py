@@ -2,7 +2,8 @@
 
 A node is an instant at which a run keeps its state. `Nodes` holds the signals there, `demands` gives the mean
 forces by the momentum of the robot (equation in `analysis.demands`), with the largest torque, rate and angle of
-the joints. The impulse of an impact is the change of the robot's momentum (`impulse_ratios`).
+the joints. The impulse of an impact is the change of the robot's momentum (`impulse_ratios`). F_T and F_N are
+the force of the ground along it and out of it, S is the number of single supports.
 """
 
 from __future__ import annotations
@@ -42,11 +43,13 @@ class Nodes:
         """Take the nodes from the signals of a walk."""
         n, p = s.q.shape[1], s.u.shape[1]
         reading = StepReading(s.q[:, :p] - s.q_d, s.u, s.q, s.v[:, :p], s.momentum, s.swing_foot)
+        # the columns in the order of `NodeRow`
         parts = np.column_stack((s.t, s.step, s.outside, *reading))
         return cls(np.ascontiguousarray(parts), n, p)
 
     def before_fall(self, h: VirtualConstraint, phase: Array) -> Nodes:
-        """The nodes of a walk that fell, without those in the fall, where no tracking error is defined.
+        """The nodes of a walk that fell, without those in the fall, where no tracking error is defined, as
+        the curve has ended.
 
         h: the curve that is tracked (`signals.nodes_before_fall`). phase (n,) [1]: c of Theta = c q.
         """
@@ -141,7 +144,8 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     known = Known(
         window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
     )
-    # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it returns
+    # the compiled loop gets addresses, so `numbers` and `result` need names: they have to live until it
+    # returns. `flatten` puts all numbers of `known` in one array, in their order
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
     _loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
@@ -153,11 +157,13 @@ def totals(n: Nodes) -> list[float]:
     """Five numbers of a walk: the largest |e_i| [rad]; root mean squares of e [rad] and u [N m] over nodes and
     joints; the integrals of |u_i| |dq_i| and of u_i dq_i [J], summed over motors.
 
-    Of the two nodes at a jump only the second counts in means and integrals.
+    e (p,) is the tracking error, dq_i the change of joint i to the next node. Of the two nodes at a jump only
+    the second counts in means and integrals.
     """
+    # out: largest |e_i|, number of nodes that count, sums of |e|^2, |u|^2, |u_i dq_i| and u_i dq_i over them
     out = np.zeros(6)
     _loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
-    # out[1] is the number of nodes that count, so these are means over nodes and joints
+    # to root mean squares over nodes and joints; 1.0 for no nodes or no joints
     out[2:4] = np.sqrt(out[2:4] / max(out[1] * n.p, 1.0))
     return [out[0], *out[2:]]
 
@@ -166,8 +172,8 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     """|F_T| / F_N of the impulse of the impact that ends each of the S single supports (S,).
 
     Infinite where the ground would have had to pull; 0 for the single supports after the first `impacts`, which
-    did not end in an impact. after (2,) [N s]: momentum after the last impact, where the walk ends with it,
-    else None.
+    did not end in an impact. after (2,) [N s]: momentum just after the impact with which the walk ends, as no
+    node follows it, else None.
     """
     # the momentum after an impact is that at the first node of the next single support
     result, P = np.zeros(len(n.steps)), n.at.reading.momentum
@@ -175,6 +181,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     if after is not None:
         plus = np.vstack((plus, after))
     impulse = plus[:impacts] - P[n.last[:impacts]]
+    # the product has the components along the ground and out of it, (F_T, F_N) of each impulse
     result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.ground_slope)).T, np.inf)
     return result
 

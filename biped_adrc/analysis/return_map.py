@@ -1,12 +1,12 @@
 """The Poincare return map on the impact section, (24) of the paper, its fixed point (25) and its multipliers.
 
-    P: x-(k) -> x-(k + 1),   P(x*) = x*
+    P: x-(k) -> x-(k + 1),   P(x*) = x*            x- = state before impact k, x* = fixed point
 
 P takes a state just before impact through the impact and one single support to the next impact. On the section
-the swing foot is on the ground, so the ten numbers of (q, q') of RABBIT have nine degrees of freedom. Section
-coordinates s drop q_N, which the height of the swing foot gives back. The controller's states are coordinates
-too: without them the map of a closed loop with an observer is that of another system, except when the reset at
-impact forgets them. c is their number, n that of the coordinates q.
+the swing foot is on the ground, so the ten numbers of (q, q') of the robot RABBIT have nine degrees of freedom.
+Section coordinates s drop q_N, the unactuated pitch, which the height of the swing foot gives back. The
+controller's states are coordinates too: without them the map of a closed loop with an observer is that of
+another system, except when the reset at impact forgets them. c is their number, n that of the coordinates q.
 
 P runs in compiled code, several points in parallel, or step by step with Pinocchio where a part of
 the walker cannot be compiled. dP/ds is by differences here; `variational` has it without.
@@ -112,6 +112,7 @@ class ReturnMap(Shown):
         q_N is found by Newton's method, such that the swing foot is on the ground. Raises
         SimulationError where no pitch does that.
         """
+        # at most 50 iterations, to round-off of the height [m]; 1e-12 m is the error that is accepted
         x = np.insert(s, self._dropped, self.pitch)
         plant, n = self.walker.plant, self.walker.plant.n
         for _ in range(50):
@@ -145,6 +146,7 @@ class ReturnMap(Shown):
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
         from biped_adrc.engine.batch import strides
 
+        # the walker's own limit max_step_time comes first; the time given here only ends every run
         images = strides(compiled, starts, 2.0 * self.walker.max_step_time)
         for walked in images:
             if not walked.status.ok:
@@ -176,6 +178,7 @@ class ReturnMap(Shown):
     def jacobian(self, s: Array) -> Array:
         """dP/ds (2 n - 1 + c, 2 n - 1 + c) by central differences of half width `difference` [rad, rad/s]."""
         d = self.difference
+        # s + d e and s - d e by turns, along each coordinate
         points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
         images = self.images(points)
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T

@@ -1,18 +1,31 @@
 """All signals of a walk: references, errors, torques, estimates, energies, contact forces.
 
-A trajectory stores states only. Controllers have no hidden state, so every other signal is computed
-again from the stored states, at the stored nodes, by the same closed loop (`closed_loop.system`)
-that made them; compiled where the walk was. Plots, metrics, certificates and exports read
-`Signals`. A node is an instant at which the run stored its state, an arc the nodes of one single support.
+A trajectory stores states only. Controllers have no hidden state, so every other signal is computed again from
+the stored states, at the stored nodes, by the same closed loop (`closed_loop.system`) that made them; compiled
+where the walk was. Plots, metrics, certificates and exports read `Signals`.
+
+    node           an instant at which the run stored its state
+    arc            the nodes of one single support; `arc.t` are their times
+    `arc.seen`     these times, but just before a jump where a signal jumps (the next smaller float): a signal
+                   computed there has the value that acted until the jump
+
+Symbols, with the equation numbers of the paper:
+
+    q, v = q'      the n coordinates [rad] and their rates; q_b are the first p of them, the joints with motors
+    Theta = c q    phase of the gait [rad]
+    D q'' + Omega = B_s u + xi~    (11), the controller's nominal model: inertia matrix D, Coriolis and gravity
+                   terms Omega, the torques u of the motors (B_s puts them into the first p rows)
+    xi~            generalised force (n,) [N m] that this model does not know; zeta (n,) is the external one
+    q_b'' = kappa u + xi           (13), the rows of q_b, solved: input gain kappa (p, p) [1/(kg m^2)]
+    xi, xi^        total disturbance (p,) [rad/s^2], from xi~ by (14), and an observer's estimate of it
 
 On another plant, such as MuJoCo's on soft ground, motion and forces of the ground are recorded and not
 computed:
 
     q'' by differences from tick to tick,   F of the ground as recorded,   xi = q_b'' - kappa u
 
-What the controller measures and computes follows from the states as on the rigid plant.
-xi~ = D q'' + Omega - B_s u then holds all that the pinned model does not know: the touchdown's force, a foot
-that gives way. Equation numbers such as (11) are those of the paper.
+What the controller measures and computes follows from the states as on the rigid plant. xi~ then holds all that
+the model, which is pinned at its foot, does not know: the touchdown's force, a foot that gives way.
 
 `integrate` and `largest` are integrals and peaks of signals. Nodes are unevenly spaced, and a repeated time
 marks a jump, at an impact or a sample instant: the signal has a left and a right value there. So they work
@@ -89,7 +102,7 @@ class Signals(Shown):
     xi_external: Array
     """(K, p) xi - xi_nominal: effects of zeta, matched and unmatched, and errors of the model [rad/s^2]."""
     xi_matched: Array
-    """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
+    """(K, p) kappa xi~_b, the matched part of xi_external: what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi that the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
@@ -122,7 +135,7 @@ class Signals(Shown):
 
     @property
     def xi_unmatched(self) -> Array:
-        """(K, p) the rest of `xi_external`: it enters through the unactuated row of (12) [rad/s^2]."""
+        """(K, p) the rest of `xi_external`: it enters through the unactuated rows of (11) [rad/s^2]."""
         return self.xi_external - self.xi_matched
 
     @property
@@ -152,6 +165,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     corrected one. Of a compiled run, and of a long one, they are computed in compiled code where that is
     possible.
     """
+    # tracked: the outer loop itself, where there is one, else `reference`; found: the signals at all nodes
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
     tracked, found = tracked_by(walker.law, reference), None
@@ -173,6 +187,7 @@ def nodes_before_fall(step: Array, theta: Array, h: VirtualConstraint) -> int:
 
     step (K,): numbers of the single supports at the nodes. theta (K,) [rad]: Theta there.
     """
+    # sorted, as Theta may rise or fall along a step; first: first node of the last single support
     first, ends = int(np.searchsorted(step, step[-1])), sorted((h.theta_plus, h.theta_minus))
     on_curve = np.flatnonzero((ends[0] <= theta[first:]) & (theta[first:] <= ends[1]))
     return first + int(np.max(on_curve, initial=0)) + 1
@@ -183,7 +198,8 @@ def readings(
 ) -> InstantSignals:
     """Evaluate the closed loop at all nodes of a walk, in NumPy; fields (K, ...).
 
-    reference: the curve from which errors are taken. Nodes at jumps are read just before them (`Arc.seen`).
+    reference: the curve from which errors are taken. Times are `arc.seen`, so that signals that jump at a node
+    have their value from before.
     """
     rows = [
         signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))
@@ -198,36 +214,40 @@ def compiled_readings(
 ) -> InstantSignals | None:
     """`readings` in compiled code: all signals at all K nodes; None where a part has no compiled form.
 
-    reference: the curve from which errors are taken, which need not be the one the controller tracked. Nodes
-    at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
-    left.
+    reference: the curve from which errors are taken, which need not be the one the controller tracked. Where
+    the disturbance jumps at a node it has its value from before, as `_inputs` takes the times `arc.seen`.
     """
     from biped_adrc.engine.calls import Call, parts_of
     from biped_adrc.engine.not_compiled import NotCompiled
     from biped_adrc.engine.numbers import numbers_of
     from biped_adrc.engine.program import COMPILED, Program
 
+    # program, K: the walker's code and its numbers; layout: what stands where in its state
     first, point = trajectory.arcs[0], partial(tracked_point, reference)
     try:
         layout = walker.layout_of(first.x[0])
         program = Program(layout, numbers_of(walker, curve=reference))
         if trajectory.settings.get("engine") != COMPILED:
-            _ = program.machine  # NotCompiled where the controller runs in Python
+            # a run in Python may have a controller without machine code: then this raises NotCompiled
+            _ = program.machine
         code, K = program.reading(signals_at), program.K
     except (NotCompiled, ModelError):
         return None
     # one instant in Python, for the shapes of the results alone
     example = signals_at(walker, first.t[0], first.x[0], first.mode, point)
     shapes = tuple(np.shape(part) for part in example)
+    # 0 inputs of its own: `rows` gets them; all results of a node lie in one row
     call = Call(code, "reading", K, 0, sum(map(math.prod, shapes)))
     out = np.vstack([call.rows(_inputs(walker, arc)) for arc in trajectory.arcs])
     return InstantSignals(*parts_of(out, shapes))
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Inputs of the compiled reading at the K nodes of an arc, in rows (t, step, start, x, zeta, zeros).
+    """Inputs of the compiled `signals_at` at the K nodes of an arc, in rows (t, step, start, x, zeta, zeros).
 
-    The zeros stand for forces on the feet, which no signal needs.
+    t is of `arc.seen`: just before a jump, where zeta has its value from before. step, start: number of the
+    single support, and the time at which it began. The OUTSIDE zeros at the end stand for forces on the feet,
+    which no signal needs.
     """
     from biped_adrc.engine.calls import pushes, zeta_rows
     from biped_adrc.engine.kernels.record import OUTSIDE
@@ -235,6 +255,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
+    # a disturbance without machine code is called in Python, node by node
     try:
         zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
     except NotCompiled:
@@ -253,9 +274,11 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     r = as_recorded(walker, trajectory, r)
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
+    # recorded: (x, z) of the stance foot, then of the other one, which is not used; None on the rigid plant
     foot = recorded(trajectory, PLACE)
     if foot is None:
         foot = np.repeat(footholds(walker, trajectory), [len(arc.t) for arc in arcs], axis=0)
+    # `pulls`: a force from outside may act on the robot; t of `arc.seen` is just before a jump
     outside = np.zeros((len(x), 2))
     if walker.disturbance is not None and walker.disturbance.pulls:
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
@@ -280,10 +303,10 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
 
 # -- on another plant ---------------------------------------------------------------------------------
 def recorded(trajectory: Trajectory, name: str) -> Array | None:
-    """A reading of the feet by its name, such as FORCE, at all K nodes (K, 4): (x, z) of the stance foot, then
-    of the other one.
+    """A reading of the feet at all K nodes (K, 4): (x, z) of the stance foot, then of the other one.
 
-    Plants with contacts of their own record it in each arc; None for a walk on the rigid plant, which does not.
+    name: FORCE, PLACE or SPEED, forces [N] of the ground, places [m] or velocities [m/s] of the feet. Plants
+    with contacts of their own record it in each arc; None for a walk on the rigid plant, which does not.
     """
     if any(name not in arc.read for arc in trajectory.arcs):
         return None
@@ -293,8 +316,8 @@ def recorded(trajectory: Trajectory, name: str) -> Array | None:
 def footholds(walker: Walker, trajectory: Trajectory) -> Array:
     """x and z [m] of the stance foot at the start of each arc (arcs, 2).
 
-    The first stands at x = z = 0, and each impact moves it by p_2(q-), the place of the swing foot relative to
-    it; on soft ground it is recorded.
+    The first stands at x = z = 0, and each impact moves it by the place of the swing foot relative to it, at
+    the state x- before the impact; on soft ground it is recorded.
     """
     foot, feet, plant = np.zeros(2), [], walker.plant
     for arc in trajectory.arcs:
@@ -308,9 +331,9 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     """The signals `found` by the closed loop, with q'', ground force, momentum and xi of the plant that
     walked in place of the rigid model's.
 
-    On the rigid plant they stay as they are. The ground force of `InstantSignals` includes the external force,
-    so it is added here too. The momentum in `found` is that relative to the stance foot, whose velocity (the
-    first two columns of `speed`) is added.
+    On the rigid plant, which records nothing, they stay as they are. The ground force of `InstantSignals`
+    includes the external force, so it is added here too. The momentum in `found` is that relative to the stance
+    foot, so the robot's mass times the velocity of this foot (the first two columns of `speed`) is added.
     """
     force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
     if force is None or speed is None:
@@ -321,6 +344,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     rows = []
     for x_k, a_k, u in zip(x, a, found.u, strict=True):
         # xi is defined by the controller's model: xi = q_b'' - kappa u with its kappa, whatever moved
+        # unknown_force is xi~ of (11), disturbance_parts its matched and unmatched part in xi
         terms = walker.nominal.reduction(x_k[:n], x_k[n : 2 * n])
         matched, unmatched = disturbance_parts(terms, unknown_force(terms, a_k, u))
         rows.append((a_k[:p] - terms.kappa @ u, matched + unmatched, matched, terms.xi))
@@ -342,12 +366,14 @@ def accelerations(arc: Arc, n: int) -> Array:
     Over less than SAME_INSTANT, as where a push ends at a sample instant up to round-off, a difference is
     round-off too: there q'' is that of the interval before, or after it at the start.
     """
+    # arc.dx is the recorded x' = (q', q'') at the nodes; ways: the intervals between them [s]
     ways = np.diff(arc.t)
     short = (ways > 0.0) & (ways < SAME_INSTANT)
     bad = np.append(short, False) | np.append(False, short)
     good = np.flatnonzero(~bad)
     if len(good) == 0:
         return arc.dx[:, n : 2 * n]
+    # of each node the last good node up to it, -1 where there is none, which becomes the first good one
     before = np.searchsorted(good, np.arange(len(arc.t)), side="right") - 1
     return arc.dx[good[np.maximum(before, 0)], n : 2 * n]
 
@@ -384,11 +410,13 @@ def _under_spline(t: Array, y: Array) -> float:
     A, b = np.zeros((3, len(t))), np.empty(len(t))  # above, on and below the diagonal
     A[0, 2:], A[1, 1:-1], A[2, :-2] = h[:-1], 2.0 * (h[:-1] + h[1:]), h[1:]
     b[1:-1] = 3.0 * (h[1:] * m[:-1] + h[:-1] * m[1:])
-    # the not-a-knot conditions, in the first and the last equation
+    # the not-a-knot conditions, in the first and the last equation: i the outer interval and node, j the next
+    # one, row the diagonal of A with the coefficient beside it
     for i, j, row in ((0, 1, 0), (-1, -2, 2)):
         d = h[i] + h[j]
         A[1, i], A[row, j] = h[j], d
         b[i] = ((h[i] + 2.0 * d) * h[j] * m[i] + h[i] ** 2 * m[j]) / d
+    # [3] of its results is the solution
     s = lapack.dgtsv(A[2, :-1], A[1], A[0, 1:], b)[3]
     return float(np.trapezoid(y, t) + np.sum(h * h * (s[:-1] - s[1:])) / 12.0)
 
@@ -411,6 +439,7 @@ def largest(t: Array, y: Array, dy: Array) -> float:
         result = [np.abs(y).max(initial=0.0)]
         for s in (root / a, c / root):
             inside = np.where((s > 0.0) & (s < 1.0), s, 0.0)
+            # the cubic y + c s + b s^2 / 2 + a s^3 / 3
             between = y[:-1] + inside * (d0 + inside * (0.5 * b + inside * a / 3.0))
             result.append(np.abs(between).max(initial=0.0))
     return float(max(result))

@@ -1,17 +1,21 @@
 """Slips, support phases and depths of a walk on soft ground, single support by single support.
 
+Soft ground is that of a simulator with contacts, such as MuJoCo, which records force, place and velocity of
+both feet at each node, a stored instant of the run; K nodes make an arc, that of one single support.
+
     slips        |F_T| >= AT_CONE mu F_N  and  |v_T| > slip_speed:  creep below the cone is no slip
     carries      F_N > carrying
     depth        of a foot point below the ground
 
 F_N and F_T are the forces of the ground on a foot out of it and along it, v_T is the foot's velocity along it,
-and mu the friction of the ground. Times are of the readings (`closed_loop.feet`), each of which stands for half
-the way to its neighbours, so that single support, double support and flight add up to the duration.
+and mu the friction of the ground. Times are of the nodes (`closed_loop.feet`), each of which stands for half
+the time to its neighbours, so that single support, double support and flight add up to the duration.
 
 `contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
     settling   t - start of the single support <= SETTLING
-    pushed     t - (last time at which zeta != 0) <= AFTER, and not settling
+    pushed     t - (last time at which zeta != 0) <= AFTER, and not settling; zeta is the external torque
+    settled    not settling
 
 Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
 step is then often this transient, and hides the effect of a push.
@@ -92,6 +96,7 @@ def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> t
     """
     times = list[float]()
     for arc in run.arcs:
+        # slips (K, 2): speed along the ground of each foot where it slips, else 0; slipped: the way so far
         force, _, speed = feet_of(arc)
         slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
         slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
@@ -114,13 +119,16 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     """
     along, out = axes
     force, place, velocity = feet_of(arc)
+    # w @ x is the integral of x over the single support; all below is (K, 2), one column per foot
     w, normal, tangential = spans(arc.t), force @ out, np.abs(force @ along)
     speed, carries = np.abs(velocity @ along), normal > CARRYING
     slips = slipping(force, velocity, friction, axes)
     pressed = normal > PRESSED
+    # used: |F_T| / F_N where a foot is pressed to the ground by more than PRESSED, else 0
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
     feet, (stance, other) = carries.sum(axis=1), map(float, w @ (slips * speed))
-    # FEET[3]: heights (K, 2) of the ground below both feet
+    # feet: number of feet that carry, at each node. FEET[3]: heights (K, 2) of the ground below both feet, of
+    # which the part along `out`, less the foot's, is the depth
     return SoftStep(
         duration=float(arc.t[-1] - arc.t[0]),
         double_support=float(w @ (feet == 2)),
@@ -146,7 +154,7 @@ def slipping(
 
 
 def spans(t: Array) -> Array:
-    """Weights (K,) [s] of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
+    """Weights (K,) [s] of the trapezoidal rule at times t (K,) [s]: half the time to both neighbours."""
     ways = np.diff(t)
     return 0.5 * (np.append(ways, 0.0) + np.append(0.0, ways))
 
@@ -181,6 +189,7 @@ def contact_errors(x: Signals) -> ContactErrors:
     lasts = np.append(np.diff(x.t) > 0.0, False)
     settled = x.error[lasts & ~settling]
     return ContactErrors(
+        # without the first single support, which no touchdown began
         _largest(x.error[settling & (x.step > x.step[0])]),
         _largest(x.error[pushed & ~settling]),
         _largest(x.error[~settling]),

@@ -1,8 +1,8 @@
 """Whether a walking cycle is stable: its multipliers by two methods side by side, and which to trust.
 
-P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point, q and q'
-without q_N, then the controller's states. The multipliers of a cycle, P(s) = s, are the eigenvalues lambda of
-dP/ds; it is stable if all |lambda| < 1.
+P is the return map from just before one impact to just before the next. Its point is s (k,) [rad, rad/s]: q and
+q' without q_N, the unactuated pitch, which the swing foot on the ground gives; then the controller's states.
+The multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is stable if all |lambda| < 1.
 
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
@@ -10,12 +10,18 @@ dP/ds; it is stable if all |lambda| < 1.
 
 Both find dP/ds in independent ways, so their agreement is evidence. Where the variational equation doubts its
 own result it says why. Two sets of multipliers are compared in pairs, one from each set. Of all ways to
-make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
+make pairs the one with the least sum of distances is taken; distances are divided by the tolerance.
 
     cycle_stability(cycle)   fixed point, and the multipliers of each method in one table
 
 `scenario.cycle` has the return map of a scenario. A controller with states (an observer) has these behind the
 mechanical ones in the state of the map; then only central differences apply.
+
+    x-, x+         state (q, q', controller's states) just before and just after an impact
+    q_b = h(Theta) the constraint that the joints q_b follow; the phase Theta = c q [rad] times the gait
+    hybrid invariant   a constraint that the impact does not leave
+    Phi            fundamental matrix of the variational equation along the step, Phi = dx(t)/dx(0)
+    flow           f = x'; f- is that just before the next impact; Phi f(0) = f- for an exact Phi
 """
 
 from __future__ import annotations
@@ -143,6 +149,7 @@ def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> f
 
     a, b = one[:, np.newaxis], other[np.newaxis]
     allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
+    # linear_sum_assignment finds the pairs (rows, columns) of least total cost
     cost = np.abs(a - b) / np.maximum(allowed, noise)
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
@@ -151,11 +158,16 @@ def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> f
 def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
     """Bound (k,) of |delta lambda_i|, by which differences and variational equation may differ numerically.
 
-    Two errors, with f- = d(q, q')/dt just before impact, in the coordinates of s. The root finder may be wrong
-    by tau [s] in the time t of the impact, so an image P(s) by f- tau; column j of (4 J(d/2) - J(d)) / 3 is
-    then wrong by f- eta_j, |eta_j| <= 3 tau / d. And dP/ds has the part f- dt/ds, in which differences see f-
-    with the relative error r = `StepDerivative.flow_residual` of the integration method. To first order, with
-    left and right eigenvectors y_i, x_i, |.| entry by entry for vectors, and |.|_1 the sum of absolute values,
+        f-         d(q, q')/dt just before impact, in the coordinates of s (`end_flow`)
+        t          time of the impact [s]; -dt/ds is `earlier`
+        tau        error of the root finder in t [s]
+        d          half width of the differences (`P.difference`), J(d) their Jacobian
+        r          relative error of f- by the integration method (`flow_residual`)
+        y_i, x_i   left and right eigenvectors of dP/ds (rows of y, columns of `right`)
+
+    First error: an image P(s) is wrong by f- tau, so column j of (4 J(d/2) - J(d)) / 3 by f- eta_j, |eta_j| <=
+    3 tau / d. Second error: dP/ds has the part f- dt/ds, in which differences see f- with the error r. To first
+    order, with |.| entry by entry for vectors, and |.|_1 the sum of absolute values,
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
@@ -163,7 +175,7 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
-    # tau is the tolerance of the root finder; the result is in the order of the multipliers
+    # tau is XTOL + XRTOL t, the tolerances of the root finder; the result is in the order of the multipliers
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
     late += step.flow_residual * np.abs(step.earlier) @ size
     noise: Array = np.abs(y @ step.end_flow) * late / np.abs(np.sum(left.conj() * right, axis=0))
@@ -194,8 +206,8 @@ def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
     """Compute multipliers by both methods at the fixed point, as `variational.periodic_orbit` finds it.
 
     P: the return map. step: dP/ds by the variational equation along one walking step from the fixed point. The
-    variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
-    `StepDerivative.flow_residual`. Central differences of P cost 4 steps of walking per coordinate.
+    variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, by more than FLOW
+    (`StepDerivative.flow_residual`). Central differences of P cost 4 steps of walking per coordinate.
     """
     doubt = ""
     if not step.flow_residual <= FLOW:
@@ -228,11 +240,15 @@ def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
     slope [rad]: of the ground, near the one for which the cycle is stored; None for that one. Raises GaitError
     when none is stored, SimulationError when the robot does not come to a first impact.
     """
-    # pitch: q_N of these robots is the angle of a leg, pi where it is vertical; the search for q_N begins there
+    # pitch: q_N of these robots is the angle of a leg, pi where vertical; the search for q_N begins there.
+    # LIGHT_FEET: a wider difference of P for these robots, whose light feet make more round-off. 1e-12: rtol
+    # and atol of the integration method, for the same reason
     known = passive_cycle(biped)
     angle = known.slope if slope is None else slope
     walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
     P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
+    # From the stored state after impact, in the first single support (Mode()), to the first impact; P simulates
+    # any system that contains its walker, here the walker itself
     start = walker.initial_state(known.q_plus, known.v_plus)
     return Cycle(P, P.next_impact(walker, start, Mode()).x_minus)
 
@@ -242,6 +258,7 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 
     Raises SimulationError where Newton's method finds no cycle.
     """
+    # the derivative of the step, the second result, is not needed
     cycle, n = known_cycle(biped, slope), biped.n
     orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
     after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
@@ -276,11 +293,12 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     """
     check_part(cycle, "cycle", Cycle)
     P = cycle.P
-    # a controller with states
+    # a controller with states; where P starts it anew at each impact, its states are no part of the guess
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
         return CycleStability(orbit, StabilityTable(orbit.multipliers))
+    # the fixed point to the residual SETTLES, and dP/ds by the variational equation there
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
     return CycleStability(orbit, stability_table(P, step))
 
@@ -294,6 +312,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     Raises SimulationError where the step does not end with an impact.
     """
     P, walker = cycle.P, cycle.P.walker
+    # start: (x+, mode) after the impact at the fixed point; the run stops after one more impact
     start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
@@ -303,6 +322,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
+    # the reference of zeros: q_d, q_d', q_d''; of the one step there is one certificate
     none = np.zeros(walker.plant.p)
     along = signals(walker, run, TimeReference(lambda t: (none, none, none)))
     return certificates(walker, run, along, limits)[0]

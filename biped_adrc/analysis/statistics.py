@@ -30,7 +30,7 @@ class Interval(NamedTuple):
 
 
 def share(successes: int, count: int) -> Interval:
-    """Share of `successes` among `count` walks, at least one, with Wilson's interval."""
+    """Share of `successes` among `count` walks, at least one, with Wilson's interval; NaN ends for one walk."""
     if count == 1:
         return Interval(float(successes), math.nan, math.nan)
     result = scipy.stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
@@ -42,6 +42,7 @@ def median(values: Sequence[float]) -> Interval:
 
     An end of the interval is NaN where there are too few numbers for it.
     """
+    # of the quantile p = 0.5 only the interval is used, so the value q that is tested does not matter
     result = scipy.stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
     return Interval(float(np.median(values)), float(result.low), float(result.high))
 
@@ -51,6 +52,7 @@ def rms(t: Array, x: Array) -> float:
 
     The mean over time is an integral by splines; for a single instant it is the value there.
     """
+    # max: a signal without columns has the rms 0
     squares, duration = np.sum(x**2, axis=1) / max(x.shape[1], 1), float(t[-1] - t[0])
     mean = integrate(t, squares) / duration if duration > 0.0 else float(squares[0])
     return float(np.sqrt(max(mean, 0.0)))
@@ -74,12 +76,14 @@ def paired(x: Sequence[float], y: Sequence[float]) -> Paired | None:
     Equal numbers have the ratio 1, also 0 and 0; a pair of two infinite numbers has none and is left out. None
     where no pair has a ratio.
     """
+    # a pair of equal numbers stays only if they are finite
     pairs = [(a, b) for a, b in zip(x, y, strict=True) if a != b or math.isfinite(a)]
     if not pairs:
         return None
     a, b = np.array(pairs).T
     with np.errstate(invalid="ignore", divide="ignore"):
         r = np.where(a == b, 1.0, a / b)
+    # the sign test: of the pairs of different numbers, how many have x < y
     less, apart = int(np.sum(a < b)), int(np.sum(a != b))
     p = float(scipy.stats.binomtest(less, apart).pvalue) if apart else 1.0
     return Paired(median(r.tolist()), p if len(pairs) > 1 else math.nan, len(pairs))

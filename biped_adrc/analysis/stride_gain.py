@@ -1,16 +1,22 @@
-"""Gains of the PI from step to step, from the zero dynamics.
+"""Gains of the PI controller that corrects the walking speed once in each step, from the zero dynamics.
 
-beta_k [rad] is the amplitude by which the PI bends the curves in walking step k (`control.stride`): they are h
-+ beta_k b(s) times a direction (p,), with the bump b(s) over the step, s from 0 to 1. With exact tracking, z_k
-= sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k of
+In walking step k the joints follow the curves h + beta_k b(s) times a direction (p,) in place of h.
+
+    beta_k         correction that the PI chooses for the step [rad]; K_P, K_I are its gains on the error of v
+    b(s)           bump over the step, s from 0 to 1
+    sigma          angular momentum about the stance foot [kg m^2/s], sigma- before and sigma+ after an impact
+    delta          sigma+ / sigma- at impact
+    z_k            sigma-^2 before the impact that begins step k [kg^2 m^4/s^2]
+    v_k            speed L / T_k [m/s], from the step length L and the time T_k of the step
+    W              work of gravity on sigma^2 / 2 along a step
+
+With exact tracking z_k, v_k and beta_k, as deviations from the periodic gait, obey
 
     z_(k+1) = a z_k + b beta_k,   v_k = c z_k + d beta_k,
     a = delta^2,  b = 2 dW/dbeta,  c = dv/dz,  d = dv/dbeta
 
-are deviations from the cycle. sigma- is the angular momentum about the stance foot, L the step length, T the
-time of a step, W the work of gravity on sigma^2 / 2, and delta = sigma+ / sigma- at impact; W, delta and T are
-the quadratures of the zero dynamics, differenced in beta and z. With the PI of `control.stride` the poles of
-the loop are the roots of
+W, delta and T are the quadratures of the zero dynamics, differenced in beta and z. With the PI of
+`control.stride` the poles of the loop are the roots of
 
     lambda (lambda - 1) (lambda - a) + (K_P (lambda - 1) + K_I lambda) (d (lambda - a) + c b) = 0.
 
@@ -67,6 +73,8 @@ class StrideResponse(Shown):
 
     def poles(self, gains: StrideGains) -> ComplexArray:
         """The three poles of the loop with these gains (3,), dimensionless, the largest magnitude first."""
+        # the module's factors, highest power of lambda first: lambda - a, d (lambda - a) + c b, and in `law`
+        # K_P (lambda - 1) + K_I lambda
         walk, plant = [1.0, -self.a], [self.d, self.c * self.b - self.d * self.a]
         law = [gains.K_P + gains.K_I, -gains.K_P]
         equation = np.polyadd(np.polymul([1.0, -1.0, 0.0], walk), np.polymul(law, plant))
@@ -86,6 +94,7 @@ class StrideResponse(Shown):
                 f"the stride's loop would have a triple pole at {r:.3g}, expected one inside the unit circle; "
                 "choose another direction of the correction"
             )
+        # beside K_P the module has K_P + K_I, of which K_P is subtracted
         K_P = r**3 / zero
         return StrideGains(K_P, (1.0 + self.a - 3.0 * r) / self.d - K_P, limit)
 
@@ -100,7 +109,8 @@ def stride_pi(
     """Wrap a controller in the PI from step to step, with the gains of the triple pole.
 
     inner: the controller. direction (p,): by which each joint bends per beta, dimensionless. limit: bound on
-    |beta| [rad]. Raises as `stride_response` and `StrideResponse.gains`.
+    |beta| [rad]. Raises InputError for a direction of the wrong length or a pole that is not inside the unit
+    circle, GaitError where the zero dynamics have no stable cycle.
     """
     along = tuple(float(d) for d in direction)
     gains = stride_response(gait, biped, along).gains(limit)
@@ -131,6 +141,7 @@ def stride_response(
     >>> print(f"{response.static_gain:.2f} (m/s)/rad")
     -0.70 (m/s)/rad
     """
+    # shift (p,): beta = _DIFFERENCE [rad] times the direction
     h, shift = gait.constraint, _DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:
         raise InputError(f"the direction is {direction}, expected {biped.p} numbers, one per motor")
@@ -139,11 +150,13 @@ def stride_response(
     delta, sigma = zero.delta, zero.sigma_minus
 
     def speed(zd: ZeroDynamics, scale: float = 1.0) -> float:
-        # L / T of a step along zd that follows an impact with z = scale sigma-^2
+        # L / T of a step along zd that follows an impact with z = scale sigma-^2, sigma- that of the cycle; it
+        # begins with sigma+ = delta sigma-
         return L / zd.orbit(delta * sigma * math.sqrt(scale)).period
 
     if not delta**2 < 1.0:
         raise GaitError(f"delta^2 is {delta**2:.4g}: the walk does not settle, expected below 1")
+    # z differs by the share w of sigma-^2, beta by w
     w = 2.0 * _DIFFERENCE
     return StrideResponse(
         a=delta**2,

@@ -1,4 +1,4 @@
-"""The derivative of a sample instant: how the state after a tick changes with the state before it.
+"""The derivative of a sample instant ("tick"): how the state after a tick changes with the state before it.
 
     x+ = tick(t, x),   J = d x+ / d x                 x = (q, q', s, held)
 
@@ -63,6 +63,7 @@ def tick_derivative(walker: Walker, layout: Layout) -> Ticked:
         buffer.set_res(i, array.data)  # type: ignore[call-arg]
 
     def ticked(t: float, x: Array, mode: Mode, _: object = buffer) -> tuple[Array, Array]:
+        # copies, since the next call writes to the same arrays
         inputs[1][: 3 + len(x)] = t, mode.step, mode.start, *x
         evaluate()
         return _finite(after.copy(), columns.T.copy())
@@ -80,6 +81,7 @@ def _function(program: Program) -> ca.Function:
 
     It depends on the structure of the program alone, since the values of its numbers are the input K.
     """
+    # key: the structure; out[:nx] is x+; 3: t, step and t_start stand before x; cse: common subexpressions
     key, nx = program.key, program.nx
     if key not in _FUNCTIONS:
         tick = program.equations.tick()
@@ -90,7 +92,10 @@ def _function(program: Program) -> ca.Function:
 
 
 def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-    """x+ (nx,) of the tick in Python, and J (nx, nx) by central differences."""
+    """x+ (nx,) of the tick in Python from x (nx,) at t [s], and J (nx, nx) by central differences.
+
+    mode: number and start [s] of the single support. Raises NotFiniteError where a result is not finite.
+    """
     d = _DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)

@@ -1,9 +1,9 @@
 """Times at which a controller detected the touchdowns of a finished walk (`hardware.touchdown`).
 
 Labels say which leg is the stance leg: a touchdown swaps those of the plant, a detection those that the
-controller assumes. So the events of both kinds are paired in the order of time: a touchdown and a detection are
-a pair, late if the detection comes second, else early. A pair of two touchdowns is missed, since after both the
-controller's labels are right again; a pair of two detections is false.
+controller assumes. So the events of both kinds are paired in the order of time, the first two, the next two and
+so on: after each pair the labels agree again. In a pair of a touchdown and a detection the detection is late if
+it comes second, else early. Two touchdowns in a pair were both missed, two detections in a pair are both false.
 """
 
 from __future__ import annotations
@@ -61,6 +61,7 @@ class Detections(Shown):
 
         A last touchdown whose detection was still to come is left out of delays and shares.
         """
+        # `waits` is 1 as a number: then the last touchdown is left out
         decided = self.late[: len(self.late) - self.waits]
         late = decided[decided >= 0.0]
         mean = float(np.mean(late)) if len(late) else None
@@ -79,7 +80,8 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Detections:
 
 
 def matched(impacts: Array, found: Array) -> Detections:
-    """Pair touchdowns at `impacts` (N,) [s] with detections at `found` [s], both increasing, as in the module.
+    """Pair touchdowns at `impacts` (N,) [s] with detections at `found` [s], both increasing, as in the module:
+    the first two events are a pair, the next two, and so on.
 
     An event left over at the end is a false detection, or a touchdown whose detection is still to come.
     """
@@ -92,6 +94,7 @@ def matched(impacts: Array, found: Array) -> Detections:
             late[max(i, j)] = then - t if kind == "touchdown" else t - then
         elif kind == "notice":
             false += [t, then]
+    # an odd number of events leaves the last one alone: (time, kind)
     alone = events[-1][:2] if len(events) % 2 else (0.0, "")
     false += [alone[0]] if alone[1] == "notice" else []
     return Detections(impacts, late, np.array(false), alone[1] == "touchdown")
@@ -102,6 +105,7 @@ def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
 
     Raises InputError for a loop without a touchdown part.
     """
+    # its parts at sample instants; None in continuous time
     k = loop.held
     if k is None or k.touchdown is None:
         raise InputError(

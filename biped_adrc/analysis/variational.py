@@ -1,20 +1,25 @@
 """Multipliers of a walking cycle by the variational equation, without differences of the return map.
 
     x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
+    dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-)     from just before an impact to the next one
 
-x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- the flow before the
-next impact, Delta the impact map, D Delta its derivative, s the section coordinates, which are x without q_N,
-and P the return map. A comes from the derivatives of RNEA, D Delta from those of the impact map
-(`model.derivatives`). The result is exact up to the error of the integration method. With E the matrix that
-drops q_N and L = ds -> dx the tangent that keeps h = 0, on the section
+    x = (q, q')    state (2 n,) [rad, rad/s]; q_N, the last of q, is the unactuated pitch
+    s              section coordinates (2 n - 1,): x without q_N, which the swing foot on the ground gives back
+    P              return map, from s just before one impact to s just before the next
+    h, dh          height of the swing foot over the ground [m], and the row dh/dx
+    L              ds -> dx, with q_N changed so that h stays 0
+    Delta, D Delta impact map and its derivative, from `model.derivatives`
+    Phi            fundamental matrix dx(t)/dx(0), A by the derivatives of RNEA
+    f-             flow x' just before the next impact
+    E              matrix that drops q_N
 
-    dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-)
+The result is exact up to the error of the integration method. Pi is what the impact's time, which depends on s,
+leaves of a change (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004).
 
-Pi is what the impact's time, which depends on s, leaves of a change (Aizerman, Gantmacher, 1958; Leine,
-Nijmeijer, 2004).
-
-The derivative of the torque is that of a sample instant of the same law (`analysis.tick_derivative`).
-Controllers with states, sampled time and disturbances are refused.
+The walker has to be in continuous time, without disturbances, and its controller without states; others are
+refused. A needs du/dx of the controller. This derivative alone is taken from a copy of the walker in sampled
+time, as `analysis.tick_derivative` differentiates sample instants: the torque of a controller without states is
+the same function of x there.
 """
 
 from __future__ import annotations
@@ -59,7 +64,8 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
     if p == 0:
         return lambda i: np.zeros((0, 2 * n))
     limit = math.inf if walker.torque_limit is None else walker.torque_limit
-    # a tick of the same law in sampled time: u at a sample instant depends on x there alone, so any period does
+    # a copy with the same law in sampled time: its u at a sample instant (tick) depends on x alone, so any
+    # period will do
     twin = replace(walker, timing=SampledTime(1e-3), torque_limit=None)
     ticked = tick_derivative(twin, twin.layout_of(np.zeros(2 * n)))
 
@@ -67,6 +73,8 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
         m = i.measurement
         # the twin's state is (q, q', u held); u before the tick does not matter, after it u is the law's torque
         x = np.concatenate((m.q, m.v, np.zeros(p)))
+        # [1] is the derivative of the state after a tick: its rows of u, its columns of (q, q'); m.t - m.t_step
+        # is the time at which the single support began
         du = ticked(m.t, x, Mode(m.step, m.t - m.t_step))[1][2 * n :, : 2 * n]
         return np.where(np.abs(i.u)[:, np.newaxis] >= limit, 0.0, du)
 
@@ -81,6 +89,7 @@ def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv
+    # the part through the torque: B du/dx changes the generalised force, dforce is dq''/dforce
     A[n:] += plant.dforce @ (walker.plant.B @ du)
     return A
 
@@ -94,6 +103,7 @@ def height_derivative(walker: Walker, x: Array) -> Array:
 
 def split_matrix(y: Array) -> tuple[Array, Array]:
     """x (k,) and Phi (k, k) of y = (x, Phi) (k + k^2,), x in [rad, rad/s]."""
+    # the whole root of k + k^2, rounded down, is k
     k = math.isqrt(len(y))
     return y[:k], y[k:].reshape(k, k)
 
@@ -134,9 +144,11 @@ class VariationalSystem(HybridSystem):
         """
 
         def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
+            # (x+, mode), or None: no impact
             after = self.walker.strike(t, split_matrix(y)[0], mode)
             return None if after is None else (y, after[1])
 
+        # the first event function is the foot's strike, the others end the run
         strike, *ends = self.walker.guards(mode)
         return replace(strike, reset=impact), *ends
 
@@ -175,6 +187,7 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     Raises SimulationError, with the status, when the walker does not come back; InputError for a controller
     with states, and as VariationalSystem does.
     """
+    # k: index of q_N, which s does not contain; x: the state before impact at s
     walker, k, x = P.walker, P.walker.plant.n - 1, P.lift(s)
     if len(x) != 2 * walker.plant.n:
         raise InputError(
@@ -182,6 +195,7 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
             "for controllers without: use ReturnMap.jacobian"
         )
     x0, mode = after_impact(walker, 0.0, x, Mode())
+    # (x+, Phi = 1) after the impact; end: the next impact, with y = (x, Phi) just before it
     start = np.concatenate((x0, np.eye(len(x)).ravel()))
     end = P.next_impact(VariationalSystem(walker), start, mode)
     x_end, Phi = split_matrix(end.x_minus)
@@ -189,6 +203,7 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     dh = height_derivative(walker, x_end)
     rate = float(dh @ f_end)  # dh/dt at impact, below 0 [m/s]
     D = impact_derivatives(walker.plant, *np.split(x, 2))
+    # through: dx/ds at the time of the next impact, kept fixed
     through = Phi @ D @ section_tangent(walker, x)
     # dh/ds at a fixed time; over `rate` it is -dt/ds of the impact's time t
     earlier = dh @ through
@@ -205,8 +220,10 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:
-    """L (2 n, 2 n - 1): change dx of the state per change ds of the section coordinates, with h = 0
+    """L (2 n, 2 n - 1): change dx of the state x (2 n,) per change ds of the section coordinates, with h = 0
     unchanged.
+
+    dh dx = 0 gives the row of q_N, which has the index k in x; all other rows are those of the unit matrix.
     """
     k, dh = walker.plant.n - 1, height_derivative(walker, x)
     L = np.delete(np.eye(len(x)), k, axis=1)

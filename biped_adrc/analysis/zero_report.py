@@ -1,12 +1,19 @@
 """Properties of a gait by its zero dynamics, before any simulation: whether it walks, from where, how fast.
 
-zeta = sigma-^2 / 2 [kg^2 m^4/s^2] is the coordinate of a walking step, with sigma- the angular momentum about
-the stance foot just before impact; zeta* is that of the periodic orbit. The domain is the range of zeta in
-which a step keeps the limits of the ground. Theta is the phase, Theta- its value at the end of a step, and
-V_zero(Theta) the potential [kg^2 m^4/s^2]: sigma^2 / 2 + V_zero is constant in a step. The report lists the
-numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units. They hold for the closed loop as far as
-it keeps to the constraint: exactly for a constraint that the impact does not leave (hybrid invariant), tracked
-without error. Where that is in doubt the report says so.
+The zero dynamics are the motion of the robot with its joints on the gait's curves q_b = h(Theta), the virtual
+constraint. One number determines a step:
+
+    sigma          angular momentum about the stance foot [kg m^2/s], sigma- before and sigma+ after an impact
+    zeta           sigma-^2 / 2 before the impact that begins a step [kg^2 m^4/s^2]; zeta* of the periodic orbit
+    domain         range of zeta in which a step keeps the limits of ground and motors
+    Theta          phase [rad], Theta- its value at the end of a step
+    I(Theta)       sigma / Theta' [kg m^2]
+    V_zero(Theta)  potential [kg^2 m^4/s^2]: sigma^2 / 2 + V_zero is constant in a step; V_max its largest value
+    delta^2        (sigma+ / sigma-)^2, the multiplier of the cycle: stable below 1
+
+The report lists the numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units. They hold for the
+closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave
+(hybrid invariant), tracked without error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations
@@ -84,6 +91,7 @@ class ZeroDynamicsReport(Shown):
 
     def _numbers(self) -> _Rows:
         """Rows about the periodic orbit."""
+        # `existence` < 0 is the condition for a periodic orbit; delta^2 < 1 was checked by `zero_report`
         o, z, c = self.orbits, self.zeta_star, self.orbits.zero.constraint
         inertia = o.inertia(grid(o.zero))
         yield "Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"
@@ -111,6 +119,7 @@ class ZeroDynamicsReport(Shown):
         yield "energies in it", f"{E_0:.3f} to {E_1:.3f} J before impact"
         if self.walkable:
             inside = low.zeta + 1e-9 * self.zeta_star  # at the end itself a step fails
+            # steps until |zeta - zeta*| is CLOSENESS zeta*, from each end of the domain
             first, last = (
                 self.orbits.steps_to(zeta, CLOSENESS) if math.isfinite(zeta) else "any number of"
                 for zeta in (inside, high.zeta)
@@ -159,7 +168,9 @@ def zero_report(
         )
     zeta = orbits.zeta_star
     impulse = biped.impact(*orbits.zero.end_state(orbits.sigma(zeta))).impulse
+    # the impulse at zeta*; its ratio is the same at every speed
     along, across = (impulse @ axis for axis in ground_axes(limits.slope))
+    # a robot without motors has no constraint to leave
     gap = invariance_gap(biped, constraint) if biped.p else 0.0
     within = domain(orbits, limits)
     return ZeroDynamicsReport(orbits, limits, within, zeta, float(abs(along) / across), gap)

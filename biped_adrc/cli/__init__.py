@@ -39,7 +39,7 @@ def main() -> None:
     for name in ("stdout", "stderr"):
         if (stream := getattr(sys, name)) is not None:
             setattr(sys, name, Lasting(stream))
-    # a request to end raises KeyboardInterrupt as Ctrl-C does: workers are ended, and how far it got is said
+    # the signal to end (of kill) raises KeyboardInterrupt as Ctrl-C does: worker processes are ended too
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     warnings.showwarning = lambda message, *_: errors.say(f"warning: {message}")
     code, lost = _run(), getattr(sys.stdout, "lost", None)
@@ -60,7 +60,7 @@ def _run() -> int:
         errors.say(f"error: {error}")
         return error.exit_code
     except SystemExit as stop:
-        # typer's end of a command; its code is a number, None (0) or a text (1)
+        # typer ends every command so, also one that is all right; its code is a number, None (0) or a text (1)
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
         code = EXIT_INTERRUPTED

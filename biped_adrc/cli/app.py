@@ -7,7 +7,8 @@ once.
 
 A name in a file may hold what a terminal or rich would obey (escape sequences, "[/b]", ":bomb:"):
 `Terminal` prints it as it is, and control characters as \\x1b. `Lasting` keeps a command going when
-its reader has left (`| head -1`) or the disk is full: a result is not lost to a line about it.
+its reader has left (`| head -1`) or the disk is full, so that no result is lost because a message about it
+could not be printed.
 """
 
 from __future__ import annotations
@@ -83,6 +84,7 @@ class Terminal(Console):
         \\x1b. Control segments are rich's own commands to the terminal, such as those of a progress bar.
         """
         for segment in super().render(renderable, options):
+            # line breaks and tabs are wanted in a printed text
             text = one_line(segment.text, keep="\n\t")
             yield segment if segment.control else segment._replace(text=text)
 
@@ -173,8 +175,8 @@ FIGURES, GAITS = (".png", ".svg"), (".json",)
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     """The files that robot and gaits are read from, which no output may overwrite (`target`).
 
-    robot, others: names, or paths of files. A path that is a file counts; a name of a stored gait has no file
-    here. The robot's URDF is always in it. Raises ModelError for an unknown robot.
+    robot, others: names, or paths of files. A path of a file is in the result, the name of a stored gait is
+    left out. The robot's URDF is always in the result. Raises ModelError for an unknown robot.
     """
     from biped_adrc.model.robots.robot_toml import load_description
 
@@ -185,8 +187,9 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 def target(out: _P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> _P:
     """The path of an output file, checked before anything is computed; None (no output) stays None.
 
-    A name without a suffix gets the first of the suffixes. read: files that are read, and so cannot be written.
-    Raises InputError for another suffix or a file that is read, and OutputError.
+    A name without a suffix gets the first of the suffixes. read: files that the command reads, such as the
+    URDF, and that it therefore must not overwrite. Raises InputError for another suffix or a file that is read,
+    and OutputError for a name that cannot be written.
     """
     if out is None:
         return None

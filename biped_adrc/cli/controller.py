@@ -1,11 +1,12 @@
-"""`biped-adrc observer`, `export` and `replay`: what is said of a controller without a walk.
+"""`biped-adrc observer`, `export` and `replay`: commands on a controller that simulate no walk.
 
 `observer` prints what an observer asks of encoders, clock and motors, from the linear loop of one joint
 (`analysis.observer.report`). `export` writes the controller of a scenario as C (`extras.export.export`); where
-there is a C compiler the files are compiled once, so that what is printed has been seen. `replay` shows a
-robot's log to the controller of a scenario: measurements and torques are those of the log, so the controller
-does not move the robot (`extras.logs.replay`).
+there is a C compiler, the files are compiled once as a trial, and its warnings are printed. `replay` runs the
+controller of a scenario on a robot's log: measurements and torques are those of the log, so the controller does
+not move the robot (`extras.logs.replay`).
 
+`target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
 A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
 scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """
@@ -45,9 +46,9 @@ def observer_command(
     if not {"hardware", "hardware.profile"} & assignments(sets).keys():
         values = {"hardware.profile": "rabbit", **values}
     s = scenario_from(values, sets)
-    # None for continuous time and exact encoders, of which there is no report: 1 ms and 8192 counts instead
+    # the period is None in continuous time, counts for exact encoders; a report needs numbers: 1 ms, 8192
     h, scene = s.hardware, RobotAndGait.of(s)
-    # a controller without a GPI observer is refused
+    # a controller without a GPI observer is refused; scene.walked is the gait
     law: Any = controller(s, scene.walked, scene.biped)
     observer: Any = getattr(law, "observer", None)
     check_part(observer, f"the observer of '{s.controller.name}'", ba.GPIObserver)
@@ -95,17 +96,20 @@ def export_command(
 
     s = scenario_from({}, sets, scenario)
     source = ba.export_c(s, out, prefix, real, fmu)
+    # step: the C function that runs at each sample instant
     step, files = source.written["step"], list(source.files)
     console.say(
         f"step: {step.operations} operations, {step.doubles} of them in double always; {source.numbers} "
         f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
     )
-    console.say(tried(source))
+    console.say(tried(source))  # compiles the files as a trial
     if fmu:
         files.append(f"{source.prefix}.fmu")
+        # contents(): whether the FMU has a binary for this machine, or sources alone
         console.say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
     console.say(f"written to {out}: {', '.join(files)}")
-    # growth of the controller's state at the start of the gait, while the measured state stays the same
+    # rate [1/s] at which the controller's own state grows while it measures the same q and v at all sample
+    # instants, those at the start of the gait (on_orbit)
     scene = RobotAndGait.of(s)
     if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
         console.say(
@@ -130,10 +134,12 @@ def replay_command(
     s, paths = scenario_from(values, sets, scenario), list[Path]()
     if out is not None:
         check_folder(out)
+        # what the command reads, which none of its outputs may overwrite
         read = (log, *inputs(s.robot.name, s.gait.name))
         names = ("replay.csv", "steps.txt", "replay.svg")
         paths = [target(out / name, (Path(name).suffix,), read) for name in names]
-    result = ba.replay(log, s, window)  # window [s]: after a touchdown
+    # window [s]: for so long after a touchdown an estimated disturbance counts as contact, not as a push
+    result = ba.replay(log, s, window)
     if paths:
         result.to_csv(paths[0])
         write_text(paths[1], f"{result.text()}\n")

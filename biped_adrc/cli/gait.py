@@ -1,12 +1,13 @@
 """`biped-adrc gait`: design, show, export, import.
 
 Each command checks the name of its output first, then loads robot and gait and calls one function:
-`analysis.gait_design`, which solves the programme with IPOPT and certifies the gait by
+`analysis.gait_design`, which finds a gait by nonlinear optimisation with IPOPT and certifies it by
 walking it; `gait.exchange` for files of other programs; `analysis.zero_report` for the zero dynamics.
 
 A *library* is a folder of gaits, one per speed; a *family* (`gait.family`) is a smooth map from speed and step
 length to gaits, in one file.
 
+`target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
 A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
 of --set.
 """
@@ -107,7 +108,8 @@ def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], 
             missed.append(f"{speed:g} m/s: {error}")
             continue
         result.gait.save(out / result.gait.file_name)
-        c = result.certificate
+        c = result.certificate  # forces and torques of a walking step of the gait
+        # delta^2 [1]: factor from walking step to walking step of a deviation of the squared angular momentum
         forces, delta = (c.peak_torque, c.friction), (result.multiplier, c.cost_of_transport)
         # in the order of `header`
         numbers = (result.speed, c.step_length, *forces, *delta, result.seconds)
@@ -135,7 +137,7 @@ def _family(
     path = target(out or Path("family.json"), GAITS)
     gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=console.say)
     with console.status("fitting the family"):
-        # the file is NAME-PRESET.json where it is stored with the package
+        # the package stores it as NAME-PRESET.json: the preset is no part of the family's name
         name = path.stem.removesuffix(f"-{biped.preset}")
         family = design_family(name, biped, gaits, {"command": command_line()})
     family.save(path)
@@ -242,11 +244,13 @@ def gait_import(
     read = (file, *inputs(robot))
     out = target(out, GAITS, read)
     biped = ba.Biped.load(robot, preset)
-    # names: our name of an entry -> the file's
+    # names: our name of an entry -> the file's. slopes: whether dq/dTheta after an impact has to fit the gait.
+    # degree, slope [rad]: of curves that are fitted to samples, and of the ground of these
     names = assignments(
         name, "--name", "OURS=THEIRS, such as coefficients=R.alpha or theta_minus=p(1)"
     )
     gait = ba.import_gait(file, biped, convention, names, slopes, degree, slope)
+    # the default name is known only now, and has to be checked too
     path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)
     _say_origin(gait)

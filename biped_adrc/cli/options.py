@@ -84,6 +84,7 @@ def _option(name: str, usual: str | None) -> Parameter:
     """The parameter, for typer, of a short option; usual: what the help shows as its default, None for the
     default of the scenario's value.
     """
+    # description of the value: text for users, default, and unit in brackets
     what = Scenario.field_of(TEXTS["values"][name])
     text, default = what.text.removesuffix("."), what.default
     if usual is not None:
@@ -113,6 +114,7 @@ def scenario_from(
     """
     values = {**values, **({"pushes": list(push)} if push else {})}
     for name, x in assignments(sets, taken=values).items():
+        # types: those that the scenario declares for the value; empty for one of a user's class
         values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
     if not any(name.startswith("controller.name") for name in values):
@@ -129,7 +131,7 @@ def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     from biped_adrc.core.registry import is_own
     from biped_adrc.model.robots.robot_toml import load_description
 
-    # neither the default controller nor `usual` counts as a choice of the file
+    # a file that names no controller has the default one; a file that names `usual` gets it again below
     if base.controller.name != usual and base.controller != Scenario().controller:
         return {}
     robot = str(values.get("robot.name", base.robot.name))
@@ -185,6 +187,7 @@ def with_sets(
     for name, text in assignments(sets).items():
         if name not in known:
             raise InputError(f"--set {name}: {unknown(name, known)}")
+        # a list for a field of type tuple, None for "none", else the text, which pydantic converts
         x = text.split(",") if "tuple" in str(hints[name]) else None if text == "none" else text
         try:
             values[name] = TypeAdapter(hints[name]).validate_python(x)

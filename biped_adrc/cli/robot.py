@@ -7,6 +7,7 @@ the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extr
 n is the number of coordinates, p that of motors. A *law* is a law of mechanics by which `model.physical`
 checks the model.
 
+`target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
 A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
 of --set.
 """
@@ -103,9 +104,9 @@ def robot_new(
     sets: list[str] | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
-    # nothing is written for a model that breaks a law of mechanics
     check_folder(out)
     derived = _derived(file, feet, actuated, torque, sets)
+    # nothing is written for a model that breaks a law of mechanics
     if derived.broken:
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
@@ -126,11 +127,13 @@ def robot_export(
     path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))
     s = scenario_from({"robot.name": robot}, sets)
     biped = ba.Biped.load(robot, s.robot.preset, s.hardware.friction)
+    # g.own: fields of SoftGround beyond these three that --set names, such as foot_radius
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else ba.load_gait(gait, biped)
     # slope [rad] of the scenario's ground, else of the gait's, else level
     slope = g.slope if g.slope is not None else start.slope if start else 0.0
+    # start: the state of the gait that the file gets as a keyframe; h [s]: integration step
     console.written(write_mjcf(MuJoCoPlant(biped, ground, slope, h=g.engine_step), path, start))
 
 

@@ -1,9 +1,11 @@
 """`biped-adrc study` and `reproduce`: many walks on all cores.
 
-`study` carries out a study file; what is finished is never lost. `reproduce` carries out the paper again: it
-makes a `paper.scenarios.Plan` of the options, runs it (`paper.reproduction`), and prints ten lines: the checks,
-the tally of claims, and the main findings. A check that does not hold is said by name, and decides the exit
-code; all else is in report.html. Joints of a push are checked before the first walk.
+`study` walks all scenarios that a study file (TOML) describes; each walk is stored when it is finished, so that
+the same command goes on after an interruption. `reproduce` computes the numbers and figures of the paper again:
+it makes of the options a `paper.scenarios.Plan`, which says what is computed, runs it (`paper.reproduction`),
+and prints about ten lines: how many checks hold, the tally of the paper's claims, and the main findings. A
+check that does not hold is printed by name and leads to exit code 1; all else is in report.html. The names of
+joints in a push are checked before the first walk.
 
 A command's docstring is its help text; its arguments are described in options.toml.
 """
@@ -86,7 +88,7 @@ def study(
     if table is not None:
         done.export(table)
     console.written(write_page(done), table)
-    # NO_WALK: statuses of rows for which no walk could be made
+    # NO_WALK: statuses of rows for which no walk could be made, such as values that do not fit together
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
 
@@ -113,6 +115,7 @@ def reproduce(
 
     pushes = tuple(parse_push(text) for text in push or ())
     description = load_description("rabbit")
+    # both calls are for their errors alone: an unknown preset, an unknown joint of a push
     description.preset(preset)
     for joint in (joint for p in pushes for joint in p.factors):
         description.joint_index(joint)

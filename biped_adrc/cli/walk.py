@@ -1,13 +1,15 @@
 """`biped-adrc simulate`, `poincare`, `animate`, `plot` and `play`: one walk, its stability, and its pictures.
 
 `simulate` and `poincare` make a `Scenario` of the options. `simulate` walks it with `scenario.walk`, once more
-at half the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
-stores the run. `poincare` finds the fixed point of the return map and its multipliers (`analysis.stability`).
+at half the integration step to say how far the numbers can be trusted, judges every walking step by the limits
+of ground and motors (`analysis.feasibility`) and stores the run. `poincare` finds the fixed point of the return
+map from impact to impact, and its multipliers (`analysis.stability`).
 
-`animate` draws the robot (`view.export`), `plot` its signals (`view.plots`). Runs are read as they
-are, without walking again, also runs of a user's own controller that is not at hand. The page of
-`play` is that of `extras.play.page`.
+`animate` draws the robot (`view.export`), `plot` its signals (`view.plots`). Both read a stored run and do not
+walk again, so they need no class of the controller that made it. `play` writes a page on which one pushes a
+robot by hand (`extras.play.page`).
 
+`target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
 A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
 scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """
@@ -76,7 +78,8 @@ def _walk(
     name, total = f"walking, {s.controller.name}", s.run.impacts
     with console.bar(name) as shown:
         full = ba.walk_scenario(s, lambda t, n: shown(n, total, name))
-        # half: the walk at half the step; near: what the other start changes [rad, s]; whole: before it is cut
+        # half: the walk at half the integration step; near: what the other start changes [rad, s]; whole: the
+        # walk before it is cut
         half, near, run, whole = None, 0.0, full.trajectory, full
         if run.status is ba.Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
@@ -89,8 +92,10 @@ def _walk(
 
             write_log(logged(full), log, full.walker.nominal)
         if full.gait is not None:  # a robot without motors has no gait
+            # the walker says which integration steps the walk had, so that each can be halved
             finer, text = halved(s, full.walker), "the same at half the step"
             half = ba.walk_scenario(finer, lambda t, n: shown(n, total, text))
+            # a walk on soft ground has no parts, from which it could be walked again
             near = whole.rounding() if whole.parts else 0.0
             half = half.until_infeasible(limits) if end_infeasible else half
     _print_on_ground(full.soft_steps)
@@ -120,14 +125,17 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)
     run, about = walk.trajectory, walk.note
+    # a walk that ended at its start has no tracking error
     if half is not None and run.t_end > run.t_start:
         each = (walk, half)
+        # of both walks: largest tracking error [rad], status at the end, number of impacts
         ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
         fall = " up to the fall" if run.status in FALLS else ""
         error = f"largest tracking error {error_text(*ends)}{fall}"
         about = f"{error}, peak torque {walk.peak_torque:.1f} N m, {run.settings['method']}"
     console.print(f"{run.status.name}: {run.status.value} {run.detail}".strip())
     console.print(f"{walk.impacts_text}, {about}\n{feasibility.text()}")
+    # `not >` also takes a NaN
     stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
     if stays and half is not None:
         console.print(f"the old stance foot does not lift off after steps {stays}")
@@ -160,6 +168,7 @@ def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate
     header = (Column(name, min_width=widths.get(name)) for name in rows[0])
     cells = (row.values() for row in rows)
     console.table(header, cells, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    # one window [s], as all steps have the same limits; none where there is no step
     for window in {s.limits.window for s in supports}:
         console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 
@@ -195,11 +204,13 @@ def poincare(
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.cycle import cycle_of
 
+    # usual: the controller where none is named. observer_states: whether the controller's own states count
+    # among those of the return map; else they begin anew after each impact
     s = scenario_from(values, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
         result = ba.cycle_stability(cycle)
-    walker, o = cycle.P.walker, result.orbit
+    walker, o = cycle.P.walker, result.orbit  # P: the return map
     law = type(walker.controller).__name__.removesuffix("Controller")
     # x-: (q-, q'-), before the states of controller and observer
     q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
@@ -207,7 +218,7 @@ def poincare(
     console.say(f"{about}, slope {walker.ground_slope:g} rad, {cycle.P.method.label}")
     console.say(f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]")
     step = nominal_step(cycle, o, limits(s))
-    _print_steps([step], [step])  # a certificate is a support too
+    _print_steps([step], [step])  # a certificate has all numbers of a support
     console.say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
 
 
@@ -227,6 +238,7 @@ def animate(
     from biped_adrc.view.export import SUFFIXES, export
     from biped_adrc.view.placement import Clip
 
+    # ghost: runs that are drawn translucent beside the first; clip: the time [s] that is drawn, and how
     runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
     out = target(out, SUFFIXES, runs)
     walks = load_walks(runs)
@@ -272,6 +284,7 @@ def play_command(
         s = s.replace({"hardware.period": 1e-3})
     # the walk beside: another controller than the scenario's
     ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")
+    # walks to choose from on the page, by name; OTHERS: those that each page has
     others = {ghost: {"controller.name": ghost}, **OTHERS}
     # without a name a page in a temporary folder, opened in the browser
     path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out

@@ -2,10 +2,12 @@
 
     footing(row, u, load) -> Feet     a method of the plant, for instance of `MuJoCoPlant`
 
-row is the plant's whole state (`closed_loop.protocols`), u (p,) [N m] the torque asked of the motors, load what
-acts from outside. Forces of the ground follow from state, torque and load, so a run does not compute them:
-`with_readings` asks the plant at every node of a finished run and adds the answers to the arcs (`Arc.read`),
-with which they are stored.
+Such a plant has an integration and contacts of its own. row (2 n + k,) is the plant's whole state, (q, q', and
+k numbers of its own), u (p,) [N m] the torque asked of the p motors, load what acts from outside: the
+disturbance zeta (n,) [N m] and its resultant force [N]. Forces of the ground follow from state, torque and
+load, so a run does not compute them: `with_readings` asks the plant at every node of a finished run and adds
+the answers to the arcs (`Arc.read`), with which they are stored. An arc is the motion of one single support, a
+node an instant whose state x (nx,) is stored.
 """
 
 from __future__ import annotations
@@ -43,10 +45,11 @@ def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
         for x, load in _passed(loop, arc):
             # the last p numbers of x are the torque that is asked of the motors
             feet = plant.footing(loop.row(x), x[-plant.p :], load)
+            # ravel: (2, 2) of both feet becomes a row of 4
             rows.append((loop.motor_torque(x), load.zeta, *map(np.ravel, feet)))
         columns = map(np.array, zip(*rows, strict=True))
         read = dict(zip(("u", "zeta", *FEET), columns, strict=True))
-        # what the arc recorded itself counts; an arc that failed at once has recorded no u and zeta
+        # read | arc.read: what the arc recorded itself counts; one that failed at once has no u and zeta
         arcs.append(replace(arc, read=read | arc.read))
     return replace(run, arcs=tuple(arcs))
 
@@ -58,6 +61,7 @@ def _passed(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[Array, Load]]:
     end, and the load is constant over it, with its value in the middle. A last node alone is where the plant
     could not go on.
     """
+    # a stretch begins at each node after which time goes on; where one ends the next begins, at the same time
     times, pieces = arc.t.tolist(), np.flatnonzero(np.diff(arc.t) > 0.0)
     for k in pieces:
         load = loop.load(0.5 * (times[k] + times[k + 1]), loop.row(arc.x[k]), arc.mode)

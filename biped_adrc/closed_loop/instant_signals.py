@@ -1,7 +1,16 @@
 """All signals of a closed loop at one instant, read off its state.
 
 Compiled code is made from the same functions, run on symbols, so that both engines report the same quantities
-(`analysis.signals`). In all of them t [s] is the time, x (nx,) the state, and mode the single support.
+(`analysis.signals`). In all of them t [s] is the time, x (nx,) the state of plant, controller and hardware, and
+mode the single support, its number and the time at which it began. Symbols:
+
+    q, v = q'     coordinates (n,) [rad], rates; q_b and v_b are the first p, those of the joints with motors
+    q_d           reference of q_b (p,) [rad]
+    u, zeta       torque of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
+    kappa, xi     q_b'' = kappa u + xi: input gain (p, p) [1/(kg m^2)], total disturbance (p,) [rad/s^2]
+    xi~           generalised force that the nominal model (the controller's) does not know (n,) [N m]
+    ^             an estimate by the controller's observer
+    m v_com       momentum of the whole robot
 """
 
 from __future__ import annotations
@@ -73,7 +82,9 @@ def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -
     compared with another one. Runs on numbers and on symbols.
     """
     i = instant(loop, t, x, mode)
+    # terms: of the nominal model; they have kappa, its inverse, and xi with xi~ = 0
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
+    # the tail of x, behind the controller's state, says by which names of the legs the controller estimates
     r, result = reference(i.s, m), estimated(loop, i.s, parts(loop, x).tail, m, mode)
     xi_estimate = np.full(p, np.nan) if result is None else result
     matched, unmatched = disturbance_parts(terms, xi_unknown(loop, terms, i.a, i.u, i.zeta))
@@ -101,9 +112,9 @@ def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -
 def controller_inputs(
     loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked | None
 ) -> tuple[Array, ...]:
-    """What a controller needs at the sample instant t [s] in the state x (nx,): q (n,) and v (n,), the terms of
-    the nominal model there (`Reduction`), and the arrays of the `ReferencePoint`; none of these for reference
-    None.
+    """What a controller needs at the sample instant t [s] in the state x (nx,), for sensors that are exact: q
+    (n,) and v (n,), the terms of the nominal model there (the arrays of a `Reduction`), and the point of the
+    reference (the arrays of a `ReferencePoint`), which is left out for reference None.
     """
     q, v, s, _ = parts(loop, x)
     m = loop.measure(t, q, v, mode)
@@ -147,6 +158,7 @@ class NodeRow(NamedTuple):
 @cache
 def node_layout(n: int, p: int) -> Layout:
     """The layout of a `NodeRow` as one vector, for n coordinates, p of them with a motor."""
+    # the sizes are in the order of the fields of StepReading: error, u, q, v_b, momentum, swing_foot
     reading = StepReading(*(np.zeros(size) for size in (p, p, n, p, 2, 2)))
     return Layout.of(NodeRow(np.zeros(()), np.zeros(()), np.zeros(2), reading))
 

@@ -2,11 +2,13 @@
 
     walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
 
-A plant that moves by itself, such as MuJoCo, is a `protocols.SteppingPlant`; the rigid plant is the walker's
-own, with a pinned stance foot and an impact map. s is the controller's state, `held` what is held between
-sample instants. The numbers that the plant keeps for itself are taken out of the states, so that whatever reads
-a walk reads this one. Forces of the ground, places and velocities of both feet are recorded at the nodes, where
-the plant has feet (`closed_loop.feet`), since they cannot be computed again.
+A plant that moves by itself, with an integration and contacts of its own such as MuJoCo's, is a
+`protocols.SteppingPlant`; the rigid plant is the walker's own, with a pinned stance foot and an impact map. q
+(n,) [rad], q' [rad/s] are the coordinates and rates, s is the controller's state, `held` what sensors and
+motors hold between sample instants. Steps of the ground are places where it falls or rises. The numbers that
+the plant keeps for itself are taken out of the states, so that whatever reads a walk reads this one; forces of
+the ground, places and velocities of both feet, which could not be computed without them, are recorded at the
+nodes (instants whose state is stored) where the plant has feet.
 """
 
 from __future__ import annotations
@@ -45,7 +47,8 @@ def stepping_loop(
     The lag of the walker's motors and the steps of its ground become the plant's; a rate limit of the motors
     stays in the loop. first_step: number of the first single support, from which the plant counts for its steps
     of the ground. kind: class of the loop. Raises InputError for a walker in continuous time or with an error
-    of the impact map, which only the rigid plant has, and for what `_fitted` refuses.
+    of the impact map, which only the rigid plant has, and for a plant that has another slope, lag or steps of
+    the ground than the walker, or cannot have those of the walker.
     """
     if len(walker.gain) > 0:
         raise InputError(
@@ -58,6 +61,7 @@ def stepping_loop(
             "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
         )
     motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
+    # a walker has all fields of a loop; the model of its controller does not change with the plant
     values = {f.name: getattr(walker, f.name) for f in fields(SteppingLoop)}
     values |= {"plant": _fitted(plant, walker, first_step), "model": walker.nominal}
     return kind(**values | {"motors": motors})
@@ -70,6 +74,7 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     the walker has them.
     """
     name, steps = type(plant).__name__, walker.ground_steps
+    # a walker without a slope (None) walks on the plant's, and a plant that has none takes any
     if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
         raise InputError(
             f"{name} has a slope of {slope} rad, and the walker {walker.slope}; give one"
@@ -77,7 +82,8 @@ def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPl
     lag = 0.0 if walker.motors is None else walker.motors.lag
     own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
     for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
-        # a plant without lag or steps of its own takes the walker's, if it is of the class for that
+        # where the two differ, the plant takes the walker's: if its own is 0 or (), and it is of the class that
+        # has the method for that
         if own[what] != other and (own[what] or not isinstance(plant, kind)):
             raise InputError(
                 f"{name} has {what} {own[what]} and the walker {other}; give motors with lag and steps of the "
@@ -106,6 +112,7 @@ def walk_on(
     x0 = loop.initial_state(*start, mode)
     # a single support that takes too long is noticed at a tick, so up to one period late
     longest = walker.max_step_time + loop.timing.period
+    # the run ends after the last of these impacts, and at `end` at the latest
     end, last = mode.start + impacts * longest, (FOOT_STRIKE, impacts)
     options = RunOptions(end, mode.start, stop_after=last, progress=progress)
     return as_walked(loop, loop.run(x0, options, mode))
@@ -115,8 +122,8 @@ def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
     """Convert a run of `loop` to the layout of a walker's states, (q, q', s, held).
 
     The plant's own numbers are removed, but for the torque of lagging motors, which moves to where a walker has
-    it. Where the plant has feet, forces [N], places [m] and velocities [m/s] of both feet are added to the
-    arcs.
+    it. Where the plant has feet, forces [N], places [m] and velocities [m/s] of both feet are added to the arcs
+    (one for each single support), and a description of the plant to the settings of the run.
     """
     if isinstance(loop.plant, OnFeet):
         run = with_readings(loop, run)
@@ -128,13 +135,16 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
     """An arc of a run of `loop` with its states, slopes and event in the layout of a walker on the rigid
     plant."""
     layout, p = loop.layout_of(arc.x[0]), loop.plant.p
+    # own: slice of the plant's own numbers; at: end of the queue, the torques that wait whole sampling periods
     own, at = layout.place("tail", "own"), layout.place("tail", "line", "queue").stop
 
     def without(x: Array) -> Array:
         """States (.., nx) without the plant's own numbers; where its motors lag, their torque u_m (.., p) is
-        inserted behind the queue, where a walker keeps it.
+        inserted behind the queue, where a walker keeps it. Also of slopes, where all but q' and q'' is 0.
         """
+        # empty, [.., :0], without lag
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
+        # only x[.., :at] has `own` in it
         return np.concatenate((np.delete(x[..., :at], own, axis=-1), u_m, x[..., at:]), axis=-1)
 
     event = arc.event
@@ -145,8 +155,9 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
 
 
 def _values(thing: Any) -> Any:
-    """A plant as plain values for the settings of a run: its class and its fields, fields of classes
-    likewise."""
+    """A plant as plain values for the settings of a run: a record of its class and its fields, which are
+    numbers, texts, tuples or such records; of a robot, and of anything else, the name of its class.
+    """
     if isinstance(thing, tuple):
         return tuple(map(_values, thing))
     if not is_dataclass(thing) or isinstance(thing, Biped):

@@ -5,6 +5,12 @@ A Protocol is a list of methods and properties: any class that has them will do.
 Plants are `model.biped.Biped`, `model.planar_robot.PlanarRobot` and any of the user's own; loops
 are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.equations.SymbolicLoop` on symbols.
 
+    q, v = q'     coordinates (n,) [rad] and rates (n,) [rad/s]; the first p coordinates have motors
+    u, zeta       torques of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
+    B_s           (n, p), the identity over zeros: u acts on the first p coordinates
+    D_s, Omega    mass matrix (n, n) [kg m^2]; Coriolis and gravity terms (n,) [N m]
+    x (nx,)       state of a loop: q, q', the controller's state s, and what is held between sample instants
+
 A plant that moves by itself, for instance MuJoCo or Drake behind a class of the user's, is a `SteppingPlant`:
 
     row = (q, q', own)                          the whole state (2 n + k,) [rad, rad/s, its own units]
@@ -40,7 +46,7 @@ from biped_adrc.observers.base import Estimate
 class Mode(NamedTuple):
     """The discrete state of a walk: in which single support it is.
 
-    step: number of the single support, from 1. start [s]: time at which it began.
+    step: number of the single support, from 1. start [s]: time of the run at which it began.
 
     >>> ba.Mode(step=2, start=0.4)
     Mode(step=2, start=0.4)
@@ -68,7 +74,9 @@ class Plant(Protocol):
         """Number of motors; they act on the first p coordinates."""
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The terms of (11)-(15) at q (n,) [rad] and v (n,) [rad/s]."""
+        """The terms D_s, Omega, kappa, xi and more, of (11)-(15) of the paper, at q (n,) [rad], v (n,) [rad/s].
+        The motors' rows are q_b'' = kappa u + xi.
+        """
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + zeta (n,) [N m]; joint friction included."""
@@ -124,25 +132,29 @@ class Loop(Protocol):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int, as `types.relabelled` takes it."""
+        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
+        gets entry swap[i] of (y, -y) (`types.relabelled`).
+        """
 
     @property
     def gain(self) -> Array:
         """Relative errors of the impact map: v+ = (1 + gain) v+, (n,) [1], or empty for none."""
 
     def layout_of(self, x: Array) -> Layout:
-        """The layout of a state x (nx,), by which it becomes a `semantics.State`."""
+        """The layout of a state x (nx,): which numbers of it are which part of a `semantics.State`."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s]; see
-        `semantics.measurement`.
+        """The measurement that the controller gets at t [s] of q (n,) [rad], v (n,) [rad/s], as they are: the
+        caller has applied the sensors.
         """
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
-        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        """s after the controller's jump to the measurement m where `fires` is 1 (its detector has noticed a
+        touchdown), else s as it is.
+        """
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
@@ -224,7 +236,9 @@ class SteppingPlant(Protocol):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the motors at a touchdown (p,), for `types.relabelled`; `arange(p)` for none."""
+        """Relabelling of the motors at a touchdown (p,): motor i gets entry swap[i] of (u, -u); `arange(p)` for
+        none.
+        """
 
     def start(self, t: float, q: Array, v: Array) -> Array:
         """The row at t [s] that begins with q (n,) [rad] and v (n,) [rad/s]; its own numbers, such as motor
@@ -233,10 +247,10 @@ class SteppingPlant(Protocol):
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """Move from a row at t [s] to `until` [s] or to the next contact, under constant u (p,) [N m] and load;
-        None for no load.
+        None for no load. The result is a `Moved`.
 
-        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
-        that status.
+        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with the status
+        STEP_FAILED.
         """
 
 
@@ -262,8 +276,8 @@ class LaggingPlant(SteppingPlant, Protocol):
         """A copy of the plant whose motors have this lag [s]."""
 
     def motor_torque(self, own: Array, u: Array) -> Array:
-        """Torque on the joints (.., p) [N m] in states whose own numbers are `own` (.., k), where u (.., p) [N
-        m] is asked of the motors.
+        """Torque on the joints (.., p) [N m] that the motors produce, in states in which the plant's own
+        numbers are `own` (.., k) and u (.., p) [N m] is asked of the motors.
         """
 
 

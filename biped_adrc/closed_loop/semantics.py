@@ -3,16 +3,34 @@
     q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10) of the paper
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
-A tick is a sample instant. In the code k is `loop.held`, the parameters of sensors, motors and detector of
-touchdowns (None in continuous time), and m is the measurement that the controller gets.
+Symbols (shapes and units in brackets):
 
-State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
-controller (observer included); `held` = (own, b, w, torques on their way, u), as in `hardware.sample_hold`; it
-changes at sample instants and impacts only, with two exceptions: torques of lagging motors flow, and after a
-delay of a fraction of a period u changes in between. f = -D_s^-1 Omega, zeta (n,) [N m] is the disturbance,
-Delta the impact map. Relabelling exchanges the legs: q becomes R q + r, with the robot's offset r (n,) [rad],
-and q' becomes R q'. The controller's terms come from the nominal model, the motion from the plant, and the two
-may differ.
+    q, v = q'       coordinates (n,) [rad] and rates (n,) [rad/s]; - and + mean just before and after an impact
+    q_b             the first p coordinates, those of the joints with motors
+    u, zeta         torques of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
+    D_s, Omega      mass matrix (n, n) [kg m^2]; Coriolis and gravity terms (n,) [N m]; f = -D_s^-1 Omega
+    B_s             (n, p), the identity over zeros: u acts on the first p coordinates
+    kappa, xi       q_b'' = kappa u + xi: input gain (p, p) [1/(kg m^2)], total disturbance (p,) [rad/s^2]
+    xi~             generalised force that the nominal model does not know (n,) [N m]
+    Delta           impact map, (7) and (8) of the paper, before the legs exchange their names
+    R, r            relabelling, which exchanges the legs: q becomes R q + r, q' becomes R q'
+    m               the measurement that the controller gets, with the nominal model's terms at (q, q')
+    k               `loop.held`: parameters of sensors, motors and touchdown detector; None in continuous time
+    mode            the single support: its number from 1 (step), and the time [s] at which it began (start)
+
+A tick is a sample instant. A jump of the controller is its own reset of its state at an impact. The
+controller's terms come from the nominal model, the motion from the plant, and the two may differ.
+
+State: x = (q, q', s) in continuous time and x = (q, q', s, tail) in sampled time. s is the state of the
+controller (observer included). tail = (own, belief b, sensors w, line) is held between sample instants:
+
+    own     numbers that a plant with an integration of its own, such as MuJoCo, keeps for itself
+    b       what a controller that detects touchdowns itself believes of its single support, see below; or None
+    w       state of the sensors, such as the angles of the last tick
+    line    torques on their way: those sent that wait for a delay to end, and those that act
+
+The tail changes at sample instants and impacts only, with two exceptions: torques of lagging motors flow, and
+after a delay of a fraction of a period the commanded torque changes in between.
 
 A walker with a part of `hardware.touchdown` detects touchdowns itself (function `noticed`). Its belief has four
 parts, b = (other, step, start, d). other is 1 while the controller's names of the legs differ from the plant's,
@@ -96,14 +114,16 @@ def measurement(
 ) -> Measurement:
     """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
-    The nominal model's `terms` are computed here, unless the caller has them at q and v; with `body` the
-    measurement also has the model's `BodyTerms`, for a controller that asks for them (`Controller.needs_body`).
-    All of it is read-only: a controller that writes into it would change the motion.
+    The nominal model's `terms` (inertia, Omega, kappa, xi) are computed here, unless the caller has them at q
+    and v; with `body` also the model's `BodyTerms` (gravity, force of the ground), for a controller that asks
+    for them (`Controller.needs_body`). All of it is read-only: a controller that writes into it would change
+    the motion.
     """
     q, v = frozen(q), frozen(v)
     terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
     of_body = frozen(loop.nominal.body_terms(q, v)) if body else None
 
+    # for a controller that asks for the model's terms at another state, such as a predicted one
     def elsewhere(q: Array, v: Array) -> Measurement:
         return measurement(loop, t, q, v, mode, body)
 
@@ -135,10 +155,11 @@ def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array)
 def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
     """Measurement, torque, disturbance and acceleration at t [s] in the state x (nx,).
 
-    In sampled time u is the torque that is held; in continuous time the saturated output of the
-    controller.
+    In sampled time u is the torque that acts since the last sample instant; in continuous time the saturated
+    output of the controller.
     """
     q, v, s, tail = parts(loop, x)
+    # in sampled time m is at the true (q, q'), since this is for readers of the walk, not for the controller
     m = loop.measure(t, q, v, mode)
     # `tail` is an empty tuple in continuous time
     u = motor_torque(tail.line) if tail else loop.saturate(loop.calls.output(s, m))
@@ -174,10 +195,10 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
     With sensors the controller gets the measured (q, q') of the sensors' state w in place of the
     true ones. A controller that has to notice touchdowns acts by its own names of the legs (`noticed`), and so
-    the torques on their way are exchanged before it acts, and back after it.
+    the torques on their way are exchanged between the legs before it acts, and back after it.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
-    assert k is not None
+    assert k is not None  # only sampled time has ticks
     if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
     else:
@@ -194,7 +215,8 @@ def on_stance_foot(
     """Vertical forces of the ground on stance and swing foot [N], the latter 0, of a plant whose stance foot is
     pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
 
-    resultant (2,) [N]: the force from outside on the robot as a whole, which the ground does not carry.
+    resultant (x, z) (2,) [N]: the force from outside on the robot as a whole. `ground_reaction` is the force
+    (F_T, F_N) by Newton's law, m (p_com'' - g); what comes from outside is not from the ground.
     """
     force = applied(motor_torque(tail.line), loop.external(t, q, v, mode))
     a = loop.plant.acceleration(q, v, force)
@@ -213,8 +235,9 @@ def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tup
     """The controller's state s and the torques on their way (`line`, (p,) [N m] each) after the controller has
     acted on the measurement m.
 
-    Order: correct, output, saturation, rate limit, queue, predict. The observer predicts with the torque just
-    sent; if it knows the computation delay (k.known), with the mean torque that acts in the coming period.
+    Order: correct, output, saturation (all in `command`), rate limit, queue, predict. The observer predicts its
+    state at the next tick with the torque just sent; if it knows the computation delay (k.known), with the mean
+    torque that acts in the coming period.
     """
     s, u = command(loop, s, m)
     u = k.motors.limit(line, u)
@@ -268,7 +291,8 @@ def after_contact(
     then wrong until its detector fires.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
-    reading = q_plus, v_plus  # the (q, q') that the controller gets
+    # the (q, q') that the controller gets: the true ones, unless it has sensors
+    reading = q_plus, v_plus
     if k is not None:
         tail = tail._replace(line=tail.line.relabelled(loop.swap))
         if k.touchdown is not None:
@@ -301,7 +325,9 @@ def hip_margin(lowest: float, hip: Array) -> float:
 
 
 def time_left(longest: float, start: float, t: float) -> float:
-    """Time [s] until a single support that began at `start` [s] is as long as `longest` [s] (then STALLED)."""
+    """Time [s] until a single support that began at `start` [s] is as long as `longest` [s]; the run ends as
+    STALLED where it falls through 0.
+    """
     return start + longest - t
 
 
@@ -319,14 +345,15 @@ def noticed(
     assert k is not None
     assert k.touchdown is not None
     assert tail.belief is not None
-    old, force = tail.belief, 0.0
-    # here q_b, v_b are (q, q') by the controller's names ("believed")
-    q_b, v_b = in_other_names(loop, old.other, q, v)
+    old, force = tail.belief, 0.0  # a detector that needs no force gets 0
+    # q_c, v_c: (q, q') by the controller's names
+    q_c, v_c = in_other_names(loop, old.other, q, v)
     # while other is 1, the foot that the controller takes for the swing foot is the stance foot
     if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
-    w = k.sense(tail.sensors, q_b, v_b)
-    q_seen, v_seen = k.reading(w, q_b, v_b)
+    w = k.sense(tail.sensors, q_c, v_c)
+    q_seen, v_seen = k.reading(w, q_c, v_c)
+    # `foot` is what a real detector may use; the plant's own `other`, step and time are for simulated faults
     foot, since = loop.nominal.swing_foot(q_seen), t - mode.start
     look = Look(t, t - old.start, foot, force, old.other, mode.step, since)
     d, fires = k.touchdown.notice(old.d, look)
@@ -334,11 +361,11 @@ def noticed(
     other = old.other + fires * (1.0 - 2.0 * old.other)
     step: Any = old.step + fires
     start = chosen(fires, t, old.start)
-    q_b, v_b = in_other_names(loop, other, q, v)
+    q_c, v_c = in_other_names(loop, other, q, v)
     # by the new names the rates just measured are R v_seen: what the sensors expect after this exchange
     if k.sensors is not None:
-        w = chosen(fires, k.sensors.impact(w, q_b, v_b, loop.nominal.R @ v_seen), w)
-    m = loop.measure(t, *k.reading(w, q_b, v_b), mode._replace(step=step, start=start))
+        w = chosen(fires, k.sensors.impact(w, q_c, v_c, loop.nominal.R @ v_seen), w)
+    m = loop.measure(t, *k.reading(w, q_c, v_c), mode._replace(step=step, start=start))
     return m, loop.jumped(fires, s, m), w, Belief(other, step, start, d)
 
 
@@ -349,13 +376,12 @@ def in_other_names(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array,
 
 
 def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
-    """The torques on their way, with the legs exchanged where the controller's names are not the plant's
-    (b.other is 1); b is None for a controller that knows touchdowns at once.
+    """The torques on their way (`line`), with the legs exchanged where the controller's names are not the
+    plant's (b.other is 1); b is None for a controller that knows touchdowns at once.
 
     One exchange serves both ways: from the plant's names to the controller's, and back.
     """
-    # both are computed and one is chosen, here and below: on symbols b.other has no value that an `if` could
-    # ask
+    # both are computed and one is chosen: on symbols b.other has no value that an `if` could ask
     return line if b is None else chosen(b.other, line.relabelled(loop.swap), line)
 
 

@@ -1,14 +1,23 @@
 """Sampled control of a plant that moves by itself, such as a simulator with contacts of its own.
 
-    x = (q, q', s, own, held)       own: numbers that the plant needs to go on
+    x = (q, q', s, own, ..)       state (nx,); .. are sensors and torques, held between sample instants
 
-s is the controller's state, `held` what is held between sample instants; the plant's whole state (q, q', own)
-is called its row. There is no x' = f(x) and there are no event functions: the plant is asked to advance to the
-next sample instant or switching time of a disturbance, and reports its touchdowns (`closed_loop.protocols`
-defines its methods). The time between two such instants is called a stretch; over it the load is constant, with
-its value in the middle. Sample instants, sensors, motors and controller are those of every closed loop, so a
-controller is tested unchanged on a plant of another kind. Torque and disturbance are recorded at both ends of
-every stretch, since they cannot be computed again from the states.
+    q, v = q'     coordinates (n,) [rad] and rates (n,) [rad/s]; the first p coordinates have motors
+    s             the controller's state
+    own           k numbers that the plant needs besides q and q' to go on, such as torques of lagging motors
+    row           (q, q', own) (2 n + k,), the plant's whole state
+    u             torques that are asked of the motors (p,) [N m], the last p numbers of x
+    zeta          disturbance, a generalised force (n,) [N m]
+    load          all that acts from outside, a `Load`: zeta, and the resultant force [N]; None for nothing
+    mode          the single support: its number from 1 (step), and the time [s] at which it began (start)
+
+There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
+or switching time of a disturbance, and reports its contacts (`closed_loop.protocols` defines its methods). The
+time from one such instant, or contact, to the next is called a stretch; over it u and load are constant, the
+load with its value in the middle. Sample instants, sensors, motors and controller are those of every closed
+loop, so a controller is tested unchanged on a plant of another kind. Torque and disturbance are recorded at
+both ends of every stretch, since they cannot be computed again from the states. An arc is the motion of one
+single support, stored at nodes (instants).
 """
 
 from __future__ import annotations
@@ -99,6 +108,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def own_places(self, x: Array) -> slice:
         """The slice of a state x (nx,) with the plant's own numbers."""
+        # the tail is what stands behind the controller's state
         return self.layout_of(x).place("tail", "own")
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
@@ -119,6 +129,7 @@ class SteppingLoop(ClosedLoop[Any]):
             numbers(x0, "the initial state"),
         )
         options.check(x)
+        # handing_out() raises an exception of the user's controller again, as an error that names its line.
         # the layout follows from q and v alone, so zeros replace an x that is too short to have them
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
             expected = self.layout_of(x if len(x) >= 2 * n else np.zeros(2 * n)).size
@@ -128,12 +139,13 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"{expected}; expected what initial_state(q, v) of this loop gives"
             )
         loop, engine = self.prepared(x)
+        # None: no method of integration, since the plant moves itself
         run = simulator.run(loop, x, mode, None, options)
         return replace(run, settings={**run.settings, **engine})
 
     def prepared(self, x: Array) -> tuple[SteppingLoop, dict[str, str]]:
-        """The loop that runs from the state x (nx,), and what the trajectory's settings say of its engine. A
-        subclass with machine code returns a copy of the loop with it.
+        """The loop that runs from the state x (nx,), and what the trajectory's settings say of its engine:
+        which one, and why not the compiled one. A subclass with machine code returns a copy of itself with it.
         """
         return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
@@ -152,8 +164,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places(x)])))
 
     def mover(self, fired: str | None) -> Mover:
-        """The function that moves the loop over an arc, always `move`: the event `fired` that ended the arc
-        before does not matter to it.
+        """The function that moves the loop, always `move`: the event `fired` that ended the arc before does not
+        matter to it.
         """
         return self.move
 
@@ -171,16 +183,19 @@ class SteppingLoop(ClosedLoop[Any]):
         None. The end is recorded in `record`, unless the state there is not finite (raises NotFiniteError) or
         beyond the bounds (raises RanAwayError).
         """
-        # the last p numbers of x are the torque that is asked of the motors
+        # near, slow: bounds of sums of squares, see below; the last p numbers of x are the torque of the motors
         n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
+        # the record has the row where the last stretch of this arc ended; x has it where the arc begins
         row = record.rows[-1] if record.rows else self.row(x)
-        u.setflags(write=False)
+        u.setflags(write=False)  # the plant gets it, and must not write into x
         # the load in the middle of the stretch, at the state of its start
         load = None if self.disturbance is None else self.load(0.5 * (t + until), row, mode)
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
+        # only now: a stretch on which the plant raises an error is not recorded
         record.begin(t, row, x, mode)
         row, q = after, after[:n]
-        if not (q.dot(q) < near and row.dot(row) < slow):  # tests all angles and rates at once
+        # all angles and rates pass at once where these sums are small; else, or with NaN, each is looked at
+        if not (q.dot(q) < near and row.dot(row) < slow):
             if not np.all(np.isfinite(row)):
                 raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
             self.bounds.check(end, q, row[n : 2 * n])
@@ -223,7 +238,9 @@ class SteppingLoop(ClosedLoop[Any]):
         """Vertical forces of the ground on stance and swing foot [N], by the plant's own `footing`, at t [s], q
         (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
         """
+        # tail: the part of x behind the controller's state, with the plant's own numbers and the torques (line)
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
+        # (2, 2): rows of the stance and the swing foot, columns of x and z
         forces = plant.footing(row, motor_torque(tail.line), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
 
@@ -240,6 +257,7 @@ class SteppingLoop(ClosedLoop[Any]):
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
+        # a loop in sampled time always has `held`, which knows how many numbers of its own the plant has
         size = (2 * n + self.held.own,) if self.held else None
         row = returned(row, size, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
@@ -248,12 +266,15 @@ class SteppingLoop(ClosedLoop[Any]):
             )
         after = Mode(mode.step + 1, t)
         x_plus = after_contact(self, t, x, row[:n], row[n : 2 * n], after)
+        # after_contact sets q and v of the plant; here its own numbers after the contact are set too
         x_plus = self.with_plant(x_plus, row)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
 
 def check_swap(plant: SteppingPlant) -> None:
-    """Raise InputError where `swap` of a plant is no relabelling of its p motors (`types.relabelled`)."""
+    """Raise InputError where `swap` of a plant is no relabelling of its p motors: joint i gets entry swap[i] of
+    (y, -y), so each joint is named once, by its number from 0, or by that plus p for a change of sign.
+    """
     swap = np.asarray(plant.swap)
     if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
@@ -286,7 +307,8 @@ def advanced(
     result.
 
     Returns the time [s], a copy of the row there, the contacts, and the row after them (None without). A time
-    within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract.
+    within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract of
+    `protocols.SteppingPlant`; `found` checks the row after the contacts.
     """
     moved = plant.advance(t, row, u, load, until)
     if type(moved) is not Moved or type(moved.contacts) is not tuple:
@@ -294,6 +316,7 @@ def advanced(
             f"{type(plant).__name__}.advance gives {moved!r:.60}, expected a Moved(t, row, contacts, after)"
         )
     end, found, contacts, after = moved
+    # it has to come to `until`, unless a contact stops it before
     if not (at_end := abs(end - until) <= _ROUND_OFF) and not (contacts and t < end < until):
         here = f"a contact at {end} s, expected after {t} s, not after {until} s"
         here = here if contacts else f"{end} s without a contact, expected {until} s"
@@ -309,6 +332,7 @@ def _together(contacts: tuple[Contact, ...]) -> Contact:
     """
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
+    # dict.fromkeys: each name once, in order
     return Contact("+".join(dict.fromkeys(names)), np.sum(impulses, axis=0), statuses[0])
 
 
@@ -354,14 +378,16 @@ class Stretches(Recorder):
         The arc also has the motors' torque "u" (p,) and "zeta" (n,) [N m] at its nodes. q'' is constant over a
         stretch, the difference of the rates by its duration, as the plant does not compute it.
         """
-        if not self.rows:
+        if not self.rows:  # no stretch has begun: what the base class has recorded
             return super().arc(mode, event)
         n, t, rows = self.loop.plant.n, np.array(self.t), np.array(self.rows)
-        nodes = len(self.held) + len(t) - 1  # a stretch that failed has one
-        # of each node the stretch, and the index in `rows`, to which a stretch adds its end alone
+        # K stretches have K starts in `held` and K + 1 rows, or K rows where the last stretch failed; their
+        # nodes are 2 K, or 2 K - 1
+        nodes = len(self.held) + len(t) - 1
+        # node -> its stretch 0 0 1 1 2 2 .., and its index in `rows` 0 1 1 2 2 3 ..
         of = np.repeat(np.arange(len(self.held)), 2)[:nodes]
         at, v = of + np.arange(nodes) % 2, rows[:, n : 2 * n]
-        # the last row of zeros is for a stretch that failed
+        # q'' (K, n) of each stretch; the last row of zeros is for a stretch that failed
         a = np.vstack((np.diff(v, axis=0) / np.diff(t)[:, np.newaxis], np.zeros(n)))
         x = np.array(self.held)[of]
         x[:, : 2 * n], x[:, self.loop.own_places(x[0])] = rows[at, : 2 * n], rows[at, 2 * n :]

@@ -4,8 +4,17 @@
 time base (continuous or sampled), the model that the controller knows, and the methods of
 `hybrid.system.HybridSystem`, each of which calls the function of `closed_loop.semantics` with the
 same name. It adds what pure functions cannot do: checks of what a user's controller returns, with
-sentences that name the culprit. A tick is a sample instant; a state x (nx,) is (q, q', s), s the
-controller's state, and in sampled time also what is held between ticks.
+sentences that name the culprit. A tick is a sample instant. In all methods
+
+    x (nx,)         state: (q, q', s), and in sampled time behind it the tail, what is held between ticks
+    q, v = q'       coordinates (n,) [rad] and rates (n,) [rad/s]; the first p coordinates have motors
+    s               the controller's state, with that of an observer
+    u, zeta         torques of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
+    m               a measurement, as the controller gets it
+    mode            the single support: its number from 1 (step), and the time [s] at which it began (start)
+    t               time since the start of the run [s]
+
+A layout (`core.tree.Layout`) says which numbers of a vector belong to which part of a state.
 
 Every signal of one instant is in `closed_loop.instant_signals`.
 """
@@ -64,6 +73,7 @@ class _Bounds(NamedTuple):
         """
         if np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest)):
             return
+        # the largest angle, and the rate that is the largest share of its bound
         i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
         if abs(q[i]) > self.farthest:
             raise RanAwayError(f"t = {t:.6g} s: q{i + 1} is {q[i]:.3g} rad, beyond a whole turn")
@@ -115,6 +125,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
         check_fields(self)
+        # a longest single support and a height of a fall are a walker's: these two values pass the check
         check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
         if self.nominal.n != self.plant.n:
             raise InputError(
@@ -157,8 +168,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         """The methods of `law`, wrapped so that the states which they return are checked for class, shape and
         finite numbers.
 
-        `output` is not wrapped, since `saturate` checks the torque, and a slope of `flow` may be infinite,
-        since the integrator checks the state.
+        `output` is not wrapped, since `saturate` checks the torque, and the s' that `flow` returns may be
+        infinite, since the integrator checks the state.
         """
         law = self.law
 
@@ -168,6 +179,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
             if getattr(type(law), name) is getattr(Controller, name):
                 return method
 
+            # more: for `flow` and `predict` the torque, for `jump` the relabelling, handed on read-only
             def after(s: Any, m: Measurement, *more: Array) -> Any:
                 result = method(s, m, *map(frozen, more))
                 if result is s:  # nothing to check
@@ -196,7 +208,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return _held(time, self.motors or IDEAL, self.sensors, self.touchdown, n, p, self.own)
 
     def __getstate__(self) -> dict[str, object]:
-        """The fields without cached values, which another process computes again where it needs them."""
+        """What pickle copies: the fields without cached values, which another process computes again."""
         return {name: value for name, value in vars(self).items() if name not in MADE_AGAIN}
 
     @property
@@ -219,12 +231,14 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @property
     def gain(self) -> Array:
-        """No error of the impact map: an empty array (0,) [1]."""
+        """Relative errors of the impact map in v+: none, an empty array (0,) [1]; a `Walker` may have some."""
         return np.zeros(0)
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int."""
+        """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
+        gets entry swap[i] of (y, -y).
+        """
         return self.plant.swap  # type: ignore[attr-defined]
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
@@ -237,8 +251,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return self.disturbance.zeta(t, mode.step, mode.start, q, v)
 
     def resultant(self, t: float, mode: Mode) -> Array:
-        """Force (x, z) from outside on the robot as a whole (2,) [N] at t [s], which the ground does not
-        carry."""
+        """Force (x, z) from outside on the robot as a whole (2,) [N] at t [s]; with it the ground's force
+        balances m (p_com'' - g)."""
         if self.disturbance is None:
             return np.zeros(2)
         return self.disturbance.net_force(t, mode.step, mode.start)
@@ -255,8 +269,9 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def layout_of(self, x: Array) -> Layout:
         """The layout of a state x (nx,) as a `semantics.State`, the same for all states of the loop.
 
-        Found once, by starting the controller at the (q, v) in x, then remembered.
+        Found once, by starting the controller at the (q, v) in x, then remembered as an attribute.
         """
+        # by vars(), as fields of a frozen dataclass cannot be set
         if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
             m = self.measure(mode.start, x[:n], x[n : 2 * n], mode)
@@ -266,6 +281,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def _begun(self, m: Measurement, s: Any, mode: Mode) -> State:
         """The state at the start of a run with the measurement m and the controller's state s; no torque acts
         yet."""
+        # *mode: number and start of the single support; () is the tail in continuous time
         return State(m.q, m.v, s, () if self.held is None else self.held.start(m.q, m.v, *mode))
 
     def split_state(self, x: Array) -> tuple[Array, Array, Any]:
@@ -282,7 +298,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         mode = Mode() if mode is None else mode
         q, v = (np.asarray(x, dtype=float) for x in (q, v))
         # without the disturbance, which does not matter here, so that loops with different ones share the
-        # result
+        # result; shapes and bytes of q and v, since arrays cannot be the key of a result that is remembered
         x, layout = _start(self.undisturbed, mode, q.shape, q.tobytes(), v.shape, v.tobytes())
         vars(self).setdefault("layout", layout)
         return x.copy()
@@ -291,7 +307,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
-        Raises InputError for sensors that show something else, NotFiniteError for NaN or infinity.
+        Sensors are not applied here: q, v are what they show. Raises InputError where that is not (n,) numbers
+        each, NotFiniteError for NaN or infinity.
         """
         if self.sensors is not None:
             shape = (self.plant.n,)
@@ -313,7 +330,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return u
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
-        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        """s after the controller's jump to the measurement m where the float `fires` is 1, else s as it is."""
         return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
 
     def foot_forces(
@@ -359,7 +376,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         k, p = self.held, self.plant.p
         if k is None or k.motors.speed == 0.0:
             return None
-        # counted from the end of x, where the line, the torques on their way, stands
+        # at: a negative index, counted from the end of x, where the line, the torques on their way, stands
         at = k.line.place("u_m").start - k.line.size
         return Relaxing(slice(at, at + p), slice(-p, None), k.motors.speed)
 
@@ -418,13 +435,15 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
     start: shape and bytes of q, then shape and bytes of v, since results are remembered by arguments that can
     be hashed, and arrays cannot.
     """
-    shapes, data = start[::2], start[1::2]
+    shapes, data = start[::2], start[1::2]  # the arrays of q and v again
     q, v = (np.frombuffer(x).reshape(shape) for shape, x in zip(shapes, data, strict=True))
-    # no warning of NumPy: a number that is not finite raises an error here, or ends the walk later
+    # no warning of NumPy: a number that is not finite raises an error here, or ends the walk later.
+    # handing_out() raises an exception of the user's code again, as an error that names its line
     with handing_out(), np.errstate(over="ignore", invalid="ignore"):
         m = loop.measure(mode.start, q, v, mode)
-        for part in nested(loop.law):
+        for part in nested(loop.law):  # the controller, and those inside it
             _check_tracking(part, m, loop.plant.p)
+        # None: a state of any layout is right at the start; later ones have to have the same
         s = returned_tree(loop.law.initial_state(m), None, loop.law, "initial_state")
         check_methods(loop.law, s, m, loop.sampled)
         state = loop._begun(m, s, mode)
@@ -435,7 +454,8 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
     """Raise InputError where the gains or the reference of a controller do not fit p motors and the
     coordinates.
 
-    The reference is evaluated at the measurement m for that. A controller without them passes.
+    The reference is evaluated at the measurement m for that. A controller without gains or reference passes.
+    An exception in a reference of the user's names its line (`handing_out`).
     """
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):

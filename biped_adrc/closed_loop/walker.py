@@ -5,21 +5,32 @@ paper and begins the next single support. This module holds what is particular t
 steps up and down), the disturbance, and the event functions that end a single support or the run. The flow, the
 sample instants and the impact are those of `closed_loop.semantics`.
 
-For the exponential method a walker has coordinates x -> (w, E) in which what is stiff is linear:
+    x (nx,)           state: q (n,) [rad], q' = v [rad/s], the controller's state; in sampled time also what
+                      sensors and motors hold between sample instants
+    q_b, u (p,)       the first p coordinates, those with motors, and their torques [N m]
+    zeta (n,)         disturbance, a generalised force [N m]
+    kappa (p, p)      input gain of the controller's model [1/(kg m^2)]
+    -, +              just before and just after an impact
+    mode              the single support: its number from 1 (step), and the time [s] at which it began (start)
+
+The exponential method (`hybrid.exponential`) integrates a linear stiff part exactly. For it a walker has
+coordinates x -> (w, E) in which what is stiff is linear:
 
     E' = A E + N_E,   w' = N_w          E (k, p): one column per actuated joint
 
 An observer with poles far to the left makes x' = f(x) stiff: an explicit method would need steps
-far below 1 ms. In these coordinates the stiff part is the constant matrix A, which
-`hybrid.exponential` integrates exactly; the remainder N is slow. e = S (q_b, q_b') - Z is the observer's
-error, S the scaling by which it has velocities multiplied (`scale`):
+far below 1 ms. In these coordinates the stiff part is the constant matrix A (k, k), k being the number of
+observer states per joint; the remainder N is slow. e = S (q_b, q_b') - Z is the observer's error. Z (k, p) is
+the observer's state; S (q_b, q_b') (k, p) has q_b in row 0, scale q_b' in row 1, and zeros below; `scale` [s]
+is the factor of velocities in Z:
 
     w = (q, q', rest),   E = e,   N_E = scale xi_total in row 1,   xi_total = q_b'' - kappa u
 
-Z (k, p) is the observer's state. N_E is zero in all other rows. xi_total does not depend on u itself; torque
-limits, a wrong model and forces from outside are in it. `rest` is what follows the observer in the controller's
-state. `Walker.split` hands these coordinates to the method of integration in Python; `engine.equations` makes
-machine code of them for the compiled one. Numbers such as (7) are equations of the paper.
+N_E is zero in all other rows. xi_total (p,) [rad/s^2], the total disturbance, does not depend on u itself;
+torque limits, a wrong model and forces from outside are in it. `rest` is what follows the observer in the
+controller's state. `Walker.split` hands these coordinates to the method of integration in Python;
+`engine.equations` makes machine code of them for the compiled one. Numbers such as (7) are equations of the
+paper.
 
 `hybrid.simulator` runs a Walker in Python; `engine` compiles the same Walker. `scenario.build`
 makes one from plain values.
@@ -84,11 +95,11 @@ def remainder(
     loop: Loop, form: ErrorForm, t: float, w: Array, E: Array, mode: Mode
 ) -> tuple[Array, Array]:
     """The remainder of the closed loop at t [s], w (2 n + rest,), E (k, p): N_w, of the size of w, and row 1 of
-    N_E (p,), its only row that is not zero.
+    N_E (p,), its only row that is not zero. Raises RanAwayError for a torque beyond all bounds (`bounded`).
     """
     i = semantics.instant(loop, t, form.back(w, E), mode)
     s, u = flatten(i.s), loop.bounded(i.u)
-    # the slope s' is used only behind the observer's part of s; where nothing is behind it, s itself will do
+    # s' is used only for `rest`; without one the slice of `ds` below is empty, and s saves the computation
     ds = flatten(loop.calls.flow(i.s, i.measurement, u)) if len(s) > form.order * form.p else s
     xi_total = i.a[: form.p] - i.measurement.terms.kappa @ i.u
     dw = np.concatenate((w[form.n : 2 * form.n], i.a, ds[form.order * form.p :]))
@@ -124,8 +135,8 @@ class Walker(ClosedLoop[Biped]):
     - slope [rad]: of the ground, positive downhill; None: that of the gait that `walk` gets, else level.
     - ground_steps: where the ground falls or rises, as `StepDown` and `StepUp`.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
-    - stones: where feet may land, for the certificate of a walking step; the controller does not get them from
-      here.
+    - stones: where feet may land; a finished walk is judged by them (`analysis.certificate`), and a controller
+      gets them apart from here, as an argument of its own.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.
 
@@ -134,7 +145,7 @@ class Walker(ClosedLoop[Biped]):
     'COMPLETED'
     """
 
-    SUCH_AS = "Walker(biped, controller); a Scenario walks with walk_scenario"
+    SUCH_AS = "Walker(biped, controller); a Scenario walks with walk_scenario"  # for error messages
 
     plant: Biped
     model: Biped | None = None
@@ -151,6 +162,7 @@ class Walker(ClosedLoop[Biped]):
         if self.disturbance is not None:
             self.disturbance.check_size(self.plant.n)
         check_ends(self.max_step_time, self.fall_height, self.runaway_speed, self.runaway_torque)
+        # above -1, so that (1 + gain) v+ keeps the sign of each rate
         gain, n = self.impact_gain, self.plant.n
         if gain and not (len(gain) == n and all(math.isfinite(e) and e > -1.0 for e in gain)):
             raise InputError(
@@ -165,7 +177,7 @@ class Walker(ClosedLoop[Biped]):
         The swing foot is then below the ground and comes down, ahead of the hip. A foot that is not yet ahead
         may begin below the ground, as one of a leg without knees does in the middle of a walking step.
         """
-        # `along` with the foot's velocity gives the rate of its clearance
+        # clearance is z + x tan(slope) + const., so `along` . (x', z') is its rate
         x, _ = self.plant.swing_foot(q)
         depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.ground_slope), 1.0])
         falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
@@ -205,8 +217,8 @@ class Walker(ClosedLoop[Biped]):
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
         """x+ (nx,) after the impact at t [s], x (nx,) being x-, with the mode that begins.
 
-        None where the swing foot is not more than LEAST_STEP ahead of the stance foot: its touch of the ground
-        is then ignored.
+        None where the swing foot is not more than LEAST_STEP, 1 mm, ahead of the stance foot: its touch of the
+        ground is then ignored, as a leg without knees scuffs the ground in mid-swing.
         """
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
@@ -242,11 +254,12 @@ class Walker(ClosedLoop[Biped]):
         return self.fall_height * float(np.linalg.norm(self.plant.hip(straight)))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """Three event functions of the single support `mode`: clearance of the swing foot [m] (an impact),
-        height of the hip over its limit [m] (FELL), time left [s] (STALLED). An event is where one falls
-        through zero.
+        """Three event functions of the single support `mode`: clearance of the swing foot [m], at whose zero
+        the impact is; height of the hip over its limit [m], at whose zero the run ends as FELL; time left [s],
+        at whose zero it ends as STALLED. Only a zero where the function falls counts.
         """
         n = self.plant.n
+        # each with its name, its function of (t, x), and what follows: a state after it, or the end of the run
         return (
             Guard(
                 FOOT_STRIKE,
@@ -281,6 +294,7 @@ class Walker(ClosedLoop[Biped]):
         if (form := self.split_form()) is None:
             return None
 
+        # N_E with all its rows, of which `remainder` computes row 1 alone
         def on_all_rows(t: float, w: Array, E: Array) -> tuple[Array, Array]:
             N_w, forced = remainder(self, form, t, w, E, mode)
             N_E = np.zeros((len(form.A), form.p))

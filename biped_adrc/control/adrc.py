@@ -4,12 +4,12 @@
 
 q_b (p,) are the joints with motors, q_b'' = kappa u + xi by (13), with kappa (p, p) and xi (p,) [rad/s^2]; x1^
 is the estimate of q_b, x2^ that of q_b'. xi^ lumps model error and external torques into one signal per joint;
-the nominal model gives kappa alone (and, through Theta'' in q_d'', the unactuated row). For a virtual
+of the nominal model the law uses kappa alone (and, for Theta'' in q_d'', the unactuated row). For a virtual
 constraint q_d = h(Theta), with the phase Theta = c q, q_d'' contains h' Theta'' and so the torque itself:
-`tracking` solves this loop.
+module `tracking` solves this algebraic loop. ^ marks an estimate.
 
 Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it measures q_b, its input is kappa u for the
-torque applied, and xi^ is what remains.
+torque applied, and xi^ estimates the rest of q_b''.
 
 In assisted ADRC the observer contains the nominal model's xi, and estimates the remaining disturbance d.
 
@@ -17,9 +17,9 @@ In assisted ADRC the observer contains the nominal model's xi, and estimates the
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi - d^)
 
 Its observer has m extended states, for d and its derivatives. With m = 0 there is no d^, and the law is NPD
-(28) on the angles and rates of an observer in place of measured ones. With m >= 1 the observer has less to
-follow than in (20), where all of xi is a disturbance: (20) needs kappa alone of the model, assisted ADRC all of
-it.
+(28), feedback linearisation with PD action, on the angles and rates of an observer in place of measured ones.
+With m >= 1 the observer has less to follow than in (20), where all of xi is a disturbance: (20) needs kappa
+alone of the model, assisted ADRC all of it.
 """
 
 from __future__ import annotations
@@ -45,10 +45,10 @@ from biped_adrc.observers.gpi import GPIObserver
 class ADRCController(ObservingController):
     """ADRC, eq. (20), with an observer that is its whole state; Table I and Table II by default.
 
-    reference: q_d, which the joints track. observer: of xi (p,) [rad/s^2], by default (17) with the poles of
-    Table I. gains: K_p [1/s^2], K_d [1/s]. solve_theta: whether the loop through Theta'' is solved; else
-    h' Theta'' is dropped, as the paper prints it. reset: what happens to the observer at
-    impact; by default it starts anew there.
+    reference: q_d, which the joints track. observer: of xi (p,) [rad/s^2], by default the paper's (17) with the
+    poles of its Table I. gains: K_p [1/s^2], K_d [1/s]. solve_theta: whether the loop through Theta'' is
+    solved; else h' Theta'' is dropped, as the paper prints it. reset: what happens to the observer at impact;
+    by default it starts anew there.
 
     >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
@@ -62,7 +62,9 @@ class ADRCController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """q_b [rad], q_b' [rad/s] and the nominal model's xi [rad/s^2], each (p,)."""
+        """The observer's measurement q_b [rad], and q_b' [rad/s] and the nominal model's xi [rad/s^2], which
+        only its start and its reset use; each (p,).
+        """
         return measured(m)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
@@ -71,10 +73,13 @@ class ADRCController(ObservingController):
 
     def torque(self, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
         """u (p,) [N m] of (20) for the point r of the reference and the observer's estimates x."""
+        # `joint_estimate` is x itself here; it differs in `AssistedADRCController`
         return tracking_torque(self.gains, r, self.joint_estimate(x, m), m, self.solve_theta)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2) when the rates q' change by each column of a (n, 2): its first p rows."""
+        """Change of q_b' (p, 2) when the rates q' change by each column of a (n, 2), such as by an impulse in x
+        and one in z: the first p rows of a.
+        """
         return a[: m.terms.kappa.shape[0]]
 
     def error_system(self) -> ErrorSystem | None:
@@ -91,7 +96,9 @@ class AssistedADRCController(ADRCController):
     observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(500.0, 1))
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """q_b [rad], q_b' [rad/s] and d = 0, each (p,): the nominal model takes itself for exact."""
+        """The observer's measurement q_b [rad], and q_b' [rad/s] and d = 0 [rad/s^2], which only its start and
+        its reset use: there the model is taken for exact; each (p,).
+        """
         return Estimate(m.q_b, m.v_b, np.zeros(len(m.q_b)))
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
@@ -103,5 +110,7 @@ class AssistedADRCController(ADRCController):
         return x._replace(disturbance=m.terms.xi + x.disturbance)
 
     def error_system(self) -> ErrorSystem | None:
-        """None: an `ErrorSystem` is for the input kappa u alone."""
+        """None, so no exponential integration method: an `ErrorSystem`, linear error dynamics of an observer,
+        holds for the input kappa u, and here xi is added to that.
+        """
         return None

@@ -1,29 +1,32 @@
 """Wrappers: controllers around any controller, which call the one inside (`inner`).
 
-A *tick* is a sample instant. A subclass writes the methods that differ. It names no class of controllers, so
-that every controller which compiles to machine code still does so inside a wrapper. `friction_feedforward` and
-`delayed.Predicted` act all the time, as does an additional torque a, such as a learner's, beside the torque u_i
-of the controller inside:
+A *tick* is a sample instant. A subclass of `Around` writes the methods in which it differs from `inner`. No
+wrapper asks of which class `inner` is, so a controller that compiles to machine code does so inside a wrapper
+too. `friction_feedforward` and `delayed.Predicted` act all the time, as does an additional torque a, such as a
+learner's, beside the torque u_i of the controller inside:
 
     u = u_i + a
 
 The controller inside gets the sum that acts: its observer does not take a for a disturbance, and so does not
-work against it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it
-from its vector of parameters, Python from the array that the wrapper was made with, which its owner may
-overwrite. So a `Stepper`, which runs a walk tick by tick, sets another a before each, and compiles nothing.
+work against it. Around `Passive`, where u_i = 0, the torque is a itself. a (p,) [N m] is a parameter: machine
+code reads it from its vector of parameters, Python from the array that the wrapper was made with, which its
+owner may overwrite. So a `Stepper`, which runs a walk tick by tick, sets a new a before each tick, and compiles
+nothing.
 
 Across a touchdown a *policy*, a wrapper, acts for the time in which contact settles. Policy `Hold`:
 
-    s <- initial_state(m)  at each tick with t_step < T,   s <- correct(s, m)  at the others
+    s <- initial_state(m)  at each tick with t_step < T,   s <- correct(s, m)  at the other ticks
 
+s is the state of the controller inside, m the measurement, T [s] the length of the window after a touchdown.
 t_step is the time since the last touchdown that the controller knows of; the start of a run counts as one. A
 contact that takes time moves the joints by forces that no observer knows, and an observer takes them for a
 disturbance. While the observer is held in its initial state, the torque is that of the model on measured rates:
-ADRC then is NPD. The last such tick predicts with its torque, so that from there on the observer runs as from a
-start.
+ADRC then is NPD, which takes xi from the model. As every tick, the last of these ends with `predict` under its
+torque, so after the window the observer runs as after the start of a run.
 
 Policies act at ticks, so they work in sampled time alone. With T = 0 the walk is that of the controller inside,
-bit for bit. Around an outer loop they would restart that loop; put the outer loop around the policy.
+bit for bit. Around an outer loop (a controller that corrects the reference of the one inside) policies would
+restart that loop; put the outer loop around the policy.
 
 `AcrossContact` is the base of all policies; `ContactWindow` of those with a T. `impact_invariant` is another
 policy; more, as files that run, are in `examples/policies`. What an observer does at the instant of the
@@ -54,12 +57,14 @@ class Around(Controller):
 
     @property
     def needs_body(self) -> bool:  # type: ignore[override]
-        """Whether the controller inside needs `Measurement.body`."""
+        """Whether the controller inside needs `Measurement.body`, the model's gravity and ground force."""
         return self.inner.needs_body
 
     @property
     def reads_impulse(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The methods of the controller inside that read `Measurement.impulse`."""
+        """Names of the methods of the controller inside that read `Measurement.impulse`, the changes of the
+        rates by an impulse on the striking foot.
+        """
         return self.inner.reads_impulse
 
     def output(self, s: Any, m: Measurement) -> Array:
@@ -108,7 +113,7 @@ class AcrossContact(Around):
     """Base of the policies across a touchdown, which act in sampled time only."""
 
     def continuous(self) -> Self:
-        self._only_sampled()
+        self._only_sampled()  # raises InputError
 
 
 @dataclass(frozen=True)
@@ -128,6 +133,7 @@ class Hold(ContactWindow):
     """A policy that restarts the observer of `inner` at each tick for `window` [s] after a touchdown."""
 
     def correct(self, s: Any, m: Measurement) -> Any:
-        # both are computed: machine code has no branch here
+        # both are computed: machine code has no branch here; t_step [s] is the time since the touchdown, until
+        # is T less the round-off of times
         fresh, run = self.inner.initial_state(m), self.inner.correct(s, m)
         return chosen(m.t_step < self.until, fresh, run)

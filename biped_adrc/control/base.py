@@ -7,12 +7,14 @@ A *tick* is a sample instant; s' is ds/dt. The state s is passed in and handed b
 state needs `output` alone and works in both time bases. The `u` that `flow` and `predict` get is the torque
 applied, after saturation. Of the n coordinates q the first p, q_b, are the joints with motors; the others are
 q_N. The nominal model is the one that controllers know: D q'' + Omega = B u, hence q_b'' = kappa u + xi.
+Symbols: D (n, n) the inertia matrix, Omega (n,) [N m] Coriolis and gravity terms, B the rows with motors, kappa
+(p, p) [1/(kg m^2)] the input gain, xi (p,) [rad/s^2] the acceleration of q_b without torques.
 
 At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
 instant, and the observer inside gets that torque and no other, so it does not wind up at a limit.
 
-A controller is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
-machine code (`biped_adrc.core.part`).
+A controller is a frozen dataclass that writes these methods. Python calls them, or the engine, the package's
+compiler (`biped_adrc.core.part`), turns them into machine code.
 
 `Passive` sends no torque: u = 0, for passive walkers and for the robot's own motion.
 A compass robot walks down a slope with no more than that (McGeer, Int. J. Robotics Research 9(2), 1990). Tests
@@ -149,8 +151,8 @@ class Controller(Part):
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
         """State s of the controller after an impact, from s before it; by default the same.
 
-        after: the measurement after the impact. swap (p,): relabelling of the joints, as the legs swap, for
-        `types.relabelled`.
+        after: the measurement after the impact. swap (p,), whole numbers: as the legs swap, entry i of a row x
+        of the joints becomes entry swap[i] of (x, -x), by `types.relabelled`.
         """
         return s
 
@@ -164,7 +166,7 @@ class Controller(Part):
         """
         return self
 
-    @once
+    @once  # computed once for each controller and period
     def at_ticks(self, period: float) -> Controller:
         """Call `sampled`, and check its result. Raises InputError for a controller, also one inside, whose
         state flows in continuous time, but that has no `predict` for ticks.
@@ -229,7 +231,9 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     first: dict[str, Any] = {"output": u}
     for name, method in calls.items():
         result = getattr(controller, name)(s, *method)
+        # shapes alone: a state that is not finite is reported where the walk meets it
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
+    # other: any measurement that differs from m
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, method in calls.items():
         # a call at another rate, which a memory in the object would keep

@@ -3,24 +3,28 @@
     y = q_b - q_d,   y'' = M q_b'' - drift - H_N a_N = mu
     eta = (y / eps, y'),   V = eta' P eta,   P = [[sqrt 3, 1], [1, sqrt 3]] (x) I
 
-    min  |mu|^2 + p delta^2   over mu, delta
+    min  |mu|^2 + w delta^2   over mu, delta
     s.t. V' <= -c V / eps + delta                 c = 1 / (1 + sqrt 3)
          |u| <= u_max,   F_N >= F_min,   |F_T| <= friction F_N
 
-q_b (p,) are the joints with motors, q_b'' = a = kappa u + xi; q_N the other coordinates, q_N'' = A_N a + a_N;
-q_d'' = drift + H q'' with H = (H_b, H_N), and M = I - H_b - H_N A_N. mu [rad/s^2] is the input of the program.
-F_T, F_N [N] are the tangential and the normal force of the ground on the stance foot, ' is d/dt or a transpose.
-eps [s] sets how fast V falls, p is the weight of the relaxation delta, (x) the Kronecker product. P solves the
-Riccati equation of the double integrator for Q = I; c = 1 / lambda_max(P). V' + c V / eps = psi_0 + psi_1 mu is
-affine in mu, and so are u = kappa^-1 (a - xi), where a = M^-1 (mu + drift + H_N a_N), and the force of the
-ground F = F_a q'' + F_0 of the nominal model. With no limit active it is the law of least norm, which is tried
-first: mu = -psi_0 psi_1 / (|psi_1|^2 + 1 / p) for psi_0 > 0, else 0. Where psi_0 > 0 then
+    q_b, q_N    joints with motors (p,), and the other coordinates [rad]; ' is d/dt or a transpose
+    a           q_b'' = a = kappa u + xi (p,) [rad/s^2] by the nominal model, with the torque u (p,) [N m]
+    A_N, a_N    q_N'' = A_N a + a_N by the nominal model
+    drift, H    q_d'' = drift + H q'' of the reference q_d, H = (H_b, H_N); M = I - H_b - H_N A_N (p, p)
+    mu          input of the program, the acceleration y'' (p,) [rad/s^2]
+    eps, w      time scale in which V falls [s], and the weight of the relaxation delta; (x): Kronecker product
+    F_T, F_N    tangential and normal force of the ground on the stance foot [N], F = F_a q'' + F_0
 
-    V' + c V / eps = psi_0 / (1 + p |psi_1|^2),   psi_1 = 2 (y / eps + sqrt 3 y')
+P solves the Riccati equation of the double integrator for Q = I; c = 1 / lambda_max(P). V' + c V / eps = psi_0
++ psi_1 mu is affine in mu, and so are u = kappa^-1 (a - xi), where a = M^-1 (mu + drift + H_N a_N), and F.
+Where no limit is active the program has the solution of least norm, which is tried first: mu = -psi_0 psi_1 /
+(|psi_1|^2 + 1 / w) for psi_0 > 0, else 0. Where psi_0 > 0 then
 
-V falls as exp(-c t / eps) only where p |psi_1|^2 >> 1. Where it is below 1 there is a dead zone: mu fades, and
-V may grow, by sqrt(3/2) V / eps at most, until it is left. At rest it is |y| < eps / (2 sqrt p), 5e-5 rad with
-the defaults; p = 1e9 makes it 1.6e-7 rad.
+    V' + c V / eps = psi_0 / (1 + w |psi_1|^2),   psi_1 = 2 (y / eps + sqrt 3 y')
+
+V falls as exp(-c t / eps) only where w |psi_1|^2 >> 1. States at which w |psi_1|^2 is below 1 are a dead zone:
+mu fades, and V may grow, by sqrt(3/2) V / eps at most, until the state leaves it. At rest the dead zone is |y|
+< eps / (2 sqrt w), 5e-5 rad with the defaults; w = 1e9 makes it 1.6e-7 rad.
 
 Ames, Galloway, Sreenath, Grizzle, IEEE TAC 59(4), 2014; Galloway, Sreenath, Ames, Grizzle, IEEE Access 3, 2015.
 
@@ -74,14 +78,14 @@ class Affine(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    """Constraints G z <= h of the program, for z = (mu, sqrt p delta) (p + 1,), where p under the root is the
-    weight of delta; the rows of the ground come last.
+    """Constraints G z <= h of the program, for z = (mu, sqrt w delta) (p + 1,); the rows of the ground come
+    last.
 
-    Scaling delta by the root of its weight makes the cost |z|^2, which needs no matrix.
+    Scaling delta by the root of its weight w makes the cost |z|^2, which needs no matrix.
     """
 
     G: Array
-    """(number of rows, p + 1), p of the joints."""
+    """(number of rows, p + 1)."""
     h: Array
     """(number of rows,)."""
     ground: int
@@ -93,14 +97,15 @@ def decrease(y: Array, dy: Array, eps: float) -> Decrease:
     a = y / eps  # eta = (a, dy); below, products of the two halves of eta
     aa, ab, bb = float(a @ a), float(a @ dy), float(dy @ dy)
     V = ROOT * aa + 2.0 * ab + ROOT * bb
+    # V' for mu = 0, and c V / eps; ROOT is sqrt 3
     psi_0 = 2.0 * (ROOT * ab + bb) / eps + V / (eps * (1.0 + ROOT))
     return Decrease(V, psi_0, 2.0 * (a + ROOT * dy))
 
 
 def least_norm(d: Decrease, relaxation: float) -> Array:
-    """mu (p,) [rad/s^2] of least |mu|^2 + p delta^2 without limits; zero where V falls fast enough by itself.
+    """mu (p,) [rad/s^2] of least |mu|^2 + w delta^2 without limits; zero where V falls fast enough by itself.
 
-    relaxation [1]: the weight p of delta^2.
+    relaxation [1]: the weight w of delta^2.
     """
     return d.psi_1 * (-max(d.psi_0, 0.0) / (float(d.psi_1 @ d.psi_1) + 1.0 / relaxation))
 
@@ -108,8 +113,8 @@ def least_norm(d: Decrease, relaxation: float) -> Array:
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
     """Torque and ground force as affine functions of mu (p,), by which limits on them become rows of the QP.
 
-    r: the reference now. Raises SingularError where M, and so L = M kappa of y'' = L u + xi_y, is exactly
-    singular.
+    r: the reference now. Raises SingularError where M, and so L = M kappa, the factor of u in y'' = L u + ..,
+    is exactly singular.
     """
     terms, body, p = m.terms, body_of(m), len(r.q_d)
     rest = r.drift + r.H[:, p:] @ terms.a_N
@@ -129,7 +134,7 @@ class CLFQPController(Controller):
 
     reference: q_d, which the joints track. epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2
     and sqrt 3 / eps are like K_p and K_d of a PD. torque_limit: u_max [N m], friction [1] (of a flat ground)
-    and least_force: F_min [N], each None for no such limit. relaxation [1]: p. Raises InputError for numbers
+    and least_force: F_min [N], each None for no such limit. relaxation [1]: w. Raises InputError for numbers
     that are not positive; needs qpsolvers and daqp.
     """
 
@@ -154,9 +159,9 @@ class CLFQPController(Controller):
             )
         r = self.reference(m.t, m.q, m.v)
         d = decrease(m.q_b - r.q_d, m.v_b - r.dq_d, self.epsilon)
-        # `to`: from mu to torque and force
+        # d: V and its decrease as a function of mu; `to`: torque and force as functions of mu
         to, mu = affine(r, m), least_norm(d, self.relaxation)
-        u, program = to.U @ mu + to.u_0, self.program(d, to)
+        u, program = to.U @ mu + to.u_0, self.program(d, to)  # u: torque of the law of least norm
         # row 0, the decrease of V, holds by the choice of mu; delta, the last column, is in no other row
         if np.all(program.G[1:, :-1] @ mu <= program.h[1:]):  # all limits are kept
             return u
@@ -190,7 +195,7 @@ class CLFQPController(Controller):
             h.append(-(cone @ F_1))
         rows = np.zeros((sum(map(len, G)), p + 1))
         np.concatenate(G, out=rows[:, :p])
-        # -delta, by the last entry of z, which is sqrt p delta
+        # -delta, by the last entry of z, which is sqrt w delta
         rows[0, p] = -1.0 / math.sqrt(self.relaxation)
         return _Rows(rows, np.concatenate(h), ground)
 
@@ -208,6 +213,6 @@ def _least(G: Array, h: Array) -> Array | None:
     """The vector z of least |z| that fulfils G z <= h, row by row; None when the solver finds none."""
     from qpsolvers import solve_qp
 
-    n = G.shape[1]
+    n = G.shape[1]  # primal_tol: how far a row may be exceeded
     z: Array | None = solve_qp(np.eye(n), np.zeros(n), G, h, solver="daqp", primal_tol=1e-9)
     return z if z is not None and math.isfinite(z.dot(z)) else None

@@ -2,7 +2,7 @@
 
 *Delayed*, in continuous time: the torque acts `delay` seconds late.
 
-    u(t) = u_c(t - d),   exp(-s d) ~ N(s d) / D(s d)              u_c: the command
+    u(t) = u_c(t - d),   exp(-s d) ~ N(s d) / D(s d)     u_c: the command, s: Laplace's variable
 
 by the Pade approximant with a numerator one degree lower than the denominator of degree k = `order`:
 
@@ -17,20 +17,22 @@ direct feedthrough. Each joint has the states R (k,); ' is d/dt:
     d R_i' = R_(i+1),   d R_k' = (u_c - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
 
 With an unknown delay the inner observer is fed with the command, as if it acted at once; with a known delay,
-with the torque that acts. At impact the legs swap in the delay line as in the controller. A torque limit of the
-Walker acts behind the delay line. A limit of the drives (`torque_limit`) acts before it; with an unknown delay
-the observer is then fed with the limited command.
+with the torque that acts. At impact the legs swap in the delay line as in the controller. The torque limit of
+the plant (`torque_limit` of a Walker) acts behind the delay line. A limit of the drives (`torque_limit` of this
+wrapper) acts before it; with an unknown delay the observer is then fed with the limited command.
 
 *Prediction* over a known delay, in sampled time: the controller gets the state at which its torque will act.
-A *tick* is a sample instant, and a(u) the acceleration q'' (n,) by the nominal model under the torque u.
+A *tick* is a sample instant, (q, v) the measured angles and rates (n,), and a(u) the acceleration q'' (n,) by
+the nominal model under the torque u, with inertia matrix D_s and Coriolis and gravity terms Omega; B_s u is u
+in the rows of the joints with motors.
 
     q^ = q + d v + d^2/2 a(u_q),   v^ = v + d a(u_v)          D_s a + Omega = B_s u at (q, v)
 
-u_v is the mean of the torques that act until t + d, and u_q their mean with the weight 2 (t + d - s) / d^2 at
-the instant s. Both are exact if q'' depends on time through the torque alone. The torque computed at a tick
-acts d later. So the torques on their way are the last N = ceil(d / T), with T the period of the ticks; they are
-a state U (N, p) beside that of the controller inside. Each acts for a period T, but the oldest one only for the
-remaining d - (N - 1) T.
+u_v is the mean of the torques that act from now, t, until t + d, and u_q their mean with the weight 2 (t + d -
+tau) / d^2 at the instant tau. Both are exact if q'' depends on time through the torque alone. The torque
+computed at a tick acts d later. So the torques on their way are the last K = ceil(d / T), with T the period of
+the ticks; they are a state U (K, p) beside that of the controller inside. Each acts for a period T, but the
+oldest one only for the remaining d - (K - 1) T.
 
 The controller inside gets the nominal model at (q^, v^), t + d, and the torque of this tick: for its observer
 there is no delay. `SampledTime(delay_known=True)` shifts the torque instead and leaves the state as it is
@@ -77,7 +79,7 @@ class QueueState(NamedTuple):
     inner: Any
     """State of the controller inside."""
     U: Array
-    """Torques on their way (N, p) [N m], the oldest first."""
+    """Torques on their way (K, p) [N m], the oldest first."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,7 @@ class Delayed(Around):
         z = self.inner.initial_state(m)
         u = self.asked(z, m)
         R = np.zeros((self.order, len(u)))
+        # at rest, R' = 0: D_0 R_1 = u, and all further rows are 0; N_0 R_1 = u then leaves the line
         R[0] = u / self.pade[1][0]
         return DelayState(z, R)
 
@@ -160,15 +163,16 @@ def pade(k: int) -> tuple[Array, Array]:
 
 
 def _weights(d: float, period: float) -> tuple[Array, Array]:
-    """Weights (N,) of the N torques on their way in the means u_v and in u_q, the oldest first.
+    """Weights (K,) of the K torques on their way in the means u_v and in u_q, the oldest first.
 
-    d [s]: the delay. period [s]: T of the ticks. N = ceil(d / T), so N = 1 for d <= T.
+    d [s]: the delay. period [s]: T of the ticks. K = ceil(d / T), so K = 1 for d <= T.
     """
-    # WHOLE: a delay that is longer than whole periods by round-off alone has no torque more
+    # WHOLE, 1e-9 of a period: a delay longer than whole periods by round-off alone needs no torque more
     count = math.ceil(d / period - WHOLE)
     # [s], from the first instant at which each torque acts, now for the oldest one, to t + d
     left = np.minimum(np.arange(count, 0, -1) * period, d)
     after = np.append(left[1:], 0.0)  # [s], from the end of its action to t + d
+    # the integrals of the weights 1 / d and 2 (t + d - tau) / d^2 over the action of each torque
     return (left - after) / d, (left**2 - after**2) / d**2
 
 
@@ -177,7 +181,7 @@ class Predicted(Around):
     """A wrapper that predicts the state over d = `prediction` [s] for `inner`; its state is a `QueueState`.
 
     period [s]: T of the ticks, which `sampled` sets; None until then.
-    Raises InputError for d that is not positive, or longer than `timing.LONGEST_DELAY` periods.
+    Raises InputError for d that is not positive, or longer than 100 periods.
     """
 
     # none: `ImpactInvariant`, which uses this, goes inside
@@ -196,23 +200,25 @@ class Predicted(Around):
 
     @derived
     def weights(self) -> tuple[Array, Array]:
-        """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `_weights`."""
+        """Weights of the K torques on their way in the means u_v and u_q, each (K,), the oldest first."""
         # before `sampled` sets the period there is one torque on its way
         return _weights(self.prediction, self.period or self.prediction)
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
-        """The measurement d later, predicted by the nominal model under the torques U (N, p) [N m].
+        """The measurement d later, predicted by the nominal model under the torques U (K, p) [N m].
 
         Its `t` is d later too; `step` and `t_step` remain those of m.
         """
 
         def acceleration(u: Array) -> Array:
+            # of the joints with motors, q_b'' = kappa u + xi, then of the others, q_N'' = A_N q_b'' + a_N
             a = m.terms.kappa @ u + m.terms.xi
             return np.concatenate((a, m.terms.A_N @ a + m.terms.a_N))
 
         d, (of_rate, of_angle) = self.prediction, self.weights
         # (p,) a weighted mean of the torques, (n,) the acceleration under it
         a_q, a_v = acceleration(of_angle @ U), acceleration(of_rate @ U)
+        # elsewhere(q, v): the measurement in that state, with the model's terms there
         assert m.elsewhere is not None
         q, v = m.q + d * m.v + 0.5 * d**2 * a_q, m.v + d * a_v
         return m.elsewhere(q, v)._replace(t=m.t + d)

@@ -5,12 +5,13 @@
     psi(x1, x2) = -sign(x2) |x2|^alpha - sign(phi) |phi|^(alpha / (2 - alpha))
     phi(x1, x2) = x1 + sign(x2) |x2|^(2 - alpha) / (2 - alpha),   0 < alpha < 1
 
-J = dy/dq (p, n) and drift are those of the outputs, D q'' + Omega = B u is the nominal model, and eps [s] a
-time scale: psi stabilises x1' = x2, x2' = psi in the time t / eps. Bhat, Bernstein, IEEE TAC 43(5), 1998; for
-walking Grizzle, Abba, Plestan, IEEE TAC 46(1), 2001, with alpha = 0.9, eps = 0.1. On phi = 0 an output comes to
-rest after eps |eps y'|^(1 - alpha) / (1 - alpha) s. For alpha = 1 the law would be linear, with a double pole
-at -1 / eps. It is continuous but not smooth at rest: integration methods with step control take small steps
-there, and smaller ones for smaller alpha.
+J = dy/dq (p, n) and drift are those of the outputs, D q'' + Omega = B u is the nominal model with inertia
+matrix D, Coriolis and gravity terms Omega and torques u, and eps [s] a time scale: psi stabilises x1' = x2, x2'
+= psi in the time t / eps. Bhat, Bernstein, IEEE TAC 43(5), 1998; for walking Grizzle, Abba, Plestan, IEEE TAC
+46(1), 2001, with alpha = 0.9, eps = 0.1. On phi = 0 an output comes to rest after eps |eps y'|^(1 - alpha) / (1
+- alpha) s. For alpha = 1 the law would be linear, with a double pole at -1 / eps. It is continuous but not
+smooth at rest: integration methods with step control take small steps there, and smaller ones for smaller
+alpha.
 
 Finite time matters since the error is then zero before the impact, and the zero dynamics alone decide on
 stability. The torque comes from `output_npd.linearising_torque`, as that of any law w for y''.

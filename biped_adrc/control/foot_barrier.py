@@ -105,9 +105,12 @@ class FootBarrier(Around):
 
     @derived
     def swing(self) -> LinkPoint:
-        """The swing foot as a function of q in closed form, from its vectors along the links."""
+        """The swing foot as a function of q in closed form: x + i z = sum_k d_k exp(i a_k), with vectors d [m]
+        along the links and absolute angles a = A q [rad].
+        """
         robot = robot_of(self.biped)
         A, K = robot.A.astype(float), robot.K
+        # the last field is for moments at the point, which are not needed here
         return LinkPoint(A, K.foot_re, K.foot_im, np.zeros(len(A)))
 
     @derived
@@ -120,8 +123,9 @@ class FootBarrier(Around):
 
         q (n,) [rad], v (n,) [rad/s].
         """
-        k, t = self.swing, turned(self.swing.A, q)
+        k, t = self.swing, turned(self.swing.A, q)  # t: cos and sin of the absolute angles a = A q
         rate2 = (k.A @ v) ** 2
+        # [0] is the row of x, [1] would be that of z
         J: Any = jacobian(k.A, t, k.re, k.im)[0]
         x: Any = point(t, k.re, k.im)[0]
         # x is a sum of cos a and sin a of absolute angles a = A q, and (cos a)'' = -a'^2 cos a for a'' = 0
@@ -133,6 +137,7 @@ class FootBarrier(Around):
 
         x [m] is x_r, where the reference has its swing foot.
         """
+        # None: the reference steps on the stones itself
         L_r = L if self.step is None else self.step
         # beta = 10 z^3 - 15 z^4 + 6 z^5; 0 before the foot passes the stance foot, 1 behind the end of the step
         z = np.minimum(np.maximum(x / L_r, 0.0), 1.0)
@@ -147,9 +152,10 @@ class FootBarrier(Around):
         measured phase Theta = c q.
         """
         c, p, terms = self.phase, len(m.terms.kappa), m.terms
-        r = own_reference(self.inner)(m.t, m.q, m.v)
+        r = own_reference(self.inner)(m.t, m.q, m.v)  # q_d, q_d', and q_d'' = drift + H q''
 
-        # the coordinates (n,) of the reference, from its phase and its joints; linear, so for rates too
+        # the coordinates (n,) of the reference, from its phase and its joints; linear, so for rates too; the
+        # last coordinate, without a motor, follows from Theta = c q
         def on_reference(theta: float, q_b: Array) -> Array:
             return np.append(q_b, (theta - c[:p] @ q_b) / c[p])
 
@@ -158,9 +164,9 @@ class FootBarrier(Around):
         R = np.vstack((r.H, (c - c[:p] @ r.H) / c[p]))  # q_r'' = R q'' + a_r
         x, dx, J, ddx = self.foot(m.q, m.v)
         x_r, dx_r, J_r, ddx_r = self.foot(q_r, v_r)
-        # behind the last stone any length will do, since `missing` is 0 there
+        # stones[k - 1] in step k; behind the last stone 1.0, as any length will do: `missing` is 0 there
         x_c, slope, bend = self.corridor(x_r, length_of(self.stones, m.step, 1.0))
-        # e'' = G q'' + g, with G (n,) until q_N'' is inserted
+        # slope, bend: dx_c/dx_r, d2x_c/dx_r2; e'' = G q'' + g, with G (n,) until q_N'' is inserted
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2
         return FootError(
@@ -173,12 +179,14 @@ class FootBarrier(Around):
 
         s: state of the controller inside. d is 0 within the bound, and behind the last stone.
         """
+        # None too for a controller without an observer
         x = self.inner.estimate(s, m) if self.observed else None
         f, xi, k = self.error(m), m.terms.xi if x is None else x.disturbance, self.rate
         # y = e'' + 2 lambda e' + lambda^2 e, which has to stay within +-bound
         y = f.G @ (m.terms.kappa @ u + xi) + f.g + 2.0 * k * f.de + k * k * f.e
         bound = k * k * self.tolerance
         d: Any = np.maximum(-bound - y, 0.0) - np.maximum(y - bound, 0.0)
+        # + 0.5: in machine code m.step is a float
         d = np.where(m.step < len(self.stones) + 0.5, d, 0.0)
         return d, f.G
 
@@ -200,6 +208,7 @@ class FootBarrier(Around):
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         """The inner state at the next sample instant; this one is counted if the torque u breaks a bound."""
+        # a bound that is exceeded by round-off alone is kept
         infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > _ROUND_OFF, 1.0, 0.0)
         return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 
@@ -214,6 +223,7 @@ def infeasible_instants(s: Any) -> int | None:
     """Number of infeasible sample instants that a controller's state s has counted; None without a barrier in
     it, or where the walk left no finite state.
     """
+    # wrappers around the barrier have its state inside of theirs
     while not isinstance(s, BarrierState):
         if not hasattr(s, "inner"):
             return None

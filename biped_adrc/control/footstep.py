@@ -2,28 +2,36 @@
 
     h = f + R + b(s) (g - f)
 
-h gives the angles q_d of the p joints as functions of the phase Theta = c q, Theta+ at the start of the step. A
-*family* has a constraint, its *member*, for each speed v [m/s] and step length L [m], and its *cycle* is the
-periodic walk on that. f and g are the members (v-, L) and (v+, L), functions of Theta; s is the share of the
-step in Theta, 0 to 1. R is a polynomial that brings f to the angles after impact, and fades out. v- is the
-speed of the member on which the step before ended, so that a step begins on its curve. L [m] is the length of
-the step, to the next *stone*, on which the foot has to come down, where there are stones. b rises from 0 at the
-decision, s = DECISION of `gait.family`, to 1 at SETTLED. Until the decision v+ is computed anew at each sample
-instant, from y = sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot, and from the
-estimate r [N m] of the torque that acts on the unactuated row from outside. v+ is the speed for which y at the
-next decision is
+A *family* of gaits (`gait.family`) has a constraint, its *member*, for each speed v [m/s] and step length L
+[m]; the *cycle* of a member is the periodic walk on it. Theta = c q is the phase, Theta+ at the start of a
+step.
+
+    h        angles q_d (p,) [rad] of the joints with motors in this step, a function of Theta
+    f, g     members (v-, L) and (v+, L), functions of Theta
+    v-, v+   speeds [m/s] of the members on which the step begins and ends; v- is v+ of the step before
+    L        length of the step [m], to the next *stone* where there are stones, on which the foot has to land
+    R        polynomial that brings f to the joints' angles after impact, and fades out
+    s        share of the step in Theta, 0 to 1
+    b        rises from 0 at the decision, s = DECISION = 0.35, to 1 at s = SETTLED = 0.9
+
+Until the decision v+ is computed anew at each sample instant, as the speed for which y at the decision of the
+next step is
 
     y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
 
-y_0 is the y of the cycle at the speed to keep, and y_free the y at the next decision if v+ is the speed whose
-cycle has y_0 under the torque r. delta^2 is the factor of the cycle's zero dynamics, by which an error of y
-shrinks from step to step if nothing is decided; so it becomes `pole` times as large. y_next is kept between
-those of the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map from step to step is
-used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state
-(Gong, Grizzle, arXiv 2008.10763).
+    y        sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot
+    r        estimate [N m] of the torque from outside on the unactuated row, of the coordinate without motor
+    y_0      y at the decision in the cycle at the speed to keep
+    y_free   y at the next decision without the correction: with the v+ whose cycle has y_0 under the torque r
+    delta    sigma just after the impact over sigma just before it, in the cycle
+
+Without the correction the error y - y_0 is delta^2 times as large at the next decision, with it `pole` times.
+y_next is kept between the y of the cycles at 0.5 m/s, below which the walk may stall, and at 1.1 m/s. The map
+from step to step is used as in H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the
+contact as its state (Gong, Grizzle, arXiv 2008.10763).
 
 The estimates of sigma and r come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N
-gravity's part of the unactuated row, in which no motor acts.
+gravity's part of the unactuated row.
 """
 
 from __future__ import annotations
@@ -89,17 +97,17 @@ class StepCurve:
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
         """h or c, and two derivatives by Theta, each (p,), at theta [rad]."""
-        mu = np.array((self.begin, self.L))
-        minus = self.family.curve(mu)[2]
+        mu = np.array((self.begin, self.L))  # (speed, step length) of the member f
+        minus = self.family.curve(mu)[2]  # Theta-, at the end of the step
         rate = 1.0 / (minus - self.plus)
         f, df, ddf = self.family.h(mu, self.plus, theta)
         g, dg, ddg = self.family.h(np.array((self.end, self.L)), self.plus, theta)
         b, db, ddb = blend(rate * (theta - self.plus))
-        # c is R, whose x is 1 at Theta+ and 0 at the end of the step; d is g - f
-        c, dc, ddc = ResetPolynomial(self.reset, minus, -rate)(theta)
+        # R is a polynomial in x, which falls from 1 at Theta+ to 0 at the end of the step; d is g - f
+        R, dR, ddR = ResetPolynomial(self.reset, minus, -rate)(theta)
         d, dd, ddd, db, ddb = g - f, dg - df, ddg - ddf, rate * db, rate * rate * ddb
-        h = f + c + b * d
-        dh, ddh = df + dc + b * dd + db * d, ddf + ddc + b * ddd + 2.0 * db * dd + ddb * d
+        h = f + R + b * d
+        dh, ddh = df + dR + b * dd + db * d, ddf + ddR + b * ddd + 2.0 * db * dd + ddb * d
         if self.base is None:
             return h, dh, ddh
         h_0, dh_0, ddh_0 = self.base.h(theta)
@@ -134,7 +142,7 @@ def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Ar
     mu: the member's (speed [m/s], step length [m]). plus: Theta [rad] where the step begins. slope: (p,).
     """
     h, dh, _ = family.h(mu, plus, plus)
-    # at the start of the step x of the polynomial is 1
+    # R is a polynomial in x, which falls from 1 at the start of the step to 0 at its end, Theta- = curve(mu)[2]
     return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - plus), q_b - h, slope - dh)
 
 
@@ -227,7 +235,7 @@ class Footstep(OuterLoop):
 
         The slope dq_b/dTheta after impact is that of the family, since rates measured there are noisy.
         """
-        L, plus = self.length(m.step), float(self.family.phase @ m.q)
+        L, plus = self.length(m.step), float(self.family.phase @ m.q)  # plus: Theta+ as measured
         # the entries behind delta^2, 2 W', J' are dq_b/dTheta just after impact
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
         reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
@@ -235,23 +243,26 @@ class Footstep(OuterLoop):
         return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset)
 
     def own_start(self, h: Constraint, m: Measurement) -> StepState:
-        """w at the start of a run. A run that starts in a step, later than EARLY, follows the member itself:
-        its R is zero, and its Theta+ that of the member.
+        """w at the start of a run; h is not used. A run that starts within a step, at a share above EARLY =
+        0.2, follows the member itself: its R is zero, and its Theta+ that of the member.
         """
+        # as if two steps of the usual length came before, and without a torque from outside
         w = self.begun(self.speed, self.step, self.step, 0.0, m)
         _, plus, minus = self.family.curve(np.array((self.speed, w.L)))
         early = (w.plus - plus) / (minus - plus) < EARLY
         return chosen(early, w, w._replace(plus=plus, reset=0.0 * w.reset))
 
     def own_jump(self, w: StepState, h: Constraint, after: Measurement) -> StepState:
+        # the step that ended has the length w.L, the one before it w.before
         return self.begun(w.end, w.before, w.L, w.r, after)
 
     def own_correct(self, w: StepState, m: Measurement) -> StepState:
         """Move the estimates of sigma and r on by a period (Euler), and compute v+ anew until the decision."""
         T, omega, x = self.period, self.bandwidth, w
-        e = m.terms.D[-1] @ m.v - x.sigma
+        e = m.terms.D[-1] @ m.v - x.sigma  # sigma by the measurement, less its estimate
         r = x.r + T * omega**2 * e
         sigma = x.sigma + T * (x.r - body_of(m).G[-1] + 2.0 * omega * e)
+        # from here on the share of the step in Theta: before the decision v+ is computed, later it is kept
         minus = self.family.curve(np.array((x.begin, x.L)))[2]
         early = (self.family.phase @ m.q - x.plus) / (minus - x.plus) < DECISION
         end = np.where(early, self.decision(x, sigma**2, r, m.step), x.end)
@@ -263,16 +274,17 @@ class Footstep(OuterLoop):
         x: state of the step. step: number of the single support.
         """
         steps, ahead = self.family.steps, self.length(step + 1)
-        begin = np.array((x.begin, x.before))
+        begin = np.array((x.begin, x.before))  # v-, and the length of the step before
 
         # y at the next decision if this step ends on the member of the speed v
         def following(v: float) -> float:
             return steps.next_square(y, begin, np.array((v, x.L)), ahead, r)
 
         y_0 = steps.cycle_square(self.speed, ahead)
-        # y_free: v is the speed whose cycle has y_0 under r
+        # y_free: y at the next decision with the v whose cycle has y_0 under r
         free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))
         goal = free + self.gain * (y_0 - free)
+        # the y of the cycles at 0.5 and 1.1 m/s
         low, high = (steps.cycle_square(v, ahead) for v in (SLOWEST, FASTEST))
         goal = np.minimum(np.maximum(goal, low), high)
         return self.zero(lambda v: following(v) - goal)

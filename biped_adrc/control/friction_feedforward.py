@@ -4,7 +4,7 @@
 
 u_i (p,) is the torque of the controller inside, viscous [N m s/rad] and static [N m] are the coefficients of
 the friction in each joint with a motor, share [1] how much of it is cancelled, q_d' the rates of a reference at
-the measured (Theta, Theta'), and w [rad/s] the width of the plant's own smoothed sign,
+the measured phase Theta = c q and its rate Theta', and w [rad/s] the width of the plant's own smoothed sign,
 `model.biped.STICTION_SPEED`. Measured rates have the noise of encoder counts, and static friction would change
 its sign with it; the rates of the reference are smooth, and equal to the true ones up to the tracking error.
 
@@ -85,9 +85,10 @@ def friction_feedforward(
 ) -> Controller:
     """Wrap a controller in the feedforward of the joint friction in the robot's record (robot.toml).
 
-    reference: whose rates are used. feedforward: the share [1].
+    reference: that whose rates q_d' are used. feedforward: the share [1].
     The robot may be loaded with friction or without. Raises InputError for a record without friction.
     """
+    # of all n coordinates; the first p are the joints with motors
     viscous, static = (x[: biped.p] for x in biped.friction_coefficients)
     if not (np.any(viscous) or np.any(static)):
         raise InputError(

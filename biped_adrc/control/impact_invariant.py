@@ -12,7 +12,7 @@ nothing of how well the robot tracks. The projection P removes these two directi
     N     change of the error y by 1 N s, in x and in z, below; (p, 2), and (n, 2) where y is the momentum
     D     (n, n) inertia matrix D_s of (11)
     H     (p, n) slope of the reference, q_d'' = drift + H q''
-    J     (2, n) Jacobian of the striking foot, J_m that of m p_com, m [kg] the robot's mass
+    J     (2, n) Jacobian of the striking foot, J_m that of m p_com, with m [kg] the robot's mass, p_com its COM
 
 J', N' are transposes, q', e' rates. The formula of a is that of the impact (7) of the paper, for the striking
 foot alone. Before touchdown J is J_2, of the swing foot. After touchdown J = 0: the foot that struck is then
@@ -21,8 +21,9 @@ inside uses
 
     rates        P e' in place of its rate error e' = q_b' - q_d', with N = a_b - H a, since q_d' of a virtual
                  constraint is a function of the measured rates and jumps with them
-    innovation   P (y - y^) in place of its observer's innovation y - y^; N = a_b for an observer of the joints'
-                 angles, a_b - H a for one of their error, D a for one of the momentum D q'
+    innovation   P (y - y^) in place of the innovation y - y^ of its observer, which measures y; N = a_b for an
+                 observer of the joints' angles, a_b - H a for one of their error, D a for one of the momentum
+                 D q'
 
 A touchdown is less than T away if the last one was less than T ago (t_step < T), or if by the phase Theta = c
 q, which is Theta- at the end of a step, the next one is expected in less than T: |Theta- - Theta| < T |Theta'|.
@@ -62,7 +63,7 @@ def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
 
     D (n, n): inertia matrix; body: terms of the same posture. The equation is the module's for a.
     """
-    J_m = body.F_a
+    J_m = body.F_a  # the factor of q'' in the force on the COM, m p_com'' = F_a q'' + ..
     about_com = D - J_m.T @ J_m / body.mass
     return solve_positive(
         about_com, J.T - J_m.T / body.mass, "the inertia about the centre of mass"
@@ -120,7 +121,7 @@ class ImpactInvariant(ContactWindow):
 
     def landed(self, m: Measurement) -> bool:
         """Whether the last touchdown was less than T ago; 1 or 0 where machine code is made of it."""
-        return m.t_step < self.until
+        return m.t_step < self.until  # T less the round-off of times
 
     def expected(self, m: Measurement) -> bool:
         """Whether at its rate now the phase is less than T from its end Theta-, before or behind it; 1 or 0
@@ -128,7 +129,7 @@ class ImpactInvariant(ContactWindow):
         """
         c, theta_minus = self.phase
         left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
-        return abs(left) < self.until * abs(rate)
+        return abs(left) < self.until * abs(rate)  # until: T less the round-off of times
 
     def with_impulse(self, m: Measurement) -> Measurement:
         """The measurement m with its `impulse`: a (n, 2) [1/(kg m)] of the foot that has just struck, or is

@@ -1,14 +1,17 @@
 """Feedback linearisation with a momentum-based disturbance observer.
 
-    D q'' + Omega = B u + zeta,   r -> zeta              observers.momentum
-    u = kappa^-1 (a_d - xi) - r_b - A_N' r_N             NPD (28) of the paper, less both parts of r through
-    (12) q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
+    D q'' + Omega = B u + zeta,   r -> zeta       r by the observer `observers.momentum`
+    u = kappa^-1 (a_d - xi) - r_b - A_N' r_N      NPD (28) of the paper, less the torque that cancels r in q_b''
+    q_N'' = A_N q_b'' + a_N + D22^-1 r_N          (12) of the paper with r, for Theta'' in q_d''
 
-q_b (p,) are the joints with motors, q_N the others. zeta (n,) [N m] is the external force, r = (r_b, r_N) its
-estimate, a_d = q_d'' + feedback. ' on q is d/dt, on a matrix a transpose. r_b is matched, one entry per motor;
-r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on q_N itself cannot be. For r =
-zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d) exactly, under any constant force.
-Unlike in ADRC the model compensates its own Omega, and the observer estimates the remaining force.
+q_b (p,) are the joints with motors, q_N the others. Symbols: D the inertia matrix, D22 its block of q_N, Omega
+Coriolis and gravity terms, kappa and xi input gain and disturbance of q_b'' = kappa u + xi, A_N and a_N of the
+rows without motors in (12), Theta the phase of a virtual constraint. zeta (n,) [N m] is the external force, r =
+(r_b, r_N) its estimate, a_d = q_d'' - K_d (q_b' - q_d') - K_p (q_b - q_d). ' on q is d/dt, on a matrix a
+transpose. r_b is matched, one entry per motor; r_N acts on the unactuated coordinate: its effect on the q_b is
+cancelled, that on q_N itself cannot be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p
+(q_b - q_d) exactly, under any constant force. Unlike in ADRC the model compensates its own Omega, and the
+observer estimates the remaining force.
 
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
@@ -74,9 +77,11 @@ class MomentumDOBController(ObservingController):
         return Estimate(m.terms.D @ m.v, none, none)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """beta = C' q' - G + B u (n,) [N m], the known part of pi', for the applied torque u (p,) [N m]."""
+        """beta = C' q' - G + B u (n,) [N m], the known part of the rate pi' of the momentum, with C the
+        Coriolis matrix, C' its transpose and G gravity, for the applied torque u (p,) [N m].
+        """
         body, p = body_of(m), m.terms.kappa.shape[0]
-        beta = body.turning - body.G
+        beta = body.turning - body.G  # turning: C' q'
         beta[:p] += u
         return beta
 
@@ -86,6 +91,7 @@ class MomentumDOBController(ObservingController):
         Angles and rates are the measured ones in m.
         Raises SingularError where the loop through Theta'' is singular.
         """
+        # the model as if the estimated force were part of its Omega
         terms = _pushed(m.terms, x.disturbance)
         joints = measured(m)._replace(disturbance=terms.xi)
         return tracking_torque(self.gains, r, joints, m._replace(terms=terms), self.solve_theta)

@@ -3,8 +3,9 @@
     u = kappa^-1 (q_d'' - K_d (q_b' - q_d') - K_p (q_b - q_d) - xi)
 
 q_b (p,) are the joints with motors, q_b'' = kappa u + xi by (13). q_d'' of a virtual constraint q_d = h(Theta)
-contains h' Theta'' and so the torque itself: `tracking` solves this loop. xi comes from the model, (14) without
-disturbances. The paper writes estimates x1^, x2^ here, though NPD has no observer: the measured state is used.
+contains h' Theta'' and so the torque itself: `tracking` solves this algebraic loop. xi comes from the model,
+(14) without disturbances. The paper writes estimates x1^, x2^ here, though NPD has no observer: the measured
+state is used.
 
 The paper compares ADRC with it: the same gains, and the model's xi in place of an estimated one. With a right
 model and no push both loops have the same error dynamics. A push, or an error of the model, that changes xi by

@@ -73,6 +73,7 @@ class NPIDController(Controller):
         s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0
         """
         w, zeta = self.filter_bandwidth, self.damping
+        # for each joint, where the gains are one per joint
         for K_p, K_d in np.broadcast(self.gains.K_p, self.gains.K_d):
             loop = [1.0, 2.0 * zeta * w, w * w, w * w * K_d, w * w * K_p, w * w * self.K_i]
             if not np.max(np.roots(loop).real) < 0.0:
@@ -116,6 +117,7 @@ class NPIDController(Controller):
         return held[:3, :3].copy(), held[:3, 3].copy()
 
     def output(self, s: FilterState, m: Measurement) -> Array:
+        # q_d'' contains q'', and so the torque: `solved_acceleration` solves for a = q_d'' + f
         r = self.reference(m.t, m.q, m.v)
         f = -self.gains.K_p * s.e - self.gains.K_d * s.de - self.K_i * s.total
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)

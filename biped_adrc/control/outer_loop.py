@@ -3,14 +3,16 @@
     h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (inner, own),   own = w
 
 h gives the angles q_d of the p joints as functions of the phase Theta = c q. The *core* is the controller
-inside all loops; the reference *in force* is h with the corrections of all loops. w is the loop's own state; it
-changes at impact, and between impacts only by `own_flow`. The inner controller, whichever it is, tracks the
-sum. Outer loops can be nested: their corrections add up.
+inside all loops; the reference *in force* is h with the corrections of all loops. s is the state of a loop, the
+state `inner` of the controller inside and the loop's own state w; w changes at impact, and between impacts only
+by `own_flow` in continuous time and `own_correct` in sampled time. The inner controller, whichever it is,
+tracks the sum. Outer loops can be nested: their corrections add up.
 
-An inner loop drives q_b - h(Theta) to zero, and cannot change how the zero dynamics respond to a push; an
-outer loop does so by changing h. The inner controller itself is not changed: at each call a copy of it tracks
-the corrected constraint. The core starts and jumps (changes its state at impact) last, when all corrections are
-known, since an observer of outputs starts from the error of the reference in force.
+An inner controller drives q_b - h(Theta) to zero, with q_b the joints with motors, and cannot change how the
+zero dynamics respond to a push; an outer loop does that by changing h. The inner controller itself stays as it
+is: at each call a copy of it tracks the corrected constraint. The core starts and jumps (changes its state at
+impact) last, when all corrections are known, since an observer of outputs starts from the error of the
+reference in force.
 """
 
 from __future__ import annotations
@@ -81,6 +83,7 @@ class OuterLoop(Around):
 
     def _acting(self, w: Any) -> Controller:
         """The inner controller with its constraint corrected by c(Theta; w)."""
+        # the reference of the core has the corrections of loops further out already; c is added to them
         h = CorrectedConstraint(own_reference(self.inner), self.correction(w))
         return tracking(self.inner, h)
 
@@ -90,6 +93,7 @@ class OuterLoop(Around):
 
     def initial_state(self, m: Measurement) -> Any:
         """(inner, w) at the start; the core starts a second time, with this correction in its reference."""
+        # state of the controller inside; its core has started without c
         z = self.inner.initial_state(m)
         s = LoopState(z, self.own_start(reference_in_force(self.inner, z), m))
         return with_core(self, s, innermost(self, s).initial_state(m))
@@ -108,11 +112,13 @@ class OuterLoop(Around):
         correction in its reference.
         """
         z = self.inner.jump(s.inner, after, swap)
+        # as z has the core's state after a jump without this correction, the core jumps again
         state = LoopState(z, self.own_jump(s.own, reference_in_force(self.inner, z), after))
         before = core_state(self, s)
         return with_core(self, state, innermost(self, state).jump(before, after, swap))
 
     def error_system(self) -> ErrorSystem | None:
+        # the core's observer is the same with a corrected reference
         return self.inner.error_system()
 
     def estimate(self, s: Any, m: Measurement) -> Estimate | None:
@@ -161,7 +167,7 @@ def reference_in_force(controller: Controller, s: Any) -> Constraint:
     if isinstance(controller, OuterLoop):
         h = reference_in_force(controller.inner, s.inner)
         return CorrectedConstraint(h, controller.correction(s.own))
-    # without a reference the second call raises the error
+    # where there is no reference (None), `tracked_constraint` raises the error
     return own_reference(controller) or tracked_constraint(controller)
 
 

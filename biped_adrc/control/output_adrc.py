@@ -4,12 +4,13 @@
     y'' = L u + xi_y,   L = (I - H_b - H_N A_N) kappa
     u   = L^-1 (-K_p y^ - K_d y'^ - xi_y^)
 
-q_b (p,) are the joints with motors, q_N the others; H = (H_b, H_N) (p, n), kappa (p, p) is the input gain of
-(13). With q_d'' = drift + H q'' and the split (12), (13) of the paper the model gives xi_y = M xi - drift - H_N
-a_N, M = I - H_b - H_N A_N. This value is used at the start and at impact alone: the reference's own
-acceleration, and the effect of the unactuated coordinate on it through Theta'', are estimated together with
-model error and external forces. In the joint form (20) q_d'' comes from the model, and an error of the model's
-Theta'' is an error of the reference that no observer of q_b'' can see. L is J D^-1 B for the Jacobian J of y.
+q_b (p,) are the joints with motors, q_N the others, ^ marks an estimate. The reference has q_d'' = drift + H
+q'' with H = (H_b, H_N) (p, n). With the model's equations (12) and (13) of the paper, q_N'' = A_N q_b'' + a_N
+and q_b'' = kappa u + xi, xi_y is M xi - drift - H_N a_N, M = I - H_b - H_N A_N. This value is used at the start
+and at impact alone: the reference's own acceleration, and the effect of the unactuated coordinate on it through
+Theta'', are estimated together with model error and external forces. In the joint form (20) q_d'' comes from
+the model, and an error of the model's Theta'' is an error of the reference that no observer of q_b'' can see. L
+is J D^-1 B, with J the Jacobian of y, D the inertia matrix and B the rows with motors.
 
 Han, IEEE Trans. Industrial Electronics 56(3), 2009, for the total disturbance of an output; Westervelt,
 Grizzle, Koditschek, IEEE TAC 48(1), 2003, for y.
@@ -52,8 +53,10 @@ class OutputADRCController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """y [rad], y' [rad/s] and the nominal model's xi_y [rad/s^2], each (p,)."""
-        r, terms = self.point(m), m.terms
+        """The observer's measurement y [rad], and y' [rad/s] and the nominal model's xi_y [rad/s^2], which only
+        its start and its reset use; each (p,).
+        """
+        r, terms = self.point(m), m.terms  # r: the reference now
         p = len(r.q_d)
         xi_y = output_matrix(r, terms) @ terms.xi - r.drift - r.H[:, p:] @ terms.a_N
         return Estimate(m.q_b - r.q_d, m.v_b - r.dq_d, xi_y)
@@ -68,9 +71,10 @@ class OutputADRCController(ObservingController):
         Raises SingularError where M is exactly singular, with a pivot of 0.0; near that u grows
         without bound and without an error.
         """
-        # near a touchdown, inside `ImpactInvariant`, without what an impulse can change
+        # near a touchdown, inside `ImpactInvariant`, without the part that an impulse on the foot can change
         dy = x.velocity if m.impulse is None else unchanged(r, x.velocity, m.impulse)
         w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
+        # `output_matrix` is M, so ddq_b = kappa u
         ddq_b = solve(
             output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
         )
@@ -91,5 +95,7 @@ class OutputADRCController(ObservingController):
         return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of y' (p, 2) when the rates q' change by each column of a (n, 2)."""
+        """Change of y' (p, 2) when the rates q' change by each column of a (n, 2), such as by an impulse in x
+        and one in z.
+        """
         return rate_error_change(self.point(m), a)

@@ -3,8 +3,9 @@
     y'' = J q'' + drift = w,   w = -K_p y - K_d y'
     u   = (J D^-1 B)^-1 (w - drift + J D^-1 Omega)
 
-y (p,) are the outputs, as many as motors, J = dy/dq (p, n); D q'' + Omega = B u is the nominal model. q_b are
-the joints with motors, q_N the others. Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative
+y (p,) are the outputs, as many as motors, J = dy/dq (p, n). D q'' + Omega = B u is the nominal model, with
+inertia matrix D, Coriolis and gravity terms Omega, torques u (p,). q_b are the joints with motors, q_N the
+others; J = (J_b, J_N). Isidori, Nonlinear Control Systems, 1995, 5.1, for outputs of relative
 degree two. With (12), (13) of the paper, q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
 
     (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)

@@ -61,6 +61,7 @@ def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) ->
 
     x [1]: a number, also as an array without axes. rate: dx/dTheta [1/rad]. e (p,) [rad]. slope (p,) [rad/rad].
     """
+    # a_0 + a_1 x = A and 3 a_0 + 4 a_1 x = B
     A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
 
@@ -74,7 +75,7 @@ class ReferenceReset(OuterLoop):
     impact; its state is (a_0, a_1).
 
     inner: the controller that tracks the constraint. share [1]: of the phase range after which the reference is
-    h again, in (0, 1]. Nothing is corrected when an impact leaves x < LEAST_REACH, or Theta running backwards:
+    h again, in (0, 1]. Nothing is corrected when an impact leaves x < 0.2, or Theta running backwards:
     then the error is the inner controller's. Raises InputError for another share.
 
     >>> controller = ba.ReferenceReset(ba.NPDController(gait.constraint), share=0.4)
@@ -98,6 +99,7 @@ class ReferenceReset(OuterLoop):
         r, c, (end, rate) = h(m.t, m.q, m.v), tracked_constraint(self.inner).phase, self.range
         dtheta, x = c @ m.v, rate * (c @ m.q - end)
         # Theta runs forwards if x falls; the values 1.0 below avoid a division by 0 where nothing is corrected
+        # LEAST_REACH: nearer to Theta_e the correction would have to fall abruptly
         bends = (x >= LEAST_REACH) * (dtheta * rate < 0.0)
         slope = (m.v_b - r.dq_d) / np.where(bends, dtheta, 1.0)
         a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope)

@@ -10,13 +10,13 @@ from Theta+ just after impact to Theta- at the next one, the direction d of the 
 
     b(s) = 64 s^3 (1 - s)^3,   0 <= s <= 1,   s = (Theta - Theta+) / (Theta- - Theta+).
 
-b vanishes with two derivatives at both ends, so a hybrid invariant constraint stays one, and so does the
-pose at impact: L is that of the gait. |beta| is bounded and K_I |I| with it (anti-windup). After
-Westervelt, Grizzle, Canudas de Wit, IEEE CDC 2003, Switching and PI control of walking motions of planar biped
-walkers, where an inner loop of any kind cannot reject what enters the zero dynamics.
+b vanishes with two derivatives at both ends, so a hybrid invariant constraint stays one, and the pose at impact
+stays too: L is that of the gait. |beta| is bounded and K_I |I| with it (anti-windup). An inner loop of any kind
+cannot reject what enters the zero dynamics; this PI acts on them. After Westervelt, Grizzle, Canudas de Wit,
+Switching and PI control of walking motions of planar biped walkers, IEEE CDC 2003.
 
-T is the value at impact of a state tau, tau' = 1, with 0 after impact, so that the return map is a function of
-the state. In sampled time T counts to the last sample instant.
+T is the value at impact of a state tau, tau' = 1, which is set to 0 after impact, so that the return map is a
+function of the state and not of time. In sampled time T counts to the last sample instant.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def bump(s: float) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class Bump:
-    """The correction c = shift b(s) of the constraint, for shift = beta d (p,) [rad].
+    """The correction c = shift b(s), which is added to the constraint h, for shift = beta d (p,) [rad].
 
     theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+) [1/rad].
     """
@@ -140,12 +140,15 @@ class StridePI(OuterLoop):
         )
 
     def own_start(self, h: Constraint, m: Measurement) -> StrideState:
+        # a run may begin within a step, and then with its time so far
         return StrideState(m.t_step, 0.0, 0.0)
 
     def own_flow(self, w: StrideState) -> StrideState:
+        # in continuous time: tau' = 1, I and beta stay
         return StrideState(1.0, 0.0, 0.0)
 
     def own_correct(self, w: StrideState, m: Measurement) -> StrideState:
+        # in sampled time: the time since the step began, in place of an integral
         return w._replace(tau=m.t_step)
 
     def own_jump(self, w: StrideState, h: Constraint, after: Measurement) -> StrideState:

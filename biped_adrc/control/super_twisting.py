@@ -40,8 +40,8 @@ class SuperTwistingController(Controller):
     """Super-twisting sliding mode control about the reference, smooth within a layer around
     sigma = e' + lambda e = 0.
 
-    reference: q_d. slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on the slope
-    of the error of the model. layer: delta [rad/s]. period [s]: of the discrete form; `sampled` sets it, None
+    reference: q_d. slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on |d'|, the
+    rate of the model's error. layer: delta [rad/s]. period [s]: of the discrete form; `sampled` sets it, None
     is for continuous time. Raises InputError for numbers that are not positive.
     """
 
@@ -70,6 +70,7 @@ class SuperTwistingController(Controller):
         """u (p,) [N m] for the state s = z (p,) [rad/s^2]."""
         r = self.reference(m.t, m.q, m.v)
         sigma, de = self.sliding(r, m)
+        # q_d'' contains q'', and so the torque: `solved_acceleration` solves for q_b'' = q_d'' + f
         f = s - self.slope * de - self.k_1 * sigma / np.sqrt(np.abs(sigma) + self.layer)
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 

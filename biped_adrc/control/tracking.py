@@ -20,10 +20,11 @@ ADRC, its output form and DOB (disturbance observer) have an observer that is th
     u = torque(r, x^, m),   z' = flow(z, y, input)          in continuous time
     z <- correct(z, y),     z <- predict(z, input)          at a tick
 
-A *tick* is a sample instant. r is the point of the reference, x^ the observer's estimate. An
-`ObservingController` defines the observer's measurement y, its input, and the torque, for every observer and
-every reference. In `adrc` y is q_b, in `output_adrc` the error q_b - q_d, in `momentum_dob` the momentum. All
-else, resets and time bases included, is here once.
+A *tick* is a sample instant. r is the point of the reference (q_d, q_d', drift, H), m the measurement with the
+model's terms (kappa, xi, A_N, a_N), x^ the observer's estimate. An `ObservingController` defines the observer's
+measurement y, its input, and the torque, for every observer and every reference. In `adrc` y is q_b, in
+`output_adrc` the error q_b - q_d, in `momentum_dob` the momentum. All else, resets and time bases included, is
+here once.
 """
 
 from __future__ import annotations
@@ -116,7 +117,7 @@ def tracking_torque(
 
 def unchanged(r: ReferencePoint, de: Array, a: Array) -> Array:
     """The part of the rate error de = q_b' - q_d' (p,) [rad/s] that no change of the rates q' along the two
-    columns of a (n, 2) alters; r: the reference now.
+    columns of a (n, 2) alters, such as by an impulse in x and in z; r: the reference now.
     """
     return orthogonal_to(rate_error_change(r, a)) @ de
 
@@ -179,7 +180,7 @@ def orthogonal_to(N: Array) -> Array:
 
 
 def body_of(m: Measurement) -> BodyTerms:
-    """`m.body`, the body terms of the nominal model.
+    """`m.body`, the body terms of the nominal model: gravity, the ground's force, the swing foot's Jacobian.
 
     Raises InputError for a measurement made for a controller without `needs_body`.
     """
@@ -213,8 +214,8 @@ class ObservingController(Controller):
     @abstractmethod
     def measured_output(self, m: Measurement) -> Estimate:
         """The observer's measurement y, its rate y', and the nominal model's value of what the observer
-        estimates as the disturbance; in the units of the observer. Its start and reset use all three, its steps
-        y alone.
+        estimates as the disturbance; in the units of the observer. Its start and reset use all three, `flow`
+        and `correct` y alone.
         """
 
     @abstractmethod
@@ -251,6 +252,7 @@ class ObservingController(Controller):
         return self.torque(self.point(m), self.estimated(s), m)
 
     def initial_state(self, m: Measurement) -> Any:
+        # three arguments: y, y', and the model's value of the disturbance
         return self.observer.initial_state(*self.measured_output(m))
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
@@ -275,10 +277,11 @@ class ObservingController(Controller):
         return self.joint_estimate(self.estimated(s), m)
 
     def sampled(self, period: float) -> Self:
+        # the observer in its form for sample instants; all else does not depend on the period
         return replace(self, observer=self.observer.at_ticks(period))  # type: ignore[type-var]
 
     def continuous(self) -> Self:
-        # an observer that writes no flow was made for ticks
+        # an observer that writes no flow of its own, only inherits one that raises an error, was made for ticks
         if type(self.observer).flow is Observer.flow:
             self._only_sampled()
         return self

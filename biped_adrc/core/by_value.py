@@ -1,7 +1,8 @@
 """Equality and hash of dataclasses by class and values, arrays included.
 
-A dataclass compares its fields as a tuple, which raises for arrays, and so does its hash. Here an array is its
-shape, its dtype and its numbers. NaN equals NaN, so that a thing equals itself and its copy, and -0 equals 0.
+A dataclass compares its fields as a tuple, which raises for arrays, and so does its hash. In subclasses of
+`ByValue` an array is its shape, its dtype and its numbers. NaN equals NaN, so that a thing equals itself and
+its copy, and -0 equals 0.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ class ByValue:
 
     def __eq__(self, other: object) -> bool:
         """Whether class and fields are equal; what is no dataclass equals itself alone."""
+        # True for the same object; False for one of another class
         if self is other or type(self) is not type(other):
             return self is other
         return is_dataclass(self) and value_of(self) == value_of(other)
@@ -35,7 +37,8 @@ class ByValue:
         """Hash of class and fields; for what is no dataclass, of its identity."""
         if not is_dataclass(self):
             return object.__hash__(self)
-        memory = vars(self).get("_once")  # there only where nothing can change (`core.once`)
+        # a dict of results, which `core.once` puts into an object in which nothing can change; else None
+        memory = vars(self).get("_once")
         return (
             memory.found("hash", lambda: hash(value_of(self))) if memory else hash(value_of(self))
         )
@@ -45,11 +48,11 @@ def value_of(x: Any) -> Hashable:
     """Convert x to a hashable value; two such values are equal where the x are equal by class and numbers.
 
     Arrays, mappings, lists, tuples and dataclasses are converted with all that is in them. All else is its own
-    value, but for NaN.
+    value, but for NaN, which is not equal to itself: the text "nan" stands for it.
     """
     if isinstance(x, np.ndarray):
         return (np.ndarray, x.shape, x.dtype.str, value_of(x.tolist()))
-    if isinstance(x, Mapping):
+    if isinstance(x, Mapping):  # a set, since the order of its items does not count
         return (type(x), frozenset((name, value_of(item)) for name, item in x.items()))
     if isinstance(x, tuple | list):
         return (type(x), *map(value_of, x))

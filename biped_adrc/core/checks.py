@@ -37,7 +37,7 @@ class Range(NamedTuple):
     holds: Callable[[Any], bool]
 
     def has(self, value: object) -> bool:
-        """Whether a value is in the range; one of another type is not."""
+        """Whether a value is in the range; a value of a type that `holds` cannot test is not."""
         try:
             return bool(self.holds(value))
         except (TypeError, ValueError, AttributeError, IndexError):
@@ -92,7 +92,8 @@ _NUMBERS: dict[Any, str] = {
 def check_part(value: object, what: str, *kinds: type) -> None:
     """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes `kinds`.
 
-    For the kind float every real number will do. The message ends with an example, the SUCH_AS of a class.
+    The class NoneType among them allows None; for float every real number will do. The message ends with an
+    example, the text SUCH_AS of the first class that has one.
     """
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
@@ -110,6 +111,7 @@ def check_fields(part: Any) -> None:
     numbers, texts, mappings or None; and in the `Range` of the annotation, if that has one.
     """
     cls: Any = type(part)
+    # of each field: the types that it may have, whether these can be tested, and its Range or None
     for name, kinds, typed, range in _expected(cls):
         value, what = getattr(part, name), f"{name} of {cls.__name__}"
         if typed:
@@ -172,6 +174,7 @@ def returned(
     less than a microsecond. Raises InputError that names the class for None, complex numbers, text, objects and
     another shape, and, where `finite`, NotFiniteError.
     """
+    # always true for the shape None
     if type(found) is not np.ndarray or found.dtype != FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
     if finite and not all(map(math.isfinite, found.ravel().tolist())):
@@ -181,8 +184,8 @@ def returned(
 
 
 def _sentence(part: object, method: str, field: bool) -> str:
-    """Beginning of a sentence about a result: "X.output (own.py:12) returned", or "X gives q_d =" for
-    a field.
+    """Beginning of a sentence about a result: "X.output (own.py:12) returned"; with `field`, where `method` is
+    not a method, but the name of an array that class X returned with others: "X gives q_d =".
     """
     if field:
         return f"{spoken(part)} gives {method} ="
@@ -194,6 +197,7 @@ def line_of(part: object, method: str) -> str:
     for a class of this package.
     """
     written: Any = getattr(type(part), method, None)
+    # the user's own function, below the checks that decorators put around it
     code = getattr(unwrap(written), "__code__", None)
     if code is None or not is_users(code.co_filename):
         return ""
@@ -203,8 +207,10 @@ def line_of(part: object, method: str) -> str:
 def _numbers_returned(
     found: object, shape: tuple[int, ...] | None, part: object, method: str, field: bool
 ) -> Array:
-    """Convert the result `found` of a user's class to an array of floats of this shape, or raise InputError
-    that names the class of `part` and its method (or field, see `returned`).
+    """Convert the result `found` of a user's class to an array of floats of this shape (None: of one axis), or
+    raise InputError that names the class of `part` and its method.
+
+    field: whether `method` is not a method, but the name of one of several arrays that the class returned.
     """
     try:
         array = np.asarray(found)
@@ -217,23 +223,26 @@ def _numbers_returned(
         shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
         raise InputError(f"{sentence} {shown}, expected {expected}{forgot}")
     if array.ndim != 1 if shape is None else array.shape != shape:
+        # "X gives q_d of shape ..", or "X.output returned an array of shape .."
         sentence = sentence.removesuffix(" =") if field else f"{sentence} an array"
         raise InputError(f"{sentence} of shape {array.shape}, expected {expected}")
     return array.astype(float)
 
 
 def point_returned(found: object, kind: Any, part: object, n: int, p: int | None = None) -> Any:
-    """Check the result of `__call__` of a reference or of outputs: a tuple `kind` of
-    arrays (p,), its H or J (p, n).
+    """Check the result of `__call__` of a reference or of outputs: a NamedTuple `kind`, whose arrays are (p,)
+    but for one matrix (p, n), with n the number of coordinates.
 
-    n: number of coordinates. p: number of rows; None takes it from that matrix. Returns the tuple with arrays
-    of floats. Raises InputError and NotFiniteError with the name of the field.
+    kind: `ReferencePoint`, with matrix H, or `OutputPoint`, with matrix J. part: the object that was called. p:
+    number of rows; None takes it from the matrix. Returns the tuple with arrays of floats. Raises InputError
+    and NotFiniteError with the name of the field.
     """
     if not isinstance(found, kind):
         fields = ", ".join(kind._fields)
         raise InputError(f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({fields})")
     matrix = "J" if "J" in kind._fields else "H"
     if p is None:
+        # a matrix written as a list has no shape: then the length of the first array counts
         shape = getattr(getattr(found, matrix), "shape", ())
         p = shape[0] if shape else np.size(found[0])
     shapes = [(p, n) if name == matrix else (p,) for name in kind._fields]
@@ -242,7 +251,8 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
 
 
 def called_checked(cls: Any, kind: type) -> None:
-    """Wrap the method `__call__`(t, q, v) of a class, where it writes one, so that its result is checked.
+    """Wrap the method `__call__`(t, q, v) of a class of references or outputs, so that its result is checked.
+    A class that inherits the method is left alone: that of its base is wrapped already.
 
     kind: the NamedTuple that it has to return, `ReferencePoint` or `OutputPoint`.
     """
@@ -268,7 +278,7 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Context that raises an exception of the user's code again as a RaisedError.
+    """Context in which methods of a user's class are called: an exception in them is raised as a RaisedError.
 
     Its text gives class, method, file and line of the user's code. A BipedError, and an exception that did not
     come from the user's code, pass unchanged.
@@ -278,7 +288,7 @@ def handing_out() -> Iterator[None]:
     except BipedError:
         raise
     except Exception as error:
-        if not (told := sentence_of(error)):
+        if not (told := sentence_of(error)):  # empty: the user's code was not running
             raise
         raise RaisedError(told) from error
 
@@ -331,11 +341,13 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
     members = ((name, *_members(hints[name])) for name in names if name in hints)
     result = ((name, kinds, all(map(_looked_at, kinds)), range) for name, kinds, range in members)
+    # x[2]: whether the types can be tested; x[3]: the range
     return tuple(x for x in result if x[2] or x[3] is not None)
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
     """The types that an annotation allows, and its range, None where it has none."""
+    # Annotated[float, Range(..)] | None: its members, of which one may carry a Range as metadata
     each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
     kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
@@ -345,7 +357,7 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type can be checked: a class of this package but no protocol, one of `_NUMBERS`, or None."""
+    """Whether a type can be checked: a class of this package but no protocol, a key of `_NUMBERS`, or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
     return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
 
@@ -362,6 +374,7 @@ def _shown(value: Any) -> str:
         return f"the class {value.__name__}, not made as {value.__name__}(...)"
     text = repr(value)
     name = type(value).__name__
+    # a long text, or one that already begins with its class, as Gait(...): the class alone
     if value is None or len(text) > 60 or text.startswith(name):
         return "None" if value is None else _a(type(value))
     return f"{text} ({_a(type(value))})"

@@ -114,7 +114,10 @@ def check_whole(value: object, what: str, least: int = 0) -> None:
 
 
 def check_count(count: object, what: str) -> None:
-    """Raise InputError unless `count` is a whole number, at least 1; what: as for `check_whole`."""
+    """Raise InputError unless `count` is a whole number, at least 1.
+
+    what: how the message begins, with the value found.
+    """
     check_whole(count, what, 1)
 
 
@@ -145,15 +148,17 @@ def unknown(name: str, known: Iterable[str]) -> str:
     """The sentence for a name that does not exist: it proposes up to three of the `known` names, or all.
 
     Names may be dotted, record.value. Those with the same last part are proposed; where there are none, similar
-    ones, of the same record alone if that is known.
+    ones, and if the record before the dot is known, only those in it.
     """
     known, (record, dot, last) = list(known), name.rpartition(".")
     beside = [whole for whole in known if dot and whole.startswith(record + dot)]
+    # part of a dotted name -> the names that end with it
     ends: dict[str, list[str]] = {}
     for whole in known:
         parts = whole.split(".")
         for k in range(len(parts)):  # for a.b.c the records a.b and a may be meant too
             ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
+    # at most two names with a similar last part; 0.8: least similarity of a whole name, 1 for the same text
     alike = [ends[end][0] for end in get_close_matches(last, ends, 2)]
     near = ends.get(last) or [*get_close_matches(name, known, 2, 0.8), *alike]
     if last not in ends and beside:

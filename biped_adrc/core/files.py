@@ -49,7 +49,8 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     (".png", ".svg"). Returns the path.
 
     default: a name without a suffix of a kind, such as 'push_0.1', gets the first of `suffixes`. Raises
-    InputError for another suffix and for an impossible name, and OutputError as `check_place`.
+    InputError for another suffix and for an impossible name, and OutputError where the path is a folder, a
+    device, a pipe or a link.
     """
     path = _named(path)
     check_place(path)
@@ -76,6 +77,7 @@ def check_place(path: Path) -> None:
 def check_folder(path: Path | str) -> None:
     """Raise InputError where the folder `path` for results is a file, or would lie below one."""
     whole = _named(path).absolute()
+    # the path itself, or the nearest folder above it that exists
     there = next(each for each in (whole, *whole.parents) if os.path.lexists(each))
     if not there.is_dir():
         kind = "a file" if there.is_file() else "not a regular file"
@@ -102,6 +104,7 @@ def beside(file: Path, name: object) -> Path:
     Raises InputError for a path out of that folder, also by way of links.
     """
     path = file.parent / str(name)
+    # `file` may be a link: its own folder, and that of the file to which it leads
     folders = {file.parent.resolve(), file.resolve().parent}
     if not any(path.resolve().is_relative_to(folder) for folder in folders):
         raise InputError(
@@ -171,7 +174,7 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
                 why = f": {found}"
             case RecursionError():
                 why = " is nested too deeply"
-            case BipedError():
+            case BipedError():  # SingularError, SimulationError; an InputError is also a ValueError, above
                 raise
             case _:
                 why = f" cannot be used, {type(found).__name__}: {found}"
@@ -188,7 +191,10 @@ class CsvTable(NamedTuple):
 
     @classmethod
     def read(cls, file: Path | str) -> CsvTable:
-        """Read a file. Raises InputError for a line of another length, with its number."""
+        """Read a file; empty lines are left out. Raises InputError, with the number of the line, for one that
+        has not as many entries as the first.
+        """
+        # utf-8-sig: spreadsheets put a mark of the byte order first
         with Path(file).open(newline="", encoding="utf-8-sig") as text:
             lines = csv.reader(text)
             rows = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
@@ -226,8 +232,8 @@ def joint_columns(of: object, names: Mapping[str, str]) -> dict[str, Array]:
 def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
     """Write a CSV file of columns, name -> list or array of one length; returns the path.
 
-    Floats have all their digits, so that they are read back to the last bit. Raises InputError and OutputError
-    as `output_path`.
+    Floats have all their digits, so that they are read back to the last bit. A path without a suffix gets
+    .csv. Raises InputError for another suffix, and OutputError where the file cannot be written.
     """
     target = output_path(path, (".csv",), default=True)
     lists = [x if isinstance(x, list) else x.tolist() for x in columns.values()]

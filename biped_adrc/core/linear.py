@@ -49,8 +49,9 @@ def solve(A: Array, B: Array, what: str) -> Array:
     >>> ba.solve(np.diag([2.0, 4.0]), np.array([2.0, 4.0]), "the inertia")
     array([1., 1.])
     """
-    if len(A) == 0:
+    if len(A) == 0:  # an empty system, which LAPACK does not take
         return np.zeros_like(B)
+    # also returned, not used: the LU factors and the order of the rows
     _, _, X, info = dgesv(A, B)
     if info != 0:
         raise SingularError(f"{what} is singular: pivot {info} of its LU factors is zero")
@@ -58,9 +59,10 @@ def solve(A: Array, B: Array, what: str) -> Array:
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:
-    """Solve A X = B as `solve`, for A (k, k) symmetric and positive definite, such as an inertia matrix.
+    """Solve A X = B for X (k,) or (k, c), with A (k, k) symmetric and positive definite, such as an inertia.
 
-    In Python this is `solve`. The engine generates the factors A = L d L' for it, whose pivots d are all
-    positive: compiled code then has no search for pivots, hence no branch.
+    B (k,) or (k, c): the right-hand side. what: names A in the SingularError. In Python this is `solve`. The
+    engine, which makes machine code, generates the factors A = L d L' for it, whose pivots d are all positive:
+    compiled code then has no search for pivots, hence no branch.
     """
     return solve(A, B, what)

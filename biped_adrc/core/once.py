@@ -1,4 +1,4 @@
-"""Results that depend on a part alone are computed once and kept in the part: walks that share it share them.
+"""Results that depend on a part alone are computed once and kept in the part, for all walks that use it.
 
 A part is a frozen dataclass, such as a controller or a robot (`core.part`). This is done only for a part in
 which nothing can change; in an object of a user's class something may, so nothing is kept there. The results
@@ -67,10 +67,12 @@ def constant(x: object) -> bool:
     names = getattr(cls, "__dataclass_fields__", None)
     if names is None:
         return isinstance(x, _PLAIN)
+    # a part with a memory has been found constant before
     if not (hasattr(x, "_constant") or vars(x).get("_once")):
         own = cls.__module__.startswith("biped_adrc.") and cls.__dataclass_params__.frozen
         if not (own and all(constant(getattr(x, name)) for name in names)):
             return False
+        # not empty, so that the test above finds it true the next time
         vars(x)["_once"] = Memory(constant=True)
     return True
 
@@ -101,6 +103,7 @@ def shared(part: _T, **values: Any) -> _T:
     same = all(getattr(part, name) is x for name, x in values.items())
     # the fields are kept with the copy: while they live, no other object has the ids that are in the key
     made = lambda: (items, part if same else type(part)(**items))  # noqa: E731
+    # [1]: of (fields, copy) the copy
     return _SHARED.found((type(part), *map(_known_by, items.values())), made)[1]
 
 

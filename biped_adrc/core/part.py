@@ -1,12 +1,13 @@
 """Parts of a walker: frozen dataclasses with ordinary methods, run by Python or by the *engine*, a compiler.
 
-Controllers, observers, references, disturbances, sensors and touchdown detectors are parts, and parts may hold
-parts. Python calls their methods on numbers. The engine calls them once on symbols and writes machine code:
+A walker is the closed loop of a robot, its controller, disturbances and clock. Controllers, observers,
+references, disturbances, sensors and touchdown detectors are parts, and parts may hold parts. Python calls
+their methods on numbers. The engine calls them once on symbols and writes machine code:
 
     floats, arrays of floats       numbers, given at run time: new values compile nothing
     whole numbers, flags, texts    structure: another value is another code
     derived                        numbers that are computed once from the fields, such as gains from poles
-    setup                          fields for derived numbers and the start alone, such as a seed
+    setup                          fields that only derived numbers and the initial state use, such as a seed
 
 A method with an `if` on a number (`if x > 0`) cannot be compiled; it runs in Python. Write `np.where` instead.
 """
@@ -97,6 +98,7 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     result: list[tuple[str, Callable[[Any], Any]]] = []
     hints = hints_of(cls)
     for f in fields(cls):
+        # float, Annotated[float, ..], tuple[float, ..]: by the text of the annotation
         value = _as_floats if "float" in str(hints.get(f.name, f.type)).lower() else _itself
         result.append((f.name, (lambda _: Setup()) if f.metadata.get("setup") else value))
     return (*result, *((name, _itself) for name in derived_names(cls)))
@@ -127,6 +129,7 @@ def with_fields(part: _T, **values: Any) -> _T:
     Derived numbers that were computed already are copied, not computed anew. For methods that run on symbols
     too: `dataclasses.replace` would check symbols as numbers.
     """
+    # without MEMORY: the results in it were computed from the old fields
     return with_content(part, {k: x for k, x in vars(part).items() if k != MEMORY} | values)
 
 

@@ -84,6 +84,7 @@ def processes(count: int | None, preload: Sequence[str]) -> ProcessPoolExecutor:
 
 def end_all(executor: Executor) -> None:
     """End an executor at once, including processes in the middle of their work."""
+    # the executor has no public list of its processes; None once it has ended
     for process in list((getattr(executor, "_processes", None) or {}).values()):
         process.terminate()
     executor.shutdown(wait=True, cancel_futures=True)

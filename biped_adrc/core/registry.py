@@ -4,10 +4,10 @@ Each packaged part is one line of `registry.toml`: its class or function as `mod
 and values where a scenario has none. Besides these a name may be one that `register` added in this process, or
 `package.module:Class` of the user's own, in Python, on the command line and in study files alike.
 
-Classes are imported when a walker is built, never when a file is read. Those of the user are also looked for in
-the working directory and in the folder of the study file that names them. `construct` calls a class with those
-values that its constructor takes by name, which is how a new controller gets gains, reference or observer
-without code here.
+Classes are imported when a walker (the closed loop of robot and controller) is built, never when a file is
+read. Those of the user are also looked for in the working directory and in the folder of the study file that
+names them. `construct` calls a class with those values that its constructor takes by name, which is how a new
+controller gets gains, reference or observer without code here.
 
 What becomes of a name:
 
@@ -83,7 +83,9 @@ def names(kind: str) -> tuple[str, ...]:
 
 
 def stored(kind: str) -> Iterable[str]:
-    """Names of this kind beside those of registry.toml: folders of robots, files of gaits; else none."""
+    """Names of robots or gaits that the package has as files (folders with a robot.toml, gaits as .json); none
+    of another kind.
+    """
     if kind == "robot":
         return sorted(path.parent.name for path in data_folder("urdf").glob("*/robot.toml"))
     return sorted({p.stem for p in data_folder("gaits").glob("*/*.json")}) if kind == "gait" else ()
@@ -95,8 +97,8 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     name: that by which scenarios refer to it. thing: the class or function. kind: "controller", "contact",
     "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot" or "gait". words: for a list of
     names. Records of scenarios write it as `module:Class`, so that other processes find it. Raises InputError
-    for an unknown kind, and for a name that is taken or reads as `module:Class`; what is of another kind raises
-    it where a walker is built.
+    for an unknown kind, and for a name that is taken or reads as `module:Class`. A thing that does not fit its
+    kind raises it only where a walker is built.
 
     >>> def soft_npd(reference):
     ...     return ba.NPDController(reference, ba.Gains(2500.0, 35.0))
@@ -116,7 +118,9 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
 
 
 def portable(kind: str, name: str) -> str:
-    """The name by which another process finds it: `module:Class` for what was registered in this one alone."""
+    """The name by which another process finds a part: its `module:Class` where `register` added it in this
+    process alone, else the name itself.
+    """
     entry = REGISTRY[kind].get(name)
     return entry.home if entry is not None and entry.given is not None else name
 
@@ -125,7 +129,7 @@ def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[
     """The robot or gait that the user's class or function of this name makes; None where a file has the name.
 
     values: arguments of that class or function, by name. base: class that the result has to be of. Raises
-    InputError as `construct`, and where it cannot be imported.
+    InputError where it cannot be imported, lacks an argument, raises, or returns another class.
     """
     if is_own(name) or name in REGISTRY[kind]:
         return construct(f"{kind} '{name}'", find(kind, name).load(), values, base)
@@ -142,6 +146,7 @@ def find(kind: str, name: str) -> _Entry:
 
     Raises InputError for an unknown name, with the known ones that are most alike.
     """
+    # without an entry the name is `module:Class` itself, hence the new entry's home
     return REGISTRY[kind].get(known_name(kind, name)) or _Entry(name)
 
 
@@ -225,8 +230,8 @@ def construct(
     kind: type[_T],
     place: str = "",
 ) -> _T:
-    """Call make with those values whose names are parameters of it; the result, which is returned, has to be a
-    `kind`.
+    """Call make with those values whose names are parameters of it, and return the result, which has to be an
+    object of class `kind`.
 
     what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record in a
     scenario, for the message; "" for none. Raises InputError for values that are missing, an error inside of

@@ -27,7 +27,8 @@ SHORT = 48
 class Shown(ByValue):
     """Base of dataclasses whose repr is `as_line`; a class that writes a `__repr__` keeps it."""
 
-    KEPT = ByValue.KEPT | {"__repr__"}  # see there
+    # methods of a base that `@dataclass` would replace by its own
+    KEPT = ByValue.KEPT | {"__repr__"}
 
     def __repr__(self) -> str:
         return as_line(self)
@@ -73,6 +74,7 @@ def short(x: Any) -> str:
 
 def _fields_of(thing: Any) -> list[tuple[str, Any]]:
     """Names and values of the fields of a dataclass or NamedTuple that are not at their defaults."""
+    # of a NamedTuple; those of a dataclass follow
     names, usual = getattr(thing, "_fields", ()), dict(getattr(thing, "_field_defaults", {}))
     if is_dataclass(thing):
         shown = [f for f in fields(thing) if f.repr and f.init]

@@ -47,8 +47,8 @@ class SampledTime(Checked):
     discrete observer takes the state to which it is reset at impact for its prediction of the next
     sample instant.
     delay [s]: from a sample instant to the instant at which its torque begins to act, the time of
-    computation. It may be longer than a period. A clock that restarts at impact samples early
-    there; torque that is on its way then acts up to one period sooner.
+    computation. It may be longer than a period. A clock that restarts at impact has a sample instant
+    at the impact, before the next regular one; torque that is on its way then acts up to one period sooner.
     delay_known: the controller's observer is fed with the torque that acts until the next sample
     instant (known delay), instead of the one just computed, as if that acted at once (unknown delay).
 
@@ -77,8 +77,9 @@ def check_ends(max_step_time: float, fall_height: float, speed: float, torque: f
     positive, a height of 1 or more.
 
     max_step_time [s]: the longest single support before the walk counts as stalled. fall_height [1]: the robot
-    counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0. speed, torque [1]: multiples
-    of the robot's limits beyond which a run ends; infinite for none.
+    counts as fallen when its hip is lower than this fraction of the distance from stance foot to hip at q = 0.
+    speed [1], torque [1]: a run ends beyond so many times 50 rad/s, or the robot's peak torque; infinite for no
+    end.
     """
     if not (max_step_time > 0.0 and fall_height < 1.0 and speed > 0.0 and torque > 0.0):
         raise InputError(

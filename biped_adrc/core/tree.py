@@ -39,7 +39,8 @@ def chosen(which: float, one: Any, other: Any) -> Any:
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
         return _like(type(one), parts)
-    # np.where and no `if`: on symbols both sides become code, and the choice is made when it runs
+    # np.where and no `if`: on symbols, whose truth is not known yet, both sides become code, and the choice is
+    # made when that runs; 0.5 parts 0 from 1
     return one if one is None else np.where(which > 0.5, one, other)
 
 
@@ -78,7 +79,7 @@ class Layout(NamedTuple):
 
     def tree(self, x: Array) -> Any:
         """The tree whose numbers are x (.., size); its arrays are views of x, with the leading axes of x."""
-        if self.kind is None:
+        if self.kind is None:  # an array of the shape `parts`, or a number where that is ()
             if self.parts:
                 return x.reshape(x.shape[:-1] + self.parts)
             # of a vector of symbols x[..., 0] were an array without axes, which no operation takes
@@ -92,7 +93,9 @@ class Layout(NamedTuple):
         return _like(self.kind, parts)
 
     def place(self, *path: str) -> slice:
-        """The slice of the vector that a part of the tree takes; path: its fields, such as "tail", "own"."""
+        """The slice of the vector that a part of the tree takes; path: names of fields that lead to it from the
+        whole tree, such as "tail", "own" for tree.tail.own.
+        """
         at, part = 0, self
         for name in path:
             i = part.kind._fields.index(name)  # type: ignore[union-attr]
@@ -101,9 +104,12 @@ class Layout(NamedTuple):
         return slice(at, at + part.size)
 
     def starts(self) -> list[int]:
-        """The index in the vector at which each array or number of the tree begins, in order."""
+        """The index in the vector at which each array or number of the tree begins, in order; a None, which
+        takes no place, has one too.
+        """
         if self.kind is None or self.kind is type(None):
             return [0]
+        # where each part begins; one more at the end, hence not strict
         ends = accumulate((x.size for x in self.parts), initial=0)
         return [at + start for at, x in zip(ends, self.parts, strict=False) for start in x.starts()]
 
@@ -127,7 +133,7 @@ def returned_tree(
     class, method and line for another class, shape or type, and, where `finite`, NotFiniteError.
     """
     kind = None if layout is None else layout.kind
-    if layout is not None and kind is None:
+    if layout is not None and kind is None:  # an array or a number; `parts` is its shape
         return returned(found, layout.parts, part, method, finite)
     if layout is None and not isinstance(found, tuple):
         numeric = isinstance(found, np.ndarray | Real)

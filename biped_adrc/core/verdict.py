@@ -1,11 +1,11 @@
 """Checks: a computed value, its limit, and whether the value keeps it.
 
-The reproduction writes its checks into summary.json and the report, `biped-adrc robot check` prints those
-of a URDF. The verdict is stored beside value and limit, so that a reader of the file need not parse the
-limit. Each check is of one kind:
+The command `biped-adrc reproduce`, which repeats the numbers of the paper, writes its checks into summary.json
+and a report; `biped-adrc robot check` prints those of a URDF. The verdict is stored beside value and limit, so
+that a reader of the file need not parse the limit. Each check is of one kind:
 
     law            physics and numerics that hold whatever a paper says, such as conservation of energy
-    consistency    what was built in has to come out, such as a gait designed to return to its start x*
+    consistency    what was built in has to come out, such as a gait that was designed to return to its start
     reproduced     a claim of the paper, which could have failed
 
 Make a check with `at_most`, `at_least`, `below` or `between`; they write the limit as text and
@@ -42,20 +42,20 @@ class Check:
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:
-    """The Check value <= limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
+    """The Check value <= limit, of a kind in `_KINDS`, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f"<= {limit:g}", bool(value <= limit))
 
 
 def at_least(name: str, kind: str, value: float, limit: float) -> Check:
-    """The Check value >= limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
+    """The Check value >= limit, of a kind in `_KINDS`, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f">= {limit:g}", bool(value >= limit))
 
 
 def below(name: str, kind: str, value: float, limit: float) -> Check:
-    """The Check value < limit, of a `kind` above, both in the unit in `name`; it does not hold for NaN."""
+    """The Check value < limit, of a kind in `_KINDS`, both in the unit in `name`; it does not hold for NaN."""
     return Check(name, kind, float(value), f"< {limit:g}", bool(value < limit))
 
 
 def between(name: str, kind: str, value: float, low: float, high: float) -> Check:
-    """The Check low <= value <= high, of a `kind` above, all in the unit in `name`; NaN does not hold."""
+    """The Check low <= value <= high, of a kind in `_KINDS`, all in the unit in `name`; NaN does not hold."""
     return Check(name, kind, float(value), f"in [{low:g}, {high:g}]", bool(low <= value <= high))

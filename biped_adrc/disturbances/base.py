@@ -2,14 +2,18 @@
 
     D(q) q'' + Omega(q, q') = B u + zeta(t, step, t_start, q, q')
 
-step is the number of the single support, from 1, and t_start [s] the time at which it began. zeta (n,) [N m]
-acts on all coordinates q1..qN, the unactuated pitch among them. The controller does not know it. Where it comes
-from a force in the world, the ground has to carry that force too: `resultant` (2,) [N].
+D is the inertia matrix, Omega (n,) [N m] the Coriolis and gravity terms, B u the motors' torques. step is the
+number of the single support, from 1, and t_start [s] the time at which it began. zeta (n,) [N m] acts on all
+coordinates q1..qN, the unactuated pitch among them. The controller does not know it. Where it comes from a
+force in the world, the ground has to carry that force too: `resultant` (2,) [N].
 
-A disturbance is a pure function, so a run may be repeated and an integration step repeated. It is written as
-the method `torque`, which both engines run. `acts` says when it acts; `zeta` and `net_force` are zero at other
-times. Integrators end their steps at `switching_times`, since a method of high order loses its accuracy across
-a jump. A sum has several terms, and each is compiled by itself.
+A disturbance is a pure function, so a run or an integration step may be repeated. It is written as the method
+`torque`, which both engines run: Python on numbers, the compiler on symbols. `acts` says when it acts; `zeta`
+and `net_force` are zero at other times. Integrators end their steps at `switching_times`, since a method of
+high order loses its accuracy across a jump. A sum has several terms, and each is compiled by itself.
+
+A `derived` value is computed once from the fields, and is a number in machine code; `setup` marks a field that
+machine code does not read.
 
 `closed_loop.walker` evaluates it, `scenario.build` makes it by name.
 """
@@ -77,7 +81,7 @@ class Disturbance(Part):
         return ()
 
     def check_size(self, n: int) -> None:
-        """Raise InputError where the torque is known to have not n coordinates; by default nothing is known."""
+        """Raise InputError where the torque surely has a number of coordinates other than n; here never."""
 
     @property
     def terms(self) -> tuple[Disturbance, ...]:
@@ -209,7 +213,8 @@ class Windowed(Disturbance):
 
         A product of comparisons in place of `if`, so that it runs on symbols too.
         """
-        # 1 where times count from the start of its single support, 0 where from the start of the run
+        # 1 where times count from the start of its single support, 0 where from the start of the run;
+        # here: 1 in its single support, and in all of them without a `step`
         counted = 1.0 * (self.support > 0)
         here = 1.0 - counted + counted * (step == self.support)
         return here * (t >= self.onset(t_start)) * (t < counted * t_start + self.end)

@@ -1,17 +1,19 @@
 """A force and a moment on a point of the robot: zeta = J(q)' (F_x, F_z, M), with J of that point.
 
-The force has the world's axes, not the link's. It enters the unactuated row too, so no tracking loop rejects it
+F_x is horizontal, F_z vertical, J(q)' the transposed Jacobian, and zeta the generalised force (n,) [N m]. The
+force has the world's axes, not the link's. It enters the unactuated row too, so no tracking loop rejects it
 (Westervelt, Grizzle, Canudas de Wit, IEEE CDC 2003): the speed of walking changes, and an outer loop such as
-`control.stride` has to bring it back. The force of the ground is m (p_com'' - g) - F. J is that of the plant: a
-plant with model errors has other geometry than the nominal robot, and the push acts on what walks.
+`control.stride` has to bring it back. The force of the ground is m (p_com'' - g) - F, with p_com the COM. J is
+that of the plant: a plant with model errors has other geometry than the nominal robot, and the push acts on
+what walks.
 
 `OnLink` has (F_x, F_z, M) of a wave: a pulse, a step, a sine, noise, or any other `Windowed` of amplitude (3,).
 The wave is a function of time that knows nothing of links: its `torque` gives three numbers in place of n
 torques, which are multiplied by J(q)'. So every wave of the package, and one of the user's own, pushes a link.
 
 `HipForce` is constant on the hip; F_x < 0 pulls backwards. `AddedForce` is set from outside, by a hand or a
-learner: F is a parameter, as the torque of `control.around.AddedTorque`. Its owner writes another F before each
-sample, and nothing is compiled anew.
+learner: F is a number that machine code reads at run time, as the torque of `control.around.AddedTorque`. Its
+owner, the program that runs the walk, writes another F before each sample, and nothing is compiled anew.
 """
 
 from __future__ import annotations
@@ -81,6 +83,7 @@ class OnLink(Disturbance):
         return wrench_torque(self.point, q, self.wave.torque(t, step, t_start, *AT_REST))
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
+        # (F_x, F_z) without the moment
         return self.wave.torque(t, step, t_start, *AT_REST)[:2]
 
 
@@ -128,7 +131,7 @@ class HipForce(Disturbance):
 
 @dataclass(frozen=True)
 class AddedForce(Disturbance):
-    """A force on `point`, which its owner may change before each sample.
+    """A force on `point`; the program that runs the walk may change the force before each sample.
 
     force: (F_x, F_z) (2,) [N]. `acts` is its square, so that nothing is computed while it is zero. There is no
     moment, so the torque is J(q)' force with the Jacobian J (2, n) of the point.
@@ -141,9 +144,11 @@ class AddedForce(Disturbance):
         freeze(self, "force")
 
     def acts(self, t: float, step: int, t_start: float) -> float:
+        # the square of the force: any number above 0 says that it acts
         return 1.0 * (self.force[0] ** 2 + self.force[1] ** 2)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        # J(q)' force; A, re and im are the constants of the point's closed form
         k = self.point
         return self.force @ planar.jacobian(k.A, planar.turned(k.A, q), k.re, k.im)
 

@@ -2,14 +2,16 @@
 
     zeta_i(t) = zeta_ij + (s - t_j) (zeta_i,j+1 - zeta_ij) / (t_j+1 - t_j),   t_j <= s < t_j+1,   s = t - start
 
-for a recording, zero before its first row and from the last on. A corner at a row is no switching time:
-a step of integration may go across it, since zeta does not jump there. It does jump at the first row and
-at the last, and steps end there.
+for a recording, with zeta_ij [N m] the torque on coordinate i in row j, t_j [s] the time of that row, and
+`start` [s] the time at which the recording begins; zero before its first row and from the last on. A corner at
+a row is no switching time: a step of integration may go across it, since zeta does not jump there. It does jump
+at the first row and at the last, and steps end there.
 
     zeta(t) = tau_k + J(q)' F_k,     t_k <= t - t_start < t_k+1
 
-for pushes by hand: torques on the coordinates, and a force on a point of a link, constant from row to row. The
-rows belong to one single support, and the last one lasts until its end. The page on which a person pushes a
+for pushes by hand: in row k torques tau_k (n,) on the coordinates, and a force F_k on a point of a link with
+the Jacobian J, constant from row to row. t_start [s] is the time at which the single support of the rows began.
+The rows belong to one single support, and the last one lasts until its end. The page on which a person pushes a
 walking robot (`extras.play`) records them, one row for each sample in which the push changed. zeta jumps at
 each row, so each is a switching time. "Hand" below stands for such pushes.
 
@@ -131,10 +133,11 @@ class RecordedTorque(Disturbance):
         return tuple(self._lines(*part) for part in pairwise(ends))
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        # zeta of the base class is the sum over `terms`, each in its window
         return self.zeta(t, step, t_start, q, v)
 
     def _lines(self, first: int, last: int) -> Lines:
-        """The term with the linear pieces from row `first` to row `last`; pieces that are left over stay 0."""
+        """The term with the linear pieces from row `first` to row `last`; unused pieces have width 0."""
         t, zeta = self.times[first : last + 1], self.torques[first : last + 1]
         begin, width = np.zeros(PIECES), np.zeros(PIECES)
         slopes = np.zeros((zeta.shape[1], PIECES))
@@ -163,6 +166,7 @@ class HeldRows(Windowed):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
+        # (step, or 0 for the run; time [s] since it began); a set, as the first row is at `start`
         ends = {self.start, *self.times.tolist(), self.stop}
         return tuple((self.step or 0, float(s)) for s in sorted(ends) if np.isfinite(s))
 
@@ -179,8 +183,8 @@ def by_hand(
     """Make the disturbance of a hand that pushes in single support `step`, constant from row to row.
 
     times (K,) [s]: of the rows, since the single support began; the last row acts until its end. torques (K, n)
-    [N m]: empty for none. forces (K, 2) [N]: on `point` (x, z) [m] in the frame of the link `on`; not read
-    where `on` is None.
+    [N m]: on the coordinates, empty for none. forces (K, 2) [N]: (F_x, F_z) on `point` (x, z) [m] in the frame
+    of the link `on`; not read where `on` is None. The result is the sum of torques and force.
 
     Raises InputError for rows that are not as many as times, and times that do not increase from 0.
     """
@@ -189,6 +193,7 @@ def by_hand(
         raise InputError(f"the times of the hand are {t}, expected numbers that increase from 0")
     result = list[Disturbance](_terms("torques", torques, t, step, biped.n))
     if on is not None:
+        # moment=1 puts the moment M = 0 behind (F_x, F_z), since OnLink takes (F_x, F_z, M)
         pieces = _terms("forces", forces, t, step, 2, moment=1)
         result += [OnLink(biped, on, piece, (point[0], point[1])) for piece in pieces]
     return Sum(tuple(result))
@@ -199,8 +204,9 @@ def _terms(
 ) -> list[HeldRows]:
     """Cut rows (K, size) at times t (K,) [s] into terms of PIECES rows.
 
-    moment: number of zeros put behind each row, 1 for forces (F_x, F_z) that become (F_x, F_z, M). what: name
-    of the rows for messages. No rows give no terms. A term ends where the next begins, the last one never.
+    size: numbers in a row. moment: number of zeros put behind each row: 1 for forces (F_x, F_z), which become
+    (F_x, F_z, M), 0 for torques. what: name of the rows for messages. No rows give no terms. A term ends where
+    the next begins, the last one never, so that the last row acts until the end of single support `step`.
     """
     y = numbers(rows, f"the {what} of the hand")
     if not y.size:
@@ -210,6 +216,7 @@ def _terms(
         raise InputError(f"{what} of the hand have the shape {shape}")
     y, windows = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
     for first, last in pairwise([*range(0, len(t), PIECES), len(t)]):
+        # times of unused rows stay inf, so they never come
         at, jumps = np.full(PIECES, np.inf), np.zeros((size + moment, PIECES))
         at[: last - first] = t[first:last]
         jumps[:, 1 : last - first] = np.diff(y[first:last], axis=0).T

@@ -1,4 +1,7 @@
-"""Torques over a window: a pulse, a step, a sine, band-limited noise.
+"""Torques over a window of time: a pulse, a step, a sine, band-limited noise.
+
+zeta (n,) [N m] is the torque on all n coordinates, amplitude (n,) [N m] its size, t [s] the time, and start,
+stop [s] the ends of the window, the onset being its beginning.
 
 `TorquePulse` is constant over a window; it rises and falls at once (vertical edges) or with a finite slope:
 
@@ -9,7 +12,7 @@ the paper have vertical edges. An observer of a disturbance that changes slowly 
 that take some milliseconds, as a push of a hand does.
 
 `TorqueStep` sets in and stays through all later steps: zeta = amplitude from onset on. It stands for a load
-that is picked up, or a friction that nobody modelled. An observer with one extended state (m = 1) finds it
+that is picked up, or a friction that nobody modelled. An observer with one extended state (m = 1) estimates it
 without a steady error, a PD controller leaves an error that falls with its gains. Joints swap names at impact,
 so a torque on one leg's joints stays with the leg that stands, not with the metal.
 
@@ -114,10 +117,12 @@ class TorqueStep(Windowed):
             raise InputError("a torque step has no stop; use TorquePulse for a window")
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """zeta = amplitude (n,) [N m]; `acts` keeps it from acting before its onset."""
         return 1.0 * self.amplitude
 
     def acts(self, t: float, step: int, t_start: float) -> float:
         """A number above 0 from onset on, in all later steps too."""
+        # with a `step` (support > 0) the window closes with its single support, so later ones are added
         later = 1.0 * (self.support > 0) * (step > self.support)
         return later + super().acts(t, step, t_start)
 
@@ -138,6 +143,7 @@ class TorqueSine(Windowed):
     frequency: PositiveFloat = 1.0
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """zeta (n,) [N m] at s = t - onset after the window has opened."""
         s = t - self.onset(t_start)
         return self.amplitude * np.sin(2.0 * math.pi * self.frequency * s)
 
@@ -173,6 +179,7 @@ class TorqueNoise(Windowed):
         return self.bandwidth * part / self.sines, random.uniform(0.0, 2.0 * math.pi, shape)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """zeta (n,) [N m], the module's sum of K sines at s = t - onset after the window has opened."""
         s, (frequencies, phases) = t - self.onset(t_start), self.drawn
         total = np.sin(2.0 * math.pi * frequencies * s + phases).sum(axis=1)
         return self.amplitude * math.sqrt(2.0 / self.sines) * total

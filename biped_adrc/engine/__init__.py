@@ -1,1 +1,3 @@
-"""Compiled code generated from the Pinocchio model of a planar robot, and checked against it."""
+"""Walks in machine code, which is made from the methods of controllers and other parts, and from the dynamics
+of a planar robot as formulas, checked against Pinocchio.
+"""

@@ -1,13 +1,14 @@
-"""Many walks at once: compiled, in threads, each by itself, so that their number changes no bit of
-any result.
+"""Many walks at once: compiled, in threads, each by itself, so that their number changes no bit of any result.
 
-For return maps, basins and sweeps, where thousands of walks are made and only their impacts matter.
-What touches Python (checks, controllers that run in Python, Pinocchio) is done in the caller's thread,
-when a case is prepared; the threads then run kernels without the GIL, each on arrays of its own.
-The memory of a run is taken when it starts and freed when it ends, so memory does not grow with the
-number of runs, but for the few numbers that each of them leaves (`BatchWalk`).
+For return maps, basins and sweeps, where thousands of walks are made and only their impacts matter. A kernel is
+a compiled loop over time, a node a stored instant of a walk, an arc the flow between two impacts.
 
-`analysis` asks for `strides`, studies and `bench` for `simulate_many`.
+What touches Python (checks, controllers that run in Python, Pinocchio) is done in the caller's thread, when a
+case is prepared; the threads then run kernels without the GIL, each on arrays of its own. The memory of a run
+is taken when it starts and freed when it ends, so memory does not grow with the number of runs, but for the few
+numbers that each of them leaves (`BatchWalk`).
+
+Return maps (`analysis`) ask for `strides`, studies and benchmarks for `simulate_many`.
 """
 
 from __future__ import annotations
@@ -77,6 +78,7 @@ class Case(Shown):
         check_fields(self)
         if self.q is None or self.v is None:
             check_part(self.gait, "the gait of a case without q and v", Gait)
+            # q, v of the gait on the controller's model, put past the frozen class's own refusal
             start = self.gait.start(self.walker.nominal)
             vars(self).update(zip("qv", start, strict=True))
 
@@ -86,6 +88,7 @@ class Case(Shown):
         without a curve nodes are kept at the ends of arcs alone.
         """
         t_end = self.mode.start + self.impacts * self.walker.max_step_time
+        # STORE: so many integration steps between two nodes that only the ends of arcs are kept
         strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
         return RunOptions(t_end, self.mode.start, strikes, store_every=every)
 
@@ -179,6 +182,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     try:
         return _prepared(case)
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
+        # these two are InputErrors, too, but say how the walk went and no mistake of the caller
         if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
             raise
         status, detail = simulator.status_of(error)
@@ -189,8 +193,9 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
-    """Prepare a case as `run_case` does, but let errors pass; a walk whose parts cannot all be compiled is
-    simulated here at once, in the caller's thread.
+    """Prepare a case and return the function that simulates it, in any thread. Raises whatever its parts raise.
+
+    A walk whose parts cannot all be compiled is simulated here at once, in the caller's thread.
     """
     walker, options = case.walker, case.options
     x = walker.initial_state(case.q, case.v, case.mode)
@@ -200,6 +205,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     try:
         compiled = CompiledWalker.of(walker, case.method, layout, case.mode.start, case.curve)
     except (NotCompiled, ModelError):
+        # `simulate_by` compiles what it can, such as the plant alone
         try:
             run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(options))
         except NotFiniteError:
@@ -226,8 +232,9 @@ def _strides(
     of the table, 0 for no table.
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
-    if read:
+    if read:  # memory for the rows of so many single supports
         run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
+    # parts: rows (t, x-, x+) of the impacts; rows: those of the table; left: impacts that are still to be made
     status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
     while left > 0 and status is Status.COMPLETED:
         status, part = run.stride(min(left, _AT_ONCE) if read else left)
@@ -242,6 +249,7 @@ def left_by(case: Case, run: Trajectory) -> BatchWalk:
     """Make the `BatchWalk` of a run of a case; the run itself is in it where the case has a curve."""
     x, engine = run.final_state, run.settings["engine"]
     times = np.array([event.t for event in run.events(FOOT_STRIKE)])
+    # reshape: (0, nx) without an impact
     before, start = run.before(FOOT_STRIKE).reshape(-1, len(x)), case.mode.start
     walk = BatchWalk(run.status, run.detail, times, before, x, run.t_end, engine, start)
     return walk if case.curve is None else replace(walk, trajectory=run)

@@ -1,10 +1,11 @@
 """Generated code that Python calls: methods of parts, and terms of a disturbance.
 
 A generated function is `void f(double* K, double* inp, double* out)`: K has the numbers of the part that it was
-made from, inp its inputs, out its outputs, arrays joined one after the other. For controllers that run in
-Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine code that are asked for at
-every instant, traced from `model.planar_robot`; kinematics, contact and all else stay Pinocchio's.
-`compiled_references` does the same for the references of a controller.
+made from, and one unused number at its end so that it is never empty; inp its inputs, out its outputs, arrays
+joined one after the other. zeta (n,) [N m] is a disturbance, the generalised torque from outside. For
+controllers that run in Python `CompiledBiped` is a `model.biped.Biped` with those of its methods in machine
+code that are asked for at every instant, traced from `model.planar_robot`; kinematics, contact and all else
+stay Pinocchio's. `compiled_references` does the same for the references of a controller.
 """
 
 from __future__ import annotations
@@ -88,6 +89,7 @@ class Call:
         inp, out = np.ascontiguousarray(inp), np.empty((len(inp), len(self.out)))
         starts = inp.ctypes.data, out.ctypes.data
         K, inputs, outputs = self.K.ctypes.data, inp.strides[0], out.strides[0]
+        # row i begins i times the length of a row [bytes] after the first one
         for i in range(len(inp)):
             self._function(K, starts[0] + i * inputs, starts[1] + i * outputs)
         return out
@@ -126,12 +128,14 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
 
     def traced() -> SymbolicFunction:
+        # imported here, since these bring CasADi in, which is needed only where something is traced
         from biped_adrc.engine.equations import SymbolicFunction
         from biped_adrc.engine.symbols import Vector, column, symbols_of
         from biped_adrc.engine.tracer import Tracer, apply
 
         # symbols: the part with symbols in place of its numbers
         (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
+        # `sparse` of a robot: terms that this robot does not have are a plain 0 and vanish from the code
         symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
         law = methodcaller(method, *(inp.take(*size) for size in sizes))
         out = apply(Tracer(), law, symbols)
@@ -170,6 +174,8 @@ class CompiledBiped(Biped):
     def _called(self, method: str, *arguments: Array) -> Any:
         """Call a method in machine code at q [rad] and v [rad/s], each (n,) and checked, and further
         arguments."""
+        # `_angles` checks a vector; `zeros`: an example of the arguments, by which `in_code` learns their
+        # shapes
         arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
         if method not in self._made:
             zeros = map(np.zeros_like, arguments)
@@ -181,7 +187,7 @@ class CompiledBiped(Biped):
         return cast(Reduction, self._called("reduction", q, v))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """The `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
+        """Terms of momentum and ground force of the whole robot, at q (n,) [rad], v (n,) [rad/s]."""
         return cast(BodyTerms, self._called("body_terms", q, v))
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
@@ -210,6 +216,7 @@ class CompiledReference:
     """
 
     def __init__(self, reference: Reference, n: int):
+        # kind: a class for the twin alone, since Python looks __call__ up in the class of an object
         base = type(reference)
         kind = new_class(base.__name__, (base,))
         self.reference, self.twin = reference, with_content(reference, content(reference), kind)

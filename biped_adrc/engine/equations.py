@@ -6,7 +6,8 @@
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
     reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
     push      (t, step, t_start, q, v) -> zeta, force         of the disturbance, with numbers of its own
-    to, back, remainder                                       coordinates of the exponential method
+    to, back, remainder                                       x -> y, y -> x, y -> N: the exponential method in
+                                                              y = (w, E), E' = A E + N_E stiff, w' = N_w
 
 t [s] is the time, step the number of the single support, t_start [s] its start, x (nx,) the state, and drop [m]
 how much lower the ground is where the single support ends. `force` (2,) [N], from outside on the robot as a
@@ -145,6 +146,7 @@ class SymbolicLoop(NamedTuple):
         if not self.torques:
             return least
         # an infinite torque, or one of a singular matrix, is no such case: it ends the run by another status
+        # (comparisons of symbols are 1 or 0, so their product means "and")
         u = functools.reduce(maximum, map(abs, self.torques))
         return where((u > self.numbers.strongest) * (u < math.inf) * (least > 0.0), -1.0, least)
 
@@ -245,7 +247,7 @@ class Equations:
         x = at.does(semantics.tick)
         if self.numbers.moves:
             return self.function(at.inp, x, at.loop.lost)
-        a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
+        a = at._replace(x=x).does(semantics.flow)[n : 2 * n]  # x' = (q', q'', ..)
         return self.function(at.inp, x, at.loop.lost, a)
 
     def view(self, read: Reading) -> SymbolicFunction:
@@ -264,6 +266,7 @@ class Equations:
         # Mode(step, t), since that single support begins now
         inp, loop = Vector("inp", 2 + self.nx), self.loop()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
+        # `strike`: impact map, relabelling of the legs and the controller's jump
         x = loop.trace(semantics.strike)(loop, t, x, Mode(step, t))
         # jump alone is not tried at the start of a run, so the size of its result is checked here
         if len(x) != self.nx:
@@ -306,7 +309,10 @@ class Equations:
         return self.function(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:
-        """N_w, row 1 of N_E (p,), and the least pivot, at y = (w, E), which the inputs have in place of x."""
+        """The function (t, step, t_start, y, zeta, force) -> N_w, row 1 (from 0) of N_E (k, p), least pivot.
+
+        It has y = (w, E) in place of x. The other rows of N_E are zero.
+        """
         at = self.at()
         w, E = self._coordinates(at.x)
         form = self._split(at.loop.trace)

@@ -1,4 +1,5 @@
-"""Machine code of functions, found by their structure in memory or on disk, else compiled.
+"""Machine code of functions such as a walker's flow, found by their structure in memory or on disk, else
+compiled.
 
 The structure of a function is all that decides its code, without the values of floats (`engine.structure`). To
 trace is to run its Python once on symbols, which gives the expression that is compiled.
@@ -32,7 +33,7 @@ def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> Lo
     Raises NotCompiled for functions that cannot be traced; a second call raises it without tracing anew.
     """
     names = list(functions)
-    key = key, *names
+    key = key, *names  # several sets of functions may be made from one structure
     code = _IN_MEMORY.get(key)
     if code is None:
         try:

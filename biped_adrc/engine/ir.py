@@ -9,8 +9,8 @@ each value a place of its own, its index in a list, and a language has a pattern
     {0} {1}     the values of the lines before it in the pattern
 
 LLVM's language is here, for `void f(double* K, double* inp, double* out)`: second stage of the compiler,
-between `engine.symbols` and `engine.machine`. No operations are fused into multiply-adds, so the numbers are
-the same whatever function is compiled beside.
+between `engine.symbols` and `engine.machine`. No operations are fused into multiply-adds, so that the numbers
+of a function do not depend on what else is compiled with it.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
     work = dict[int, int]()
     for i in range(f.n_instructions()):
         code, a, o = f.instruction_id(i), f.instruction_input(i), f.instruction_output(i)
-        # a: numbers of registers, for an input its vector and index, which are taken as they are
+        # a: numbers of registers, for an input its vector and index, which are taken as they are; o: register
+        # of the result, for an output its vector and index
         of = tuple(a if code == ca.OP_INPUT else map(work.__getitem__, a))
         if code == ca.OP_ASSIGN:
             work[o[0]] = of[0]

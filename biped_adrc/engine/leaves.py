@@ -1,7 +1,8 @@
 """The numbers of a tree of parts, tuples and arrays, in the order in which machine code reads them.
 
-Numbers are floats and arrays of floats here; whole numbers are part of the code. A part is a dataclass
-(`core.part`), whose content, fields and derived numbers, is searched to any depth.
+Numbers are floats and arrays of floats here; whole numbers are part of the code. A tree is a value with others
+inside, to any depth, such as a controller with its gains. A part is a dataclass (`core.part`); its content, the
+fields and the numbers derived from them, belongs to the tree.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ HIDDEN = (Biped, complex, np.complexfloating, Setup, *_RANDOM)
 
 
 def floats(tree: object) -> list[float]:
-    """The numbers of a tree, as they stand in the vector K: those for which `Vector.like` takes symbols, in the
-    same order.
+    """The numbers of a tree, one after the other, as machine code reads them in the vector K: all floats in it,
+    an array row by row. `engine.symbols.Vector.like` puts symbols in their places, in the same order.
     """
     if isinstance(tree, REALS):
         return [float(tree)]

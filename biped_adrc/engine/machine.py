@@ -1,9 +1,9 @@
 """Machine code of modules in LLVM's language, kept on disk with checksums.
 
-Last stage of the compiler. Object code is stored under the hash of the text and of what compiles it; other
-stages store texts in the same way (`fetch`, `store`). A file is written under another name and then renamed, so
-several processes may make the same one; a damaged file is made again, and where nothing can be written code is
-made in memory each time.
+Last stage of the compiler that makes machine code of methods, such as a controller's. Object code is stored
+under the hash of the text and of what compiles it; other stages store texts in the same way (`fetch`, `store`).
+A file is written under another name and then renamed, so several processes may make the same one; a damaged
+file is made again, and where nothing can be written code is made in memory each time.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> L
     """The functions `names` of a module in LLVM's language: loaded from the disk if its object code is there,
     else compiled and stored.
 
-    vectors: as in `object_code`. One thread at a time does it, so no two compile the same module; another
-    process may do so, and then writes the same file.
+    vectors: whether LLVM joins like operations into vector instructions. One thread at a time does it, so no
+    two compile the same module; another process may do so, and then writes the same file.
     """
     key = hash_of(text, str(vectors))
     with LOCK:
@@ -64,7 +64,9 @@ def hash_of(*made_from: str) -> str:
 
 
 def _target() -> binding.TargetMachine:
-    """LLVM's target machine for this processor, a new one each time: MCJIT owns the one that it is given."""
+    """LLVM's target machine for this processor, a new one each time: LLVM's engine for code in memory (MCJIT)
+    owns the one that it is given.
+    """
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     return binding.Target.from_default_triple().create_target_machine(

@@ -1,4 +1,5 @@
-"""The numbers of a walker that machine code gets at run time, such as masses, gains and limits, by name.
+"""The numbers of a walker, the closed loop, that machine code gets at run time: masses, gains, limits, .., by
+name.
 
 `engine.leaves.floats` writes the floats among them in this order into the vector K, an argument of every
 compiled function; whole numbers and flags decide the code itself. A number that machine code is to get in
@@ -71,6 +72,8 @@ def numbers_of(
     split: coordinates of the exponential method, None for other methods. curve: reference from which readings
     take errors. Raises ModelError for a robot that is no planar tree.
     """
+    # `robot_of`: the robot's dynamics as formulas, which can be traced; `tracked_by`: the controller itself
+    # where an outer loop in it changes the reference, else the curve
     return controller_numbers(robot_of(walker.plant), walker)._replace(
         model=None if walker.model is None else robot_of(walker.model),
         tan_slope=math.tan(walker.ground_slope),

@@ -5,8 +5,9 @@
 t [s] is the time of the sample instant, step the number of the single support, t_start [s] its start, and x
 (nx,) the state of the loop: q [rad], v [rad/s], states of controller and sensors, and the queue of torques
 [N m], of which the oldest one acts until the next instant (`closed_loop.stepping`). F_stance and F_swing [N]
-are the vertical forces of the ground on the two feet, for a touchdown detector that needs them. The least pivot
-is the smallest |pivot| of the matrices that the controller inverts: 0 for a singular one, below 0 for a torque
+are the vertical forces of the ground on the two feet, for a touchdown detector that needs them. zeta (n,) [N m]
+is the disturbance, the generalised torque from outside on the n coordinates of the plant. The least pivot is
+the smallest |pivot| of the matrices that the controller inverts: 0 for a singular one, below 0 for a torque
 beyond the bound of the loop. In these cases, and where x is not finite, Python computes the instant again and
 says what is wrong.
 
@@ -91,6 +92,7 @@ class CompiledLoop(SteppingLoop):
         except (NotCompiled, ModelError) as reason:
             engine = {"engine": COMPILED_MODEL, "why": str(reason)}
             values["program"] = None
+            # []: gets the references that were compiled, of which nobody asks here
             values["controller"] = compiled_references(self.controller, self.plant.n, [])
             if isinstance(self.model, Biped):
                 with suppress(ModelError):  # of a robot that is no planar tree
@@ -113,13 +115,14 @@ class CompiledLoop(SteppingLoop):
             return super().tick(t, x, mode)
         inp = self.sample.inp
         inp[0], inp[1], inp[2] = t, mode.step, mode.start
-        # behind x n numbers stay 0: the place of zeta, which the plant alone feels
+        # behind x n numbers stay 0: the place of zeta, which the plant alone feels; then the OUTSIDE = 2 forces
         inp[3 : 3 + len(x)] = x
         if self.touchdown is not None and self.touchdown.needs_force:
             q, v, _, tail = parts(self, x)
             inp[-OUTSIDE:] = self.foot_forces(t, q, v, tail, mode)
         out = self.sample()
         after = out[:-1]  # behind it the least pivot, infinite where nothing is solved
+        # the sum of squares is finite only if every number is: the cheapest test of all
         if out[-1] > 0.0 and math.isfinite(after.dot(after)):
             return after
         return super().tick(t, x, mode)
@@ -131,12 +134,12 @@ class CompiledLoop(SteppingLoop):
         if self.pushes is None:
             return super().load(t, row, mode)
         n = self.plant.n
-        result = np.zeros(n + 2)
+        result = np.zeros(n + 2)  # zeta (n,) [N m], then the resultant force (2,) [N]
         for term in self.pushes:
             inp = term.inp
             inp[0], inp[1], inp[2], inp[3:] = t, mode.step, mode.start, row[: 2 * n]
             result += term()
-        if not math.isfinite(result.dot(result)):
+        if not math.isfinite(result.dot(result)):  # finite only if every number is
             return super().load(t, row, mode)
         return frozen(Load(result[:n], result[n:]))
 
@@ -147,8 +150,8 @@ class CompiledLoop(SteppingLoop):
         return self.disturbance is not None and self.pushes is None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, ..), for a disturbance in machine
-        code or none.
+        """The disturbance zeta (K, n) [N m] at K times t (K,) [s] of one single support, for a disturbance in
+        machine code or none; rows (K, ..): the plant's states there, which begin with q and q'.
         """
         if self.pushes is None:
             return super().zetas(t, rows, mode)

@@ -1,6 +1,8 @@
 """A walker as machine code: its functions, the vector K of its numbers, and the plan of its runs.
 
 A plan is the memory of a run that has not begun; the march is the compiled loop that moves a run through time.
+A reading is a function that reads arrays off the closed loop at one instant, for signals and verdicts; the
+curve is the reference (desired joint angles) from which it takes tracking errors.
 
 One compilation serves every robot, gain and gait of the same structure, which has no floats in it
 (`engine.structure`). So a program is made in microseconds where its functions are in memory, in milliseconds
@@ -110,7 +112,9 @@ class Program:
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
         code = generated(self.key, {name: partial(self._traced, name) for name in self.names})
-        vars(self).pop("equations", None)  # they take megabytes; a reading to be traced makes its own
+        vars(self).pop(
+            "equations", None
+        )  # they take megabytes; a reading to be traced makes its own
         return code
 
     def reading(self, read: Reading) -> LoadedCode:
@@ -129,6 +133,7 @@ class Program:
         """Address of a compiled function, a name of `kernels.record.FUNCTIONS`; 0 for one that this walker does
         not need, which no kernel calls then.
         """
+        # `matvec` is not the walker's: its code depends on the shapes (k, k) and (k, p) alone
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
@@ -166,9 +171,11 @@ def _matvec(k: int, p: int) -> SymbolicFunction:
 def at_rest(layout: Layout) -> Layout:
     """The layout of a state x for a walker whose sample instants run in Python; its size is the same.
 
-    Machine code then reads q, q' and the torques on their way alone. The states of controller, sensors and
-    belief, whatever their classes are, become plain rows of numbers that it carries along.
+    Machine code then reads q, q' and the torques on their way (`line`) alone. The states of controller, sensors
+    and detector of touchdowns, whatever their classes are, become plain rows of numbers that it carries along.
     """
+    # the tail has four parts: own, belief of the detector, sensors, line. Here the numbers of the first three
+    # are one row, `own`
     q, v, s, tail = layout.parts
     line, none = tail.parts[-1], Layout.of(None)
     own = tail.size - line.size
@@ -225,6 +232,7 @@ class CompiledWalker:
             "parts": np.array(parts, dtype=np.int64).reshape(-1, PART).view(float),
         }
         run = still.plan(tables)
+        # pulled: whether a force from outside may act, besides torques
         run["t_first"], run["pulled"] = t_first, push.pulls
         return cls(walker, still.program, run, method.label)
 
@@ -258,8 +266,11 @@ def _still(
     reference: Reference | None,
     in_python: bool,
 ) -> _Still:
-    """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next call;
-    arguments as there."""
+    """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next call.
+
+    method: of integration. layout: of a state. reference: from which readings take errors, None for none.
+    in_python: whether sample instants and impacts run in Python.
+    """
     if not isinstance(method, RK4 | Exponential):
         raise NotCompiled(
             f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have"
@@ -290,12 +301,14 @@ def _still(
     fields = dict[str, float]()
     if isinstance(walker.timing, SampledTime) and walker.held is not None:
         T = walker.timing.period
-        part = walker.held.motors.fraction * T
+        part = walker.held.motors.fraction * T  # what the delay has beyond whole periods [s]
         fields |= {"period": T, "restart": walker.timing.restart, "part": part}
     fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
+    # coordinates, numbers in x, motors, rows of the stiff part E (k, p), and how many numbers of x flow
     fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
     fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
     if relaxing is not None:
+        # `at` counts from the end of x, so its start is negative; lags: index of the first lagging torque
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
     fields |= {name: program.address(name) for name in FUNCTIONS}
     return _Still(program, tables, fields, {})

@@ -137,7 +137,8 @@ def simulate_compiled(
     """
     run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
     longest, left = compiled.walker.max_step_time, options.t_end - options.t0
-    # room for the nodes of one arc: to t_end where the step is too long already, else to its latest end
+    # room for the nodes (stored instants) of one arc: to t_end where the single support is too long already,
+    # else to its latest end
     run.keep(left if options.t0 - mode.start >= longest else min(left, longest))
     run["every"] = options.store_every
 
@@ -147,6 +148,7 @@ def simulate_compiled(
         Its arguments, which `run_arcs` gives to any engine, are not read: the run in memory is already where
         the last arc ended.
         """
+        # `stride(1)` ends after one impact at the latest
         nx, event, outcome = run.nx, None, None
         status, strikes = run.stride(1)
         for t, *x in strikes:  # one row (t, x-, x+), or none
@@ -156,6 +158,7 @@ def simulate_compiled(
             event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
         at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
         arc = Arc(mode, at[:, 0], x, dx, event)
+        # an exception in Python's sample instant; an arc of one node has not begun, and its error is raised
         if ticks is not None and ticks.error is not None:
             return FlownArc(arc, *simulator.status_of(ticks.error, begun=len(arc.t) > 1))
         # `run_arcs` decides whether the end of the time is a TIME_OUT

@@ -2,13 +2,18 @@
 
     u = u_c + torque,    zeta = zeta_w + J(q)' force
 
-u_c and zeta_w are those of the walker; torque (p,) [N m] adds to the motors', force (2,) [N] acts on the origin
-of the trunk (`control.around`, `disturbances.force`). A sample goes from one sample instant to the
-next; where an impact restarts the clock, it ends there.
+    u, u_c         torque on the p actuated joints, and the part that the walker's own controller asks for [N m]
+    zeta, zeta_w   disturbance on the n coordinates, and the part from the walker's own disturbance [N m]
+    torque         torque from outside (p,) [N m] (`control.around`)
+    force          force from outside (2,) [N] on the origin of the trunk, whose Jacobian is J (2, n) [m]
 
-A `CompiledWalk` is a walk in machine code, and the kernel `samples` (`engine.kernels.arc`) moves many of them
-in one call. A `PythonWalk` is
-moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled plant, or a plant of its own.
+A sample goes from one sample instant to the next; where an impact restarts the clock, it ends there. An arc is
+the flow between two events, a node a stored instant (t, x, x') of it. A `Reading` is a function that reads
+arrays, such as signals, off a closed loop at one instant.
+
+A `CompiledWalk` is a walk in machine code, and the compiled function `samples` (`engine.kernels.arc`), called
+the kernel, moves many of them in one call. A `PythonWalk` is moved by `hybrid.simulator.flow_arc`, which
+integrates one arc: a controller in Python on the compiled plant, or a plant of its own.
 """
 
 from __future__ import annotations
@@ -55,6 +60,7 @@ def with_inputs(walker: Walker) -> tuple[Walker, Array]:
     """The walker under a torque and a force from outside, both zero at first, and the array (p + 2,) of the
     torque [N m] and the force [N], which its owner overwrites before a sample that runs in Python.
     """
+    # both parts below keep views of `outside`, so what is written there reaches them
     plant, p = walker.plant, walker.plant.p
     outside = np.zeros(p + 2)
     force = AddedForce(outside[p:], _trunk(plant))
@@ -99,8 +105,8 @@ class CompiledWalk:
     ) -> Self:
         """Make the walk of a walker of `with_inputs` that starts at x (nx,) in the single support `mode`.
 
-        curve: reference from which errors are measured; None for none. judged: whether nodes are kept, for
-        verdicts, which need a curve. Raises NotCompiled for a part without machine code.
+        curve: reference from which errors are measured; None for none. judged: whether nodes are kept, for the
+        verdicts on ground and motors, which need a curve. Raises NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.layout_of(x), mode.start, curve)
         # t_end is t at first: the kernel sets it to the end of each sample
@@ -113,6 +119,7 @@ class CompiledWalk:
         # disturbance is the `AddedForce`: the kernel counts it among the terms only while it is not zero
         run["torque"] = run["K"] + 8 * torque_place(compiled.program)
         run["force"] = run["push"] + 8 * len(floats(walker.disturbance.terms[:-1]))
+        # pulled: whether a term besides it has a force from outside, so that nodes need that force
         run["pulled"] = any(term.pulls for term in walker.disturbance.terms[:-1])
         run["n_parts"] -= 1
         return cls(compiled, run)
@@ -130,7 +137,7 @@ class CompiledWalk:
         return replace(self, run=self.run.copy())
 
     def law(self, view: Reading) -> int:
-        """Address of the machine code that evaluates `view` at a state, for the kernel `looks`."""
+        """Address of the machine code of the `Reading` `view`; the kernel `looks` calls it at a state."""
         return self.compiled.program.reading(view).addresses["reading"]
 
 
@@ -169,9 +176,10 @@ class PythonWalk:
         """
         p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
-            loop, _ = compiled_plant(loop)
+            loop, _ = compiled_plant(loop)  # without the list of its compiled references
         elif isinstance(loop, CompiledLoop):
-            loop, _ = loop.prepared(x)
+            loop, _ = loop.prepared(x)  # without the settings that say what was compiled
+            # machine code reads its numbers from vectors K, so the inputs are written there too
             if loop.program is not None:
                 at = torque_place(loop.program)
                 places.append((loop.program.K[at : at + p], slice(p)))
@@ -197,12 +205,17 @@ class PythonWalk:
         """
         for place, part in self.places:
             place[:] = inputs[part]
+        # over: arcs of the single supports that ended. The loop goes round again after an impact before `until`
+        # with a clock that goes on: the rest of the sample is walked in the next single support
         walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
         while True:
             start = walk.mode.start if timing.restart else 0.0
             until = next_tick(walk.t, start, timing.period)
-            # the last one is the start of the arc, from which a clock that restarts counts
+            # the last one is the start of the arc, from which a clock that restarts counts; any other counts
+            # from 0 s, the start in `RunOptions`
             at = (walk.t, walk.x, walk.mode, walk.fired, walk.mode.start)
+            # `handing_out` turns an exception of the user's code into a RaisedError with its class and line;
+            # NumPy does not warn of an overflow, which ends the walk: `finite_part` cuts what is not finite
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite_part(flow_arc(self.loop, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
@@ -211,12 +224,14 @@ class PythonWalk:
             if event is not None or flown.status is not Status.COMPLETED:
                 over.append(_joined(arcs))
                 arcs = ()
+            # no state after an event: the sample is complete, or the walk has ended, as the status says
             if flown.outcome is None or event is None:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
                 return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
             t, (x, mode) = event.t, flown.outcome
             walk = replace(walk, t=t, x=x, mode=mode, fired=event, arcs=arcs)
-            if timing.restart or t >= until:  # the impact itself is then a sample instant
+            # an impact: with a clock that restarts, or exactly at `until`, it is itself a sample instant
+            if timing.restart or t >= until:
                 return walk, flown.status, over
 
 
@@ -230,9 +245,11 @@ def _joined(arcs: Sequence[Arc]) -> Arc:
 
 
 def python_row(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
-    """Evaluate `view` at a walk's present state in Python, with errors from `curve`: its arrays joined into one
-    row.
+    """Evaluate the `Reading` `view` at a walk's present state in Python; returns its arrays joined in one row.
+
+    Tracking errors in it are relative to the reference `curve`, whatever the controller tracks.
     """
+    # the reference of a `Reading` is a function of the controller's state s, not used here, and measurement m
     result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
     return np.concatenate([np.ravel(part) for part in result])
 
@@ -262,12 +279,13 @@ class SampledWalks:
 
     def put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
         """Put a walk, with the code of its status (a place in `STATUS`), into place i."""
-        _, t, x, mode = walk.at
+        _, t, x, mode = walk.at  # its loop, time [s], state and single support
         if not self.rows.size:  # the first walk says how many numbers x has
             self.rows = np.zeros((len(self.all), 2 + len(x)))
         self.rows[i] = (t, mode.step, *x)
         self.all[i], self.codes[i] = walk, code
         self._addresses[i] = walk.run.address if isinstance(walk, CompiledWalk) else 0
+        # the functions that were read have other machine code for another walk
         for view, (laws, _) in self._laws.items():
             laws[i] = self._law(i, view)
 
@@ -297,6 +315,7 @@ class SampledWalks:
         """Iterate over the compiled walks whose single support ended in the last sample: number of the walk,
         the walk, its impacts in this sample, and whether it has ended.
         """
+        # -1 impacts are of walks that machine code did not move
         struck = (self._impacts > 0) | ((self._impacts == 0) & (self.codes != 0))
         for i in np.flatnonzero(struck).tolist():
             walk = cast(CompiledWalk, self.all[i])
@@ -309,6 +328,7 @@ class SampledWalks:
         curve: the reference.
         """
         if view not in self._laws:
+            # one row is computed in Python for its size
             first = next(walk for walk in self.all if walk is not None)
             laws = np.array([self._law(i, view) for i in range(len(self.all))], dtype=np.int64)
             self._laws[view] = laws, np.zeros((len(laws), len(python_row(first, view, curve))))

@@ -1,11 +1,12 @@
 """The structure of a walker is all that decides its generated code; by it the engine finds that code again.
 
-The engine needs a tenth of a second to trace a walker, and a study makes thousands that differ in their
-numbers. So code in memory is stored under a structure: classes, integers and shapes of arrays, without the
-values of floats. Methods that are compiled have to be pure, as in JAX: what they read besides their arguments
-and fields, such as a function or a constant of a module, is read once, when they are compiled. A class that is
-defined a second time is another structure. Another process finds code on disk by the name that `lasting` makes
-of a structure, where all classes in it are this package's own.
+To trace a walker is to run its methods once on symbols. The engine needs a tenth of a second for it, and a
+study makes thousands of walkers that differ in their numbers alone. So code in memory is stored under a
+structure: classes, integers and shapes of arrays, without the values of floats. Methods that are compiled have
+to be pure, as in JAX: what they read besides their arguments and fields, such as a function or a constant of a
+module, is read once, when they are compiled. A class that is defined a second time is another structure.
+Another process finds code on disk by the name that `lasting` makes of a structure, where all classes in it are
+this package's own.
 """
 
 from __future__ import annotations
@@ -41,11 +42,12 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     if isinstance(tree, np.ndarray):
         numbers = tree.dtype.kind == "f" and not exact
         return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
+    # such as a robot or a random generator: code that uses one is refused
     if isinstance(tree, HIDDEN):
         return "hidden", type(tree)
     if is_part(tree):
         return _of_part(tree, exact)
-    if isinstance(tree, Layout):
+    if isinstance(tree, Layout):  # whole numbers alone, to be compared as it is
         return tree
     if isinstance(tree, LISTS):
         return type(tree), *(structure(x, exact) for x in tree)

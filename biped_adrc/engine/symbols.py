@@ -2,7 +2,7 @@
 
 This is the first stage of the compiler: method -> expression (here) -> LLVM text (`engine.ir`) ->
 machine code (`engine.machine`). The method is an ordinary one on NumPy arrays. `engine.tracer` makes a copy of
-it, and of every function that it reaches, in which `np`, `math` and `linear.solve` are replaced by twins that
+it, and of every function that it reaches, in which `np`, `math` and `core.linear` are replaced by twins that
 make no float arrays and decide nothing by the numbers. The method's own lines are not rewritten.
 
 Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
@@ -33,7 +33,7 @@ T = TypeVar("T")
 
 
 _Number = Union["Scalar", float]
-"""A symbol, or a number that the structure fixes."""
+"""A symbol, or a number that is a constant of the expression."""
 
 
 def expression(x: _Number) -> ca.SX | float:
@@ -183,6 +183,7 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     used: in the version for numbers, `linear.solve_positive`, it names the matrix in an error. Here a zero in d
     gives NaN or infinity at run time.
     """
+    # columns: B, which becomes L^-1 B, then d^-1 L^-1 B, then X
     n = len(A)
     columns: Any = B.reshape(n, -1).astype(object)
     L = np.full((n, n), 0.0, dtype=object)
@@ -222,6 +223,8 @@ class SymbolicSolver:
         n = len(A)
         if n == 0:
             return np.full(np.shape(B), 0.0, dtype=object)
+        # rows of (A, B): elimination with an exchange of rows i and j where the entry of i is larger, then
+        # substitution from the last row up
         rows: Any = np.hstack((A, B.reshape(n, -1))).astype(object)
         inverse: list[_Number] = []
         for j in range(n):
@@ -263,6 +266,7 @@ class Hidden:
     def __getattr__(self, name: str) -> Any:
         raise NotCompiled(f"the law uses {self._what}, which has no form on symbols")
 
+    # Python looks operators up in the class, past __getattr__, so each of them is named here
     __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = __call__ = (
         lambda self, *_: self.__getattr__("")
     )

@@ -4,6 +4,9 @@ The march, the compiled loop over time, calls them by address, as it calls compi
 Where nothing but the torque is held between sample instants (no sensors, motors, delay or detector of
 touchdowns), one call of machine code computes what a controller gets at a sample instant: the nominal model's
 terms, and the point of the controller's reference there, which the reference then returns when it is called.
+
+In the state x = (q, q', s, tail) s is the controller's state, and the tail has the numbers of sensors and
+motors, the torque last.
 """
 
 from __future__ import annotations
@@ -57,6 +60,7 @@ class PythonTicks:
         """
         self.walker, self.nx = walker, compiled.program.nx
         self.error: BaseException | None = None
+        # ideal: nothing but the torque (p,) is held
         tail = compiled.program.layout.parts[State._fields.index("tail")]
         ideal = walker.sensors is None and walker.motors is None and tail.size == walker.plant.p
         # only the first reference is known beforehand; any other is computed when it is called
@@ -124,6 +128,7 @@ class PythonTicks:
         """
         walker, nx, n = self.walker, self.nx, self.walker.plant.n
         s_layout = walker.layout_of(np.zeros(nx)).parts[State._fields.index("s")]
+        # curve: the reference whose point machine code computes along with the model's terms
         curve = references[0].reference if references else None
         program = replace(program, numbers=program.numbers._replace(curve=curve))
         tracked = None if curve is None else partial(tracked_point, curve)
@@ -131,15 +136,18 @@ class PythonTicks:
         self.code, self.K = program.reading(controller_inputs), program.K
         function = FUNCTION(self.code.addresses["reading"])
         rows = input_rows(tuple(map(np.shape, example)))
+        # body: whether the controller reads the terms of the whole robot; end: where the torque begins in x
         body, end, K = walker.law.needs_body, nx - walker.plant.p, self.K.ctypes.data
 
         def tick(inp: int, result: Array) -> None:
+            # row: address to which machine code writes; q, v, parts: read-only arrays on that memory
             row, (q, v, *parts) = next(rows)
             function(K, inp, row)
             t, step, start = _numbers_at(inp, 3).tolist()
             x = _numbers_at(inp, 3 + nx)[3:]
             mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
             # the controller evaluates its reference at these q and v, and gets this point without a second call
+            # (`known`: its arguments, which are compared by identity, and the point)
             for r in references:
                 r.known = t, q, v, ReferencePoint._make(parts[TERMS:])
             m = semantics.measurement(walker, t, q, v, mode, body, terms)

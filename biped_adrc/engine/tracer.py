@@ -2,9 +2,9 @@
 
 A law is a method of a controller, reference, disturbance or other part (a dataclass of `core.part`), written
 for NumPy arrays. `Tracer` copies its function and every function that this one calls; in the copies the names
-of NumPy's, math's and `linear`'s functions lead to twins, functions that do the same on symbols. The twin of a
-class is a subclass whose methods are such copies; the twin of a part is an object of that subclass. `apply`
-calls a copy and says in which function an error arose. A symbol is a `Scalar` of `engine.symbols`.
+of NumPy's, math's and `core.linear`'s functions lead to twins, functions that do the same on symbols. The twin
+of a class is a subclass whose methods are such copies; the twin of a part is an object of that subclass.
+`apply` calls a copy and says in which function an error arose. A symbol is a `Scalar` of `engine.symbols`.
 """
 
 from __future__ import annotations
@@ -121,6 +121,7 @@ class Tracer:
         }
         # math says asin where NumPy says arcsin
         scalars |= {name.replace("arc", "a"): function for name, function in scalars.items()}
+        # pairs: a function that a law may call, and what the law's copy calls in its place
         pairs = [
             *((getattr(np, name), twin) for name, twin in numpy.items()),
             *((getattr(math, name), f) for name, f in scalars.items() if hasattr(math, name)),
@@ -153,7 +154,7 @@ class Tracer:
         if not isinstance(f, types.FunctionType) or str(f.__module__).startswith(ENGINE):
             return f
         if f.__globals__.get(COPIED) is self:
-            return f
+            return f  # a copy of this tracer already
         if f not in self._copies:
             # The code object stays, its globals are others: in the copy `np` names the twin. Patching NumPy
             # itself would reach other threads, and the original goes on working on arrays.
@@ -203,6 +204,7 @@ class Tracer:
             ENGINE
         ):
             return self(value)
+        # attributes without a dataclass: nobody can say which of them are numbers of the law
         if not is_part(value) and vars(value):
             raise Located(
                 f"{type(value).__name__} cannot be compiled: it is no dataclass; write @dataclass(frozen=True) "

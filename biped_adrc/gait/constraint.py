@@ -76,6 +76,7 @@ class VirtualConstraint(Reference):
         """Check the fields, and keep the phase as a read-only array."""
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
+        # for None a number that passes the check
         fade = FADE if self.fade is None else self.fade
         if not (np.all(np.isfinite([*c, span])) and span != 0.0 and 0.0 < fade < np.inf):
             raise GaitError(
@@ -129,7 +130,7 @@ def continued(h: VirtualConstraint) -> VirtualConstraint:
     soon command angles out of reach. Raises InputError for an argument that is no constraint.
     """
     check_part(h, "what is to go on", VirtualConstraint)
-    return replace(h, fade=FADE)
+    return replace(h, fade=FADE)  # 1 % of the range of Theta
 
 
 Correction = Callable[[float], tuple[Array, Array, Array]]
@@ -154,6 +155,7 @@ class CorrectedConstraint(Reference):
         """The reference at q (n,) [rad], v (n,) [rad/s]: that of `base` plus the correction's terms, by the
         chain rule.
         """
+        # r: q_d, q_d', drift and H of `base`; phase: the row c_q
         r, phase = self.base(t, q, v), self.constraint.phase
         rate = float(phase @ v)
         c, dc, ddc = self.correction(float(phase @ q))

@@ -1,14 +1,15 @@
-"""Angle conventions of a planar biped with a torso and two legs, as affine maps to this paper's.
+"""Angle conventions of a planar biped with a torso and two legs, as affine maps to that of the paper.
 
     q = A q' + b,   v = A v',   tau' = A^T tau
 
-q' are the coordinates of another convention, in its own order, and q = (stance hip, swing hip, stance knee,
-swing knee, torso) those of `docs/notation.md`: absolute angles counter-clockwise positive with x to the right
-and z up, a link of absolute angle a pointing along (-sin a, cos a) away from the hip. Power is the same in
-both: tau' v' = tau v. A walker without knees has the conventions of one with knees, without the shins.
+q' are the coordinates of another convention, in its own order, v' their rates and tau' the torques on them; '
+is no derivative here. q = (stance hip, swing hip, stance knee, swing knee, torso), v and tau are the paper's:
+absolute angles counter-clockwise positive with x to the right and z up, a link of absolute angle a pointing
+along (-sin a, cos a) away from the hip. Power is the same in both: tau' v' = tau v. A walker without knees has
+the same conventions without the coordinates of the shins.
 
-Where a convention follows the legs by side (FROST), its right leg is the stance leg here; in left stance
-exchange the two first.
+Where a convention names the legs by side, left and right (FROST), the right one is the stance leg here; for a
+step on the left leg the coordinates of the two legs have to be exchanged as well.
 
 The conventions are data, in `conventions.toml` beside this module. `exchange` uses them to bring gaits of other
 groups into the paper's coordinates and back; inside the package all angles are the paper's.
@@ -16,7 +17,7 @@ groups into the paper's coordinates and back; inside the package all angles are 
 Entries of a convention in the file, for a robot with knees (five coordinates):
 
     coordinates          names, in the convention's order
-    A, half_turns        q = A q' + pi half_turns
+    A, half_turns        q = A q' + b with b = pi half_turns
     knees, outputs       places of the knees, and of the coordinates that are a gait's usual outputs, from 0
     sense                +1 if the phase falls in a walk to +x, -1 if it grows
     source               publication or program
@@ -111,7 +112,9 @@ def of_the_paper(biped: Biped) -> bool:
     """Whether phase and relabelling of a robot are the paper's, with knees (n = 5) or without (n = 3)."""
     if biped.n not in (3, 5):
         return False
+    # without knees, the coordinates 2 and 3 of the paper are left out
     paper = [i for i in range(5) if biped.n == 5 or i not in _KNEES]
+    # the paper's relabelling exchanges the hips and the knees, its phase is Theta = q5 + q1 + q3 / 2
     R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
     same = np.array_equal(biped.R, R) and np.array_equal(biped.phase, np.array(_PHASE)[paper])
     # relabelling is q+ = R q- + r: of q- = 0 it gives r, which is zero in the paper
@@ -147,10 +150,10 @@ def convention(name: str, knees: bool = True) -> Convention:
     # places of the coordinates that this walker has: in the paper's order, and in the convention's own
     paper = [i for i in range(5) if knees or i not in _KNEES]
     own = [i for i in range(5) if knees or i not in d["knees"]]
-    rows = [r for r in d["outputs"] if r in own]
+    rows = [r for r in d["outputs"] if r in own]  # places of the outputs among its coordinates
     A, b = np.array(d["A"])[np.ix_(paper, own)], np.pi * np.array(d["half_turns"])[paper]
     H0, coordinates = np.eye(5)[np.ix_(rows, own)], tuple(d["coordinates"][i] for i in own)
-    c = np.array(_PHASE)[paper]
+    c = np.array(_PHASE)[paper]  # row of the paper's phase Theta = q5 + q1 + q3 / 2
     return Convention(name, coordinates, AngleMap(A, b), H0, d["sense"], c)
 
 

@@ -130,6 +130,7 @@ class Curve(Shown, ABC):
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
         """h [rad], dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
         p = self.stacked.shape[1] // 3
+        # rows of the piece: p of h, p of dh/ds, p of d2h/ds2
         values = self.piece(s).dot(s**self.powers)
         return values[:p], values[p : 2 * p], values[2 * p :]
 
@@ -143,10 +144,12 @@ class Polynomial(Curve):
 
     @property
     def pieces(self) -> tuple[Array, Array]:
+        # no breaks, and the coefficients of the one piece
         return np.zeros(0), self.coefficients[np.newaxis]
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
+        # the straight line start + s (end - start) in powers of s
         a = np.zeros(degree + 1)
         a[:2] = start, end - start
         return a
@@ -170,6 +173,7 @@ class ControlledCurve(Curve):
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
+        # the straight line start + s (end - start): the basis adds up to one, and the abscissae give s
         return np.asarray(start + cls.abscissae(degree) * (end - start))
 
     @classmethod
@@ -181,6 +185,7 @@ class ControlledCurve(Curve):
         search for a gait starts from this curve, with ends and slopes that make it hybrid-invariant.
         """
         inner = np.linspace(0.0, 1.0, degree - 1)  # from alpha_1 to alpha_(M-1)
+        # alpha_1 = alpha_0 + reach dh/ds at s = 0, likewise at s = 1
         reach = cls.abscissae(degree)[1]
         ends = begin + reach * first, end - reach * last
         middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
@@ -198,10 +203,12 @@ class Bezier(ControlledCurve):
 
     @property
     def pieces(self) -> tuple[Array, Array]:
+        # no breaks, and the coefficients of the one piece in powers of s
         return np.zeros(0), (self.coefficients @ bernstein_to_power(self.degree))[np.newaxis]
 
     @classmethod
     def abscissae(cls, degree: int) -> Array:
+        # coefficients of h(s) = s
         return np.arange(degree + 1) / degree
 
 
@@ -267,13 +274,13 @@ class BSpline(ControlledCurve):
 
     @property
     def pieces(self) -> tuple[Array, Array]:
-        # the knots between the ends are the breaks
+        # the knots between the ends, which are there four times each, are the breaks; CUBIC = 3
         return knots(self.degree)[CUBIC + 1 : -CUBIC - 1], self.coefficients @ basis(self.degree)
 
     @classmethod
     def abscissae(cls, degree: int) -> Array:
         t = knots(degree)
-        # Greville abscissae: alpha_k = mean of t_k+1 .. t_k+3 gives h(s) = s
+        # Greville abscissae: alpha_k = mean of the knots t_k+1 .. t_k+3 gives h(s) = s
         return np.array([np.mean(t[k + 1 : k + 1 + CUBIC]) for k in range(degree + 1)])
 
 
@@ -281,6 +288,7 @@ def knots(degree: int) -> Array:
     """Knots t (M + 5,) in [0, 1] of a `BSpline` with M = `degree`: equally spaced, 0 and 1 four times each, so
     that the curve begins and ends with its outer coefficients.
     """
+    # both ends too, to which CUBIC = 3 more are added
     inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
     return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
 

@@ -2,17 +2,27 @@
 
     (alpha, Theta-) = polynomials in (v, L),   h = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
 
-v [m/s] is the speed and L [m] the step length; the gait at one (v, L) is a *member* of the family. The map is
-fitted to a library of designed gaits (`analysis.gait_design`). Theta+ is where a step begins, so that a step
-may follow one of another length. In each step the controller `control.footstep` decides on which member the
-step ends; the *decision* falls at the share DECISION of the step. With sigma = I Theta' the angular momentum
-about the stance foot, y = sigma^2 at the decision goes from step to step by
+    v       speed [m/s]
+    L       step length [m]
+    h       angles (p,) [rad] of the joints with motors; alpha: its coefficients (p, M + 1)
+    Theta   phase c q [rad], Theta+ at the start of the step, Theta- just before the impact at its end
+
+The gait at one (v, L) is a *member* of the family. The map is fitted to a library of designed gaits
+(`analysis.gait_design`). It gives Theta+ of the periodic walk too, but a step that follows one of another
+length begins in another posture: in the s of such a step Theta+ is the phase at which it really began.
+
+In each step the controller `control.footstep` decides on which member the step ends; the *decision* falls where
+Theta has gone the share DECISION = 0.35 of its way. y = sigma^2 at the decision goes from step to step by
 
     y_next = delta^2 (y + 2 W + 2 r J) + 2 W' + 2 r J',   W = int -G_N I dTheta,   J = int I dTheta
 
-where r is a constant torque from outside on the unactuated row, G_N gravity's torque there, and delta =
-sigma+ / sigma- at the impact. W and J are integrals from the decision to the impact, W' and J' from there to
-the next decision. `StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too.
+    sigma   I Theta', the angular momentum about the stance foot [kg m^2/s]; I: inertia [kg m^2]
+    G_N     gravity's torque on the unactuated row, that of the coordinate without a motor [N m]
+    r       constant torque from outside on that row [N m]
+    delta   sigma just after the impact over sigma just before it [1]
+    W, J    integrals from the decision to the impact; W', J' from the impact to the next decision
+
+`StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too.
 """
 
 from __future__ import annotations
@@ -95,6 +105,7 @@ class StepMap(Part):
         of the member on which it ends, its length). ahead: length of the next step [m]. r: constant torque from
         outside on the unactuated row [N m].
         """
+        # the two maps want their arguments in the order of the texts below the fields
         twice_W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
         after = self.to_decision(np.array((end[0], begin[1], end[1], ahead)))
         delta2, twice_W_next, J_next = after[0], after[1], after[2]
@@ -110,6 +121,7 @@ class StepMap(Part):
 
     def delta_squared(self, v: float, L: float) -> float:
         """delta^2 [1] of the impact in the periodic walk of the member (v [m/s], L [m])."""
+        # in a periodic walk the steps before and after have the same length
         return self.to_decision(np.array((v, L, L, L)))[0]
 
 
@@ -146,7 +158,7 @@ class GaitFamily(Part):
 
     def curve(self, mu: Array) -> tuple[Array, float, float]:
         """alpha (p, M + 1) [rad], Theta+ and Theta- [rad] of the member mu, in its periodic gait."""
-        y = self.curves(mu)
+        y = self.curves(mu)  # alpha in one row, Theta+, Theta-
         return y[:-2].reshape(len(self.phase) - 1, -1), y[-2], y[-1]
 
     def h(self, mu: Array, plus: float, theta: float) -> tuple[Array, Array, Array]:
@@ -159,6 +171,7 @@ class GaitFamily(Part):
         x = np.minimum(np.maximum(s, 0.0), 1.0)
         # h = sum_k a_k x^k and its derivatives; x is s, kept in [0, 1]
         dh, ddh = a[:, 1:] @ (k[1:] * x ** k[:-1]), a[:, 2:] @ (k[2:] * k[1:-1] * x ** k[:-2])
+        # s - x is the way past an end; FADE: the curvature fades out over 1 % of the range of Theta
         h, dh, ddh = past_end(s - x, FADE, a @ x**k, dh, ddh)
         return h, rate * dh, rate * rate * ddh
 
@@ -211,8 +224,8 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
 
 
 def _from_record(record: dict[str, Any]) -> GaitFamily:
-    """The family from the content of its file, which is changed here. Raises GaitError for another format, and
-    KeyError or TypeError for damaged entries.
+    """The family from the content of its file; the dict `record` is changed on the way. Raises GaitError for
+    another format, and KeyError or TypeError for damaged entries.
     """
     if record.pop("format") != _FORMAT:
         raise GaitError(f"it is no family, whose format is '{_FORMAT}'")

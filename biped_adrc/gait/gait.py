@@ -84,7 +84,7 @@ class Gait(Shown):
 
     def start(self, biped: Biped) -> tuple[Array, Array]:
         """(q+, q'+) just after the impact of the periodic orbit on this robot, each (n,) [rad, rad/s]."""
-        impact = biped.impact(self.q_minus, self.v_minus)
+        impact = biped.impact(self.q_minus, self.v_minus)  # q, v after it, with the legs relabelled
         return impact.q, impact.v
 
     def step_length(self, biped: Biped) -> float:
@@ -100,6 +100,7 @@ class Gait(Shown):
         name, provenance: as the fields. slope [rad]: of the ground, positive downhill; only stored.
         Raises GaitError when there is no orbit.
         """
+        # sigma_minus: angular momentum before impact on the periodic orbit, from which the rates follow
         q, v = zero.end_state(zero.sigma_minus)
         robot, preset, period = zero.biped.description.name, zero.biped.preset, zero.cycle.period
         return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
@@ -115,9 +116,9 @@ class Gait(Shown):
         return self
 
     def check(self, biped: Biped) -> Gait:
-        """The gait itself, after a check that it fits the robot and its curve closes: all that `_laws` lists.
-
-        Raises GaitError for the first condition that does not hold.
+        """The gait itself, after a check that it fits the robot: shapes, period, slope, both ends of the curve,
+        the foot on the ground, and the direction of Theta. Raises GaitError for the first of these that does
+        not hold.
         """
         for fits, text in self._laws(biped):
             if not fits:
@@ -245,9 +246,10 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
     coordinate q_N is kept. Raises GaitError when no configuration near q reaches the ground.
     """
     q = np.array(q, dtype=float)
-    normal = ground_axes(slope)[1]
+    normal = ground_axes(slope)[1]  # unit vector out of the ground
     for _ in range(30):
         height = float(normal @ biped.swing_foot(q))
+        # derivative of the height by the actuated joints; [:-1] leaves out q_N
         row = (normal @ biped.swing_foot_jacobian(q))[:-1]
         # on the ground [m], or no actuated joint moves the height of the foot
         if abs(height) < 1e-15 or not row @ row > 1e-12:

@@ -11,11 +11,11 @@ Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtua
 
     [H0; c] q = [h_d(Theta); Theta]   gives   q_b = h(Theta)
 
-Any smooth y(q) is an output too: J = dy/dq and drift = J' q'. `FunctionOutputs` differentiates a Python
-function numerically.
+Any smooth y(q) is an output too: J = dy/dq and drift = J' q', with J' = dJ/dt. `FunctionOutputs` differentiates
+a Python function numerically.
 
-Output controllers (`control.adrc`, feedback linearisation) call an `Outputs` object at each evaluation
-and use J and drift to solve y'' for the torque.
+The controllers `control.output_npd` and `control.finite_time` call an `Outputs` object at each evaluation, and
+solve y'' for the torque by its J and drift, the part of y'' without q''.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Outputs(Shown, ABC):
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        called_checked(cls, OutputPoint)
+        called_checked(cls, OutputPoint)  # wraps the `__call__` of the subclass
 
     @abstractmethod
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
@@ -102,7 +102,8 @@ class LinearOutputs(Outputs):
         object.__setattr__(self, "H0", H0)
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
-        r = self.desired(t, q, v)  # q_d is h_d(Theta) here, with q_d'' = H q'' + drift
+        # r: q_d is h_d(Theta) here, with q_d'' = H q'' + drift, so y'' = (H0 - H) q'' - drift
+        r = self.desired(t, q, v)
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
 
@@ -144,6 +145,7 @@ class FunctionOutputs(Outputs):
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = returned(self.function(q), None, self, "function")
+        # dy/dq_i along each unit vector e: a central difference of order 4 over points _H = 4e-3 rad apart
         J = np.array([_along(self.function, q, _H * e, _SLOPE) / _H for e in np.eye(len(q))]).T
         return OutputPoint(y, J @ v, J, self._bend(q, v))
 
@@ -152,6 +154,7 @@ class FunctionOutputs(Outputs):
 
         Its points q + k h v are _H apart, k = -2 .. 2, whatever the speed |v| is; for v = 0 the drift is 0.
         """
+        # _BEND: weights of the central difference of order 4 for a second derivative
         speed = math.sqrt(v.dot(v))
         h = _H / np.where(speed > 0.0, speed, 1.0)
         return np.where(speed > 0.0, _along(self.function, q, h * v, _BEND) / h**2, 0.0)

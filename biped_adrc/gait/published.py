@@ -1,7 +1,7 @@
 """Published orbits: the paper's fixed point x*, and cycles of robots without motors.
 
-x* is the state just before impact of the paper's periodic walk (its section VI). Gait (a), the stored gait
-"published", is the virtual constraint of least torque whose orbit passes through it; `design_gait(through=)`
+x* is the state just before impact of the paper's periodic walk (its section VI). Gait (a) of the paper, stored
+as "published", is the virtual constraint of least torque whose orbit passes through it; `design_gait(through=)`
 finds it again, as closely as a cost that is flat near its minimum lets it. As printed, x* puts the swing foot
 0.13 mm under the ground. So q1..q4 are moved until the foot is on the ground (`gait.onto_section`), by less
 than half a unit of their last printed digit; q5, printed with four decimals, and the rates are kept.

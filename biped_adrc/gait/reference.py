@@ -64,7 +64,7 @@ class Reference(Part):
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        called_checked(cls, ReferencePoint)
+        called_checked(cls, ReferencePoint)  # wraps the `__call__` of the subclass
 
     @abstractmethod
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:

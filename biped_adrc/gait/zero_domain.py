@@ -93,8 +93,10 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
     Each limit leaves an interval, and the domain is their intersection. It contains zeta* when the periodic
     orbit keeps the limits, and is then a domain of attraction.
     """
+    # zeta is at least V_max / delta^2 (`orbits.lowest`), so that the step passes the highest point of V_zero
     lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
     upper = Bound(math.inf, UNLIMITED, math.nan)
+    # sign 1: the lower bound of zeta by a limit, sign -1: the upper one; the strictest of all limits stay
     for margin in _margins(orbits, DomainLimits() if limits is None else limits):
         lower = max(lower, _end(orbits, margin, 1.0), key=lambda bound: bound.zeta)
         upper = min(upper, _end(orbits, margin, -1.0), key=lambda bound: bound.zeta)
@@ -121,10 +123,11 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
     at all speeds.
     """
     zero = orbits.zero
+    # at each node (q'', u, ground reaction); [1] is u (p,) [N m], [2] the reaction (2,) [N]
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))
     F_0, F_1 = (np.array([result[2] for result in rows]) for rows in (rest, moving))
-    along, across = ground_axes(limits.slope)
+    along, across = ground_axes(limits.slope)  # unit vectors along the ground and out of it
     # of each condition row @ F > 0 on the ground reaction F: its name and row
     rows = [(LIFT_OFF, across)]
     if limits.friction is not None:
@@ -144,6 +147,7 @@ def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
 
     The bound is -inf (lower) or inf (upper) where the margin limits zeta nowhere from this side.
     """
+    # as functions of Theta, by Legendre series through the values at the nodes
     still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
 
     def reach(theta: Array) -> Array:

@@ -1,8 +1,9 @@
 """The zero dynamics of a virtual constraint on a robot with one unactuated coordinate, by quadrature.
 
 On the constraint q_b = h(Theta), Theta = c q, the configuration is q(Theta): q_b are the p actuated joints, q_N
-is the last coordinate, without a motor. With sigma = D_N(q) q' the angular momentum about the stance foot (D_N
-is the row of q_N of the inertia matrix, G_N the entry of gravity),
+is the last coordinate, without a motor. Theta runs from Theta+ just after an impact to Theta- just before the
+next one; sigma+ and sigma- likewise. With sigma = D_N(q) q' the angular momentum about the stance foot (D_N is
+the row of q_N of the inertia matrix D, G_N = dV/dq_N gravity's torque, V the potential energy),
 
     sigma  = I(Theta) Theta',   I = D_N(q) dq/dTheta
     sigma' = -dV/dq_N = -G_N
@@ -51,6 +52,7 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
     x, w = legendre.leggauss(count)
     # to_coefficients @ f: its Legendre coefficients; integral: those of P_0 .. P_K-1 from -1 to each x
     to_coefficients = (legendre.legvander(x, count - 1) * w[:, np.newaxis]).T
+    # coefficient j of f is (j + 1/2) int P_j f dx over [-1, 1]
     to_coefficients *= (np.arange(count) + 0.5)[:, np.newaxis]
     integrals = (legendre.legint(row, lbnd=-1) for row in np.eye(count))
     integral = np.array([legendre.legval(x, row) for row in integrals]).T
@@ -118,6 +120,7 @@ class ZeroDynamics(Shown):
         """
         check_part(biped, "biped", Biped)
         check_part(constraint, "constraint", VirtualConstraint)
+        # phases in [0, 1], weights of an integral over it, and matrix of the integrals from 0 to each node
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
@@ -125,6 +128,7 @@ class ZeroDynamics(Shown):
             *(configuration(constraint.phase, constraint.h, th) for th in theta), strict=True
         )
         q, dq, ddq = map(np.array, rows)
+        # [-1]: the row of the coordinate without a motor
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])
         return cls(biped, constraint, theta, span * w, span * C, q, dq, ddq, inertia, gravity)
@@ -197,7 +201,7 @@ class ZeroDynamics(Shown):
                 "begin faster, or choose another phase or curve"
             )
         sigma = np.sign(sigma_plus) * np.sqrt(square)
-        rate = sigma / self.inertia
+        rate = sigma / self.inertia  # Theta'
         v = self.dq * rate[:, np.newaxis]
         rows = zip(*(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True)
         time = self.weights / rate  # dt = dTheta / Theta'
@@ -217,7 +221,7 @@ class ZeroDynamics(Shown):
         """
         q, dq, ddq, b = self.q[k], self.dq[k], self.ddq[k], self.biped
         v = dq * rate
-        D, Omega = b.inertia(q), b.bias(q, v)
+        D, Omega = b.inertia(q), b.bias(q, v)  # inertia matrix; Coriolis and gravity terms
         rate2 = -(Omega[-1] + D[-1] @ ddq * rate**2) / (D[-1] @ dq)
         a = dq * rate2 + ddq * rate**2
         u = (D @ a + Omega)[: b.p]

@@ -3,11 +3,12 @@
 With zeta1 = Theta and zeta2 = sigma, the angular momentum about the stance foot (counter-clockwise positive, so
 negative in a walk towards +x),
 
-    zeta1' = zeta2 / I(zeta1),   zeta2' = -G_N(zeta1)
+    zeta1' = zeta2 / I(zeta1),   zeta2' = -G_N(zeta1)        I [kg m^2]: inertia, G_N [N m]: gravity's torque
     V_zero(Theta) = int_{Theta+}^{Theta} G_N I dTheta,   zeta2^2 / 2 + V_zero = const in single support
 
-so one number determines a step: zeta = sigma-^2 / 2 [kg^2 m^4/s^2] just before the impact that begins it. With
-delta = sigma+ / sigma-, which does not depend on the speed, the step begins with sigma+^2 / 2 = delta^2 zeta
+so one number determines a step: zeta = sigma-^2 / 2 [kg^2 m^4/s^2] just before the impact that begins it. Theta
+runs from Theta+ just after an impact to Theta- just before the next one; sigma+ and sigma- likewise. With delta
+= sigma+ / sigma-, which does not depend on the speed, the step begins with sigma+^2 / 2 = delta^2 zeta
 and is completed if that exceeds V_max = max V_zero. The return map rho gives zeta of the next step:
 
     rho(zeta) = delta^2 zeta - V_zero(Theta-)   for   zeta > V_max / delta^2
@@ -105,6 +106,7 @@ class ZeroOrbits(Shown):
                 "expected a positive factor, or the next step runs backwards: swing the free links less, take "
                 "shorter steps"
             )
+        # V_zero is 0 at Theta+
         potential = series(zero, zero.gravity * zero.inertia).integ(lbnd=c.theta_plus)
         return cls(zero, inertia, potential, delta, _highest(potential, grid(zero)))
 
@@ -269,6 +271,7 @@ class ZeroOrbits(Shown):
         domain then approaches it and never passes; else V_max is at an end of the step, which is left or
         reached in finite time.
         """
+        # dV_zero/dTheta; below the share _SADDLE = 1e-6 of its largest value it counts as 0
         slope = self.potential.deriv()
         largest = float(np.max(np.abs(slope(grid(self.zero)))))
         return abs(float(slope(self.theta_max))) < _SADDLE * largest
@@ -282,6 +285,7 @@ def _highest(potential: Legendre, theta: Array) -> float:
     """Phase [rad] at which V_zero is largest: a zero of its slope beside the largest value on the grid theta
     (K,), or that grid point where the slope has no change of sign, as at an end.
     """
+    # the two neighbours of k, within the grid, enclose the zero
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()
     for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):

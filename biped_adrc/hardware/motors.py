@@ -56,6 +56,7 @@ class Line(NamedTuple):
 
     def relabelled(self, swap: Indices) -> Line:
         """The torques after an impact; swap (p,): motor i gets entry swap[i] of (torque, -torque)."""
+        # `relabelled` in the next line is the function for one array, None stays None
         each: Any = (x if x is None else relabelled(x, swap) for x in self)
         return Line(*each)
 
@@ -75,7 +76,7 @@ class TorqueLine:
         """Bound u (p,) [N m] so that it differs by at most `change` from the torque sent one tick before.
 
         line: the torques just before this tick. The torque sent one tick before is the last one of the queue.
-        Without a queue it is line.u: if it waited for a fraction of a period, it has replaced u meanwhile.
+        Without a queue it is line.u, also after a delay of a fraction of a period, which has ended by now.
         """
         if self.change is None:
             return u
@@ -129,6 +130,7 @@ class Motors(Checked, Shown):
 
         delay [s]: (j + f) T, from a tick until its torque acts. None marks what these motors do not have.
         """
+        # none: torques of zero; j: whole periods in the delay
         (j, fraction), none = whole_and_part(delay, period), np.zeros(p)
         change = None if self.rate_limit is None else self.rate_limit * period
         drive = TorqueLine(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)

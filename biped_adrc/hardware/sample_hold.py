@@ -71,8 +71,10 @@ class HeldParts(NamedTuple):
         w = None if self.sensors is None else _tried(self.sensors, q, v)
         belief, touchdown = None, self.touchdown
         if touchdown is not None:
+            # checked, since it may be a user's: None means that every structure of arrays is right
             d = returned_tree(touchdown.start(), None, touchdown, "start")
             belief = Belief(0.0, float(step), float(start), d)  # 0: its names of the legs are right
+        # the last one is a `Line` of zeros
         return Tail(np.zeros(self.own), belief, w, self.line.tree(np.zeros(self.line.size)))
 
 
@@ -87,6 +89,7 @@ def _tried(sensors: Sensor, q: Array, v: Array) -> Any:
     Raises InputError where `sense` returns a state of another class or shape than `start`, or `reading` other
     shapes than those of q and v.
     """
+    # returned_tree(result, layout, part, method) checks a result; frozen arrays show a method that writes to w
     w = returned_tree(sensors.start(q, v), None, sensors, "start")
     returned_tree(sensors.sense(frozen(w), q, v), Layout.of(w), sensors, "sense")
     for x in sensors.reading(frozen(w), q, v):

@@ -7,7 +7,8 @@
 q are the n coordinates, first the angles of the p joints with motors, last the pitch, and v = q'. A tick is a
 sample instant.
 
-`a + b` puts b behind a: both sense the true (q, v), and b changes the readings of a.
+`a + b` puts b behind a: both sense the true (q, v), and b changes the readings of a. In this chain from the
+robot to the controller "before" means nearer to the robot, "behind" nearer to the controller.
 
 Sensors work in sampled time: between ticks the controller has the readings of the last one. Both engines run
 these methods, which are pure functions; randomness is a part of w, so that a walk is repeated by its seed.
@@ -70,16 +71,18 @@ class Sensor(Checked):
     def errors(self, n: int, p: int, before: Array) -> Array:
         """Standard deviations (2 n,) [rad, rad/s] of the random errors in (q^, v^) behind this sensor.
 
-        before (2 n,): those behind the sensors before it. Errors are independent from tick to tick; rounding to
-        counts is an error with a uniform distribution over one count. p: number of motors.
+        before (2 n,): those of its input, the readings of the sensors before it; zeros for the first one.
+        Errors are independent from tick to tick; rounding to counts is an error with a uniform distribution
+        over one count. n: number of coordinates, p: of motors.
         """
         return before
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """What of this sensor and those before it runs as software on the controller's computer, such as
-        differences and filter; None for nothing. Controllers that are exported as C code contain it.
+        """The sensor that stands for the software, such as differences of angles and their filter, which this
+        sensor and those before it run on the controller's computer; None where they run nothing there.
 
-        before: the same for the sensors before it alone. This base raises InputError: a subclass writes it.
+        A controller that is exported as C code contains it. before: this result for the sensors before it
+        alone, None for the first one. This base raises InputError: a subclass writes the method.
         """
         raise InputError(
             f"sensor {type(self).__name__} does not say what of it runs on the controller's computer; "
@@ -133,13 +136,21 @@ class Sensing(Sensor):
         return Sensing(tuple(part.smooth() for part in self.parts))
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        """Standard deviations (2 n,) [rad, rad/s] of the errors in (q^, v^) behind the last sensor."""
+        """Standard deviations (2 n,) [rad, rad/s] of the errors in (q^, v^) behind the last sensor.
+
+        before (2 n,): those of what the first sensor reads, zeros for the true (q, v). n: number of
+        coordinates, p: of motors.
+        """
         for part in self.parts:
             before = part.errors(n, p, before)
         return before
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """What of all the sensors runs on the controller's computer; each adds its part to that before it."""
+        """The sensor that stands for the software of all these sensors on the controller's computer, or None.
+
+        before: the software of sensors before these, None without any. Each sensor gets what those before it
+        run, and returns that together with its own.
+        """
         for part in self.parts:
             before = part.on_computer(before)
         return before

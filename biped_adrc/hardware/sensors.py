@@ -31,7 +31,8 @@ and the pitch does not.
 No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
 the whole walking step in phase, and a drift of the angle does so more and more from step to step.
 
-The methods that have no text of their own here do what `hardware.sensing.Sensor` says.
+The methods that have no text of their own here do what `hardware.sensing.Sensor` says. `derived` values are
+computed once from the fields; `setup` marks a field that machine code does not read.
 """
 
 from __future__ import annotations
@@ -90,15 +91,20 @@ class Sensors(Shown, Sensor):
         return replace(exact, counts=None, pitch_resolution=None)
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """Differences and their low-pass run on the computer; where rates are measured, nothing runs there."""
+        """The sensor that stands for the software on the controller's computer: differences of angles and their
+        low-pass, without noise and counts; where rates are measured, nothing of these sensors runs there.
+
+        before: the software of the sensors before these, None without any.
+        """
         return before if self.velocity == "measured" else self.smooth()
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        """Standard deviations (2 n,) [rad, rad/s] of angles and rates at one tick.
+        """Standard deviations (2 n,) [rad, rad/s] of the errors of angles and rates at one tick.
 
-        A uniform error over one count has the standard deviation count / sqrt(12). A rate from differences has
-        no error of its own, since it follows from the angles. Encoders read the true q, so `before` does not
-        enter; nor does the period, for which `sampled` gets 1 s.
+        n: number of coordinates, p: of motors. A uniform error over one count has the standard deviation count
+        / sqrt(12). A rate from differences has no error of its own, since it follows from the angles. Encoders
+        read the true q, so the errors `before` (2 n,) of sensors before these do not enter; nor does the
+        period, for which `sampled` gets 1 s.
         """
         k = self.sampled(n, p, 1.0)
         counts = np.where(k.rounds > 0, k.resolution, 0.0)
@@ -110,12 +116,14 @@ class Sensors(Shown, Sensor):
 
         The first p have the encoders of joints; the others, the pitch among them, the values of the pitch.
         """
+        # joints (n,): which coordinates have encoders; count: angle of one count [rad], 0 for exact angles
         joints = np.arange(n) < p
-        step = 0.0 if self.counts is None else 2.0 * math.pi / self.counts
-        pitch = step if self.pitch_resolution is None else self.pitch_resolution
+        count = 0.0 if self.counts is None else 2.0 * math.pi / self.counts
+        pitch = count if self.pitch_resolution is None else self.pitch_resolution
         share = 1.0 if self.filter_time == 0.0 else -math.expm1(-period / self.filter_time)
         differs = joints if self.velocity == "gyro" else np.full(n, self.velocity == "differences")
-        resolution = np.where(joints, step, pitch)
+        resolution = np.where(joints, count, pitch)
+        # in the order of the fields of SampledSensors
         return SampledSensors(
             # 1 in place of 0: `rounded` divides by it everywhere
             np.where(resolution > 0.0, resolution, 1.0),
@@ -189,6 +197,7 @@ class SampledSensors(Sensor):
     def sense(self, w: Sensed, q: Array, v: Array) -> Sensed:
         """State after a tick at the true q (n,) [rad], v (n,) [rad/s], by the equations of the module."""
         n = len(q)
+        # before: angles of the last tick; y, dy: angles and rates with noise, g (2 n,) of unit variance
         before, rate, fresh, r = w
         y, dy = q, v
         if self.noisy:
@@ -196,7 +205,7 @@ class SampledSensors(Sensor):
             y, dy = q + self.noise * g[:n], v + self.rate_noise * g[n:]
         angle = self.rounded(y)
         difference = rate + self.share * ((angle - before) / self.period - rate)
-        # after an impact the difference would reach across it
+        # after an impact the difference would reach across it, so the rate is kept for one tick
         difference = np.where(fresh > 0.5, rate, difference)
         rate = np.where(self.differences > 0, difference, dy)
         return Sensed(angle, rate, 0.0, r)
@@ -207,6 +216,7 @@ class SampledSensors(Sensor):
         return Sensed(self.rounded(q), rate, 1.0, w.r)
 
     def reading(self, w: Sensed, q: Array, v: Array) -> tuple[Array, Array]:
+        # w holds the readings of the last tick; the readings q, v of sensors before these are not needed
         return w.angle, w.rate
 
     def rounded(self, y: Array) -> Array:
@@ -285,13 +295,21 @@ class PitchSensor(Sensor):
         return replace(self, noise=0.0)
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """The differences of the encoders before it, without that of the pitch, whose rate is measured here."""
+        """The software on the controller's computer: only that of the sensors before it, `before`, or None.
+
+        Where this takes differences of all angles, that of the pitch is left out ("gyro"), as the pitch's rate
+        is measured here.
+        """
         if isinstance(before, Sensors) and before.velocity == "differences":
             return replace(before, velocity="gyro")
         return before
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        """`before` (2 n,) with this sensor's noise for the pitch [rad], 0 for its rate; bias is not random."""
+        """Standard deviations (2 n,) [rad, rad/s] of the random errors in (q^, v^) behind this sensor.
+
+        before (2 n,): those of the encoders before it. The pitch, the last of the n coordinates, has this
+        sensor's noise [rad], its rate 0; bias and drift are not random.
+        """
         own = before.copy()
         own[n - 1], own[-1] = self.noise, 0.0
         return own

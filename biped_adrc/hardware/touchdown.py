@@ -13,7 +13,8 @@ The labels say which leg is the stance leg: angles, torques and feet are numbere
 the plant's labels, a detection the controller's; so each toggles `other`, and other = 1 means that they differ.
 So a detection before its touchdown is an early one. A touchdown that is not detected before the following
 touchdown leaves the labels right again, and the controller counts two walking steps less than there were. Both
-engines run these methods, which are pure functions; randomness is a part of d.
+engines (Python, and the compiler on symbols) run these methods, which are pure functions; randomness is a part
+of d.
 
 `FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
 late, with probability 1 - missed; its state d is a `Due`.
@@ -186,6 +187,7 @@ class FaultyTouchdown(Shown, Touchdown):
         differ after it (other = 1) and a random number does not make it a missed one.
         """
         missed, r = 0.0, d.r
+        # r is empty where no touchdown is missed at random; else a uniform number decides
         if len(r) > 0:
             r, u = uniforms(r, 1)
             missed = 1.0 * (u[0] < self.missed)
@@ -194,6 +196,7 @@ class FaultyTouchdown(Shown, Touchdown):
 
     def notice(self, d: Due, look: Look) -> tuple[Due, float]:
         """Fire when a detection is due and the labels still differ; and once, at the time of `false_at`."""
+        # floats that are 0 or 1, or whole numbers, are compared by 0.5; `false` is (single support, time in it)
         due = 1.0 * (d.waits * look.other > 0.5) * (look.t >= d.due - SAME_INSTANT)
         at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d.done < 0.5)
         false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
@@ -259,6 +262,7 @@ class ByKinematics(Gated):
         d and the new state are its height [m] above the assumed slope at the tick before and now.
         """
         height = look.foot[1] + self.tangent * look.foot[0]
+        # height < d: lower than at the tick before
         low = 1.0 * (height < self.height) * (height < d)
         return height, low * self.gate(look)
 
@@ -301,13 +305,16 @@ class ByForce(Gated):
     def notice(self, d: _Load, look: Look) -> tuple[_Load, float]:
         """Fire `delay` after a foot that was free has been loaded for `debounce`; then the foot is not free."""
         t = look.t
+        # np.maximum stands for `or`, products for `and`; all are 1 or 0, but for the times `since` and `due`
         free = np.maximum(d.free, 1.0 * (look.force < self.off))
         stays = d.loaded * (look.force >= self.off)
         loaded = np.maximum(stays, 1.0 * (look.force > self.on) * free * self.gate(look))
         since: Any = np.where(d.loaded > 0.5, d.since, t)
+        # sure: loaded for `debounce`, and no detection is waiting for its delay already
         sure = loaded * (t - since >= self.debounce - SAME_INSTANT) * (1.0 - d.waits)
         due: Any = np.where(sure > 0.5, t + self.delay, d.due)
         waits = np.maximum(d.waits, sure)
         fires = waits * (t >= due - SAME_INSTANT)
+        # firing sets the state back to that of a foot that has to be free first
         left = 1.0 - fires
         return _Load(free * left, loaded * left, since, waits * left, due), fires

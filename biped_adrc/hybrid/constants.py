@@ -2,6 +2,9 @@
 
 An arc is the flow from one event to the next. The march runs in Python and as machine code; both use these
 codes of methods and of ends of an arc, tolerances, names of work arrays, and formulas of sample instants.
+
+Symbols: x state of nx numbers; h length of an integration step [s]; ETD the exponential Runge-Kutta method in
+its coordinates y = (w, E), where w' = N_w and E' = A E + N_E, N = (N_w, N_E) being called the remainder.
 """
 
 from __future__ import annotations
@@ -61,6 +64,7 @@ def is_tick(t: float, start: float, period: float) -> bool:
 
 def next_tick(t: float, start: float, period: float) -> float:
     """The first of the sample instants start + k period [s], k = 0, 1, .., strictly after t [s]."""
+    # by round-off one too small; t itself may be an instant
     k = max(0, math.floor((t - start) / period))
     while start + k * period <= t:
         k += 1

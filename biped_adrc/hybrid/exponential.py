@@ -12,6 +12,8 @@ Matthews, J. Comput. Phys. 176, 2002, eqs (26)-(29)):
 
     phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
 
+Here h [s] is the step, N(..) the remainder N_E at a stage; phi1 to phi3 without an argument are those of hA.
+
 `hybrid.march` takes the steps. A break (sample instant or switching time of an input) or an event rarely falls
 on a multiple of h, so the matrices are made for h and its halvings: by their series for steps so short that
 |hA| < 1/2, and doubled from there,
@@ -132,10 +134,12 @@ def _phi_levels(h: float, data: bytes) -> Array:
     """
     k = math.isqrt(len(data) // 8)
     A = np.frombuffer(data).reshape(k, k)
+    # fastest: largest |pole| [1/s]; size: |hA|, by its largest sum of a row
     fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
     levels = max(LEVELS, 1 + math.ceil(math.log2(max(fastest * h / STABLE, 1.0))))
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
     short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
+    # half of the shortest step: half and phi are the phi-functions of half a step and of the step
     phi = _series(A * (h * 0.5 ** max(short, levels)))
     table = np.zeros((levels, MATRICES, k, k))
     for level in reversed(range(max(short, levels))):

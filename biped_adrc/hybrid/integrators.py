@@ -3,7 +3,7 @@
 `RK4` has a fixed step [s]. `Adaptive` is SciPy's DOP853, with step control; it is a `Solver`, which runs in
 Python and not in the compiled engine. A `Solver` yields its steps between two times at which the flow is not
 smooth, such as sample instants and impacts; `Step.at(t)` gives the state inside a step, so that events can be
-located. `hybrid.march` itself computes the steps of `RK4` and of `exponential`.
+located. `hybrid.march` itself computes the steps of `RK4` and of `exponential.Exponential`.
 """
 
 from __future__ import annotations
@@ -141,6 +141,7 @@ class Adaptive(Checked, Solver):
                 if last is not None:
                     raise last
                 raise StepFailed(f"Adaptive at t = {solver.t:.6g} s: {message}")
+            # a torque that chatters makes the steps ever shorter; every CROWDED steps their mean is checked
             if count % CROWDED == 0:
                 if solver.t - mark < CROWDED * CROWDED_STEP:
                     raise StepFailed(

@@ -12,13 +12,26 @@ same names in both. Functions write vectors into arrays of r or the argument `ou
     values, after, tried   event functions (guards,): at the start of the step or of the stretch of it that is
                            searched, at the end of that, and at the time tried last
     x_e, dx_e, t_event     state and slope (nx,) at the time tried last; time of the event [s]
+    y0, N0, y1, N1         for ETD-RK4: coordinates and remainder at both ends of the step
+    t, t_arc, t_end        time now, start of the arc, its latest end [s]
+    limit                  latest time [s] at which inputs are evaluated: just before the next break
+    h, kind                integration step [s]; method: RK4, ETD (ETD-RK4) or SOLVER (SciPy's, in Python alone)
+    moving, p              how many numbers of x flow, the first ones, the others being held; number of motors
+    lags, lag_speed        above 0 where motors lag: their torques relax to the command with 1 / tau [1/s]
+    fired                  number of the event function that ended the arc before, -1 for none
+
+Operations whose names do not say it: `watch` computes all event functions, `relax(r, x, w, out)` sets each
+torque of a lagging motor in `out` to its command plus w times its distance from it in x, `slow` says whether
+angles and rates are within their bounds, `broken` gives the code for a state that is not finite, `accepts` and
+`code_of` say whether a zero is an event, and with which code.
 
 A code is an int: 0 to go on, STRUCK for an event with a reset, else how the arc ends (`hybrid.constants`). A
 node is an instant (t, x, x') that is stored: each `every`-th step of integration, none for every = 0.
 
-ETD-RK4 steps in the coordinates y = (w, E) of the module `hybrid.exponential`; N = (N_w, N_E) is the remainder.
-A length that is not the step h is taken in sub-steps h 2^-level, whose matrices are prepared, and what is left
-below the last level by one step of RK4 (`classical`), which is stable there.
+ETD-RK4 (`hybrid.exponential`) steps in the coordinates y = (w, E), w' = N_w, E' = A E + N_E; N = (N_w, N_E) is
+the remainder, `split` computes y from x, and `join` x from y. A length that is not the step h is taken in
+sub-steps h 2^-level, level = 1, 2, .., whose matrices are prepared, and what is left below the last level by
+one step of RK4 (`classical`), which is stable there.
 
 An event is located on the step itself, taken again with a shorter length, so that x- has the accuracy of the
 method and both engines find the same event.
@@ -49,10 +62,11 @@ weights = inner(relaxation)
 # -- steps -----------------------------------------------------------------------------------------
 @unit
 def lagging(r: Run, t: float, x: Array, h: float, dx: Array) -> None:
-    """dx (nx,) = slope at (t, x) for a step of RK4 of length h [s] with lagging motors (`hybrid.relaxation`).
+    """dx (nx,) = slope at (t, x) for a step of RK4 of length h [s] with lagging motors.
 
-    It is the flow under P(0) in place of the motors' torques. The slope of the torques themselves serves the
-    cubic of dense output alone and is limited to 3 / h times their distance: a steeper cubic overshoots.
+    Motion: the flow for torques whose distance from the command is P(0) times that in x; P(0) is the weight of
+    the first stage in `hybrid.relaxation`, with theta = h / tau. The slope of the torques themselves serves the
+    cubic of dense output alone, and is limited to 3 / h times their distance: a steeper cubic overshoots.
     """
     theta = r.lag_speed * h
     copy(x, r.stage, r.nx)
@@ -70,9 +84,10 @@ def classical(r: Run, t: float, x: Array, dx: Array, h: float, out: Array) -> No
     `lagging`, and their torques are exact.
     """
     m, rest, stage, middle, last, end = r.moving, r.nx - r.moving, r.stage, 0.0, 0.0, 0.0
-    if rest > 0:
+    if rest > 0:  # shift(x, i): the vector x from its entry i on
         copy(shift(x, r.nx - r.p), shift(stage, r.nx - r.p), r.p)
     if r.lags > 0:
+        # distances of the torques from the command, as shares: P(1/2), P(1) at stages, e^(-theta) at the end
         _, middle, last, end = weights(r.lag_speed * h)
         lagging(r, t, x, h, r.k1)
         dx = r.k1
@@ -99,7 +114,9 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     """out = y after one step of ETD-RK4 from (t, y), where the remainder is N; level: of the matrices, whose
     step has the length h = r.h 2^-level [s].
 
-    The equations of `hybrid.exponential`; w takes RK4 with the same stages.
+    The equations of `hybrid.exponential` for E; w, the first nw numbers, takes RK4 with the same stages.
+    `matvec` sets E of its last argument to a matrix times E; `apply_input` adds factor times a matrix times
+    N_E.
     """
     # stage a is in r.y_a; stage b, and then c, in r.y_b
     half, half_phi = matrix(r, level, HALF), matrix(r, level, HALF_PHI)
@@ -108,16 +125,17 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     copy(r.e_half, a, r.nx)
     copy(r.e_half, b, r.nx)
     add(y, 0.5 * h, N, a, nw)
-    apply_input(r, half_phi, 1.0, N, a)
+    apply_input(r, half_phi, 1.0, N, a)  # a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
     remainder(r, t + 0.5 * h, a, r.N_a)
     add(y, 0.5 * h, r.N_a, b, nw)
-    apply_input(r, half_phi, 1.0, r.N_a, b)
+    apply_input(r, half_phi, 1.0, r.N_a, b)  # b, the same with N(a)
     remainder(r, t + 0.5 * h, b, r.N_b)
     matvec(r, half, a, b)
     add(y, h, r.N_b, b, nw)
     apply_input(r, half_phi, 2.0, r.N_b, b)
-    apply_input(r, half_phi, -1.0, N, b)
+    apply_input(r, half_phi, -1.0, N, b)  # c = e^(hA/2) a + h/2 phi1(hA/2) (2 N(b) - N(E))
     remainder(r, t + h, b, r.N_c)
+    # E1, the end of the step
     matvec(r, matrix(r, level, FULL_STEP), y, out)
     apply_input(r, matrix(r, level, FIRST), 1.0, N, out)
     apply_input(r, middle, 1.0, r.N_a, out)
@@ -135,7 +153,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
     h 2^-level of each level is taken or left out. One that ends behind the zero is left out, and its end
     replaces tb. Results: state and slope x_b, dx_b (nx,) at t_b [s]; t_far [s], f_far: tb and fb at the end.
     """
-    # count: length of the sub-steps taken so far, in units of the finest one
+    # count: length of the sub-steps taken so far, in units of the finest one; now: the time there [s]
     levels, count, now = r.levels, 0, t
     y, N, trial, x = r.y_sub, r.N_sub, r.y_try, r.x_b
     copy(r.y0, y, r.nx)
@@ -145,11 +163,12 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
         further = count + (1 << (levels - 1 - level))
         end = t + further * finest
         if end > ta and end >= tb:
-            continue
+            continue  # too far
         exponential(r, level, now, end - now, y, N, trial)
         if end > ta:
             join(r, trial, x)
             watch(r, end, x, r.tried)
+            # at or behind the zero; so written, NaN counts as behind it
             if not r.tried[guard] > 0.0:
                 tb, fb = end, r.tried[guard]
                 continue
@@ -178,6 +197,7 @@ def reach(r: Run, t: float, x: Array, dx: Array, s: float) -> None:
 @unit
 def retake(r: Run, t0: float, s: float) -> None:
     """Set x_e and `tried` to state and event functions at s [s], inside the step that began at t0 [s]."""
+    # sub-steps towards s without an event function (-1), then RK4 from where they end
     if r.kind == ETD:
         halve(r, -1, t0, s, s, 0.0)
         reach(r, r.t_b, r.x_b, r.dx_b, s)
@@ -197,11 +217,13 @@ def brent(
     """
     # written out, since compiled code cannot call SciPy; with two root finders the engines would find two
     # times of one event, and every number after it would differ
+    # now: best iterate; before: the one before it; other: end of the bracket on the other side of the zero;
+    # step, last: the present change of `now`, and the one before
     before, f_before, now, f_now = ta, fa, tb, fb
     other, f_other = before, f_before
     last = step = now - before
     for _ in range(ITERATIONS):
-        if f_now == 0.0 or f_now != f_now:  # a state that is not finite, which ends the run
+        if f_now == 0.0 or f_now != f_now:  # NaN, of a state that is not finite, which ends the run
             return now
         if (f_before < 0.0) != (f_now < 0.0):
             other, f_other = before, f_before
@@ -247,11 +269,12 @@ def locate(r: Run, guard: int, t0: float, ta: float, tb: float) -> float:
     if r.kind == ETD:
         halve(r, guard, t0, ta, tb, fb)
         base, tb, fb, x, dx = r.t_b, r.t_far, r.f_far, r.x_b, r.dx_b
+        # the sub-steps have passed ta without the zero: the bracket begins where they end
         if base > ta:
             watch(r, base, x, r.tried)
             ta, fa = base, r.tried[guard]
     te = brent(r, guard, base, x, dx, ta, fa, tb, fb)
-    reach(r, base, x, dx, te)
+    reach(r, base, x, dx, te)  # Brent's last trial may be another time than te
     return te
 
 
@@ -281,7 +304,9 @@ def crossed(r: Run, t0: float, ta: float, tb: float) -> int:
 
 @inner
 def pieces(t0: float, t1: float) -> int:
-    """Number of equal stretches, no longer than RESOLUTION but for round-off, of a step from t0 to t1 [s]."""
+    """Number of equal stretches into which a step from t0 to t1 [s] is cut, none longer than RESOLUTION [s] but
+    for round-off (1e-9).
+    """
     return max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
 
 
@@ -300,6 +325,7 @@ def overdue(r: Run, t0: float) -> int:
 
     It is that of an event function, other than the one that has fired, which is at zero or below there and then
     falls (`values` at t0, `after` just behind): two events fell together, or a reset or the start put it there.
+    None where it fell through zero well before the last event (`passed`), so that its own event is over.
     """
     copy(r.x0, r.x_e, r.nx)
     watch(r, t0, r.x_e, r.tried)
@@ -317,21 +343,26 @@ def lift(r: Run, t0: float, s: float) -> int:
     """Code of an event in [t0, s] [s], the first TOGETHER of an arc, where an event function w begins at zero
     or below; 0 for none. `values` become those at s.
 
-    A w that rises from zero is positive at s, so `event` watches it from there, however soon it falls again. A
-    w below zero at s shows its form by its value half-way. Bent down, as -(t - t0)^2, it is 4 times that, and
-    after a hop shorter than s more: a ball at rest on its floor, whose events follow too closely (EVENT_LIMIT).
-    A steady fall, 2 times that, is no event where w has just fired, as a time that is over; another w fires at
-    t0 (`overdue`).
+    A w that rises from zero is positive at s, so `event` watches it from there, however soon it falls again.
+    For a w that is zero at t0 and negative at s, the ratio w(s) / w(half-way) shows the form:
+
+        2           a steady fall: no event if w has just fired, since its time is over; another w fires at t0
+                    (`overdue`)
+        4 or more   bent down, as -(t - t0)^2, or down again after a hop shorter than s: a ball at rest on its
+                    floor, whose events follow too closely (EVENT_LIMIT)
+
+    The limit between both is 3.
     """
     retake(r, t0, t0 + 0.5 * (s - t0))
     copy(r.tried, r.after, r.guards)
     retake(r, t0, s)
     for guard in range(r.guards):
         w = r.tried[guard]
+        # after: half-way; both are negative, so `<` means a ratio above 3
         if r.values[guard] == 0.0 > w and w < 3.0 * r.after[guard] and accepts(r, guard, t0):
             return EVENT_LIMIT
     copy(r.tried, r.after, r.guards)
-    code = overdue(r, t0) or crossed(r, t0, t0, s)
+    code = overdue(r, t0) or crossed(r, t0, t0, s)  # the second only if the first is 0, no event
     copy(r.after, r.values, r.guards)
     return code
 
@@ -343,6 +374,7 @@ def event(r: Run, t0: float, t1: float) -> int:
     A step longer than RESOLUTION is searched stretch by stretch, so that the first of two events is found, and
     an event function that falls through zero and rises again. Without an event `values` become those at t1.
     """
+    # before: up to here the step has been searched [s]
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
         before = min(t0 + TOGETHER, t1)
@@ -350,6 +382,7 @@ def event(r: Run, t0: float, t1: float) -> int:
         if code != 0:
             return code
     watch(r, t1, r.x1, r.after)
+    # suspect: a cheap first look at the stretches of a long step; False where no event can lie in it
     if count > 1 and not suspect(r, t0, t1, count):
         copy(r.after, r.values, r.guards)
         return 0
@@ -390,7 +423,10 @@ def left(t: float) -> float:
 
 @inner
 def keep(r: Run, t: float, x: Array, dx: Array) -> None:
-    """Store a node (t, x, x') at t [s], unless this run stores none; r.look: of compiled runs, else 0."""
+    """Store a node (t, x, x') at t [s], unless this run stores none.
+
+    A compiled run whose r.look is not 0 stores signals as nodes, at every step; in Python r.look is 0.
+    """
     if r.every > 0 or r.look != 0:
         node(r, t, x, dx)
 
@@ -414,7 +450,8 @@ def begin(r: Run, t: float, h: float) -> None:
     """Compute what the first step after a break at t [s], of length h [s], needs besides x0: the slope dx0, and
     for ETD-RK4 y0 and N0.
 
-    After a sample instant of a compiled run dx0 is known already (r.sloped). ETD-RK4 needs it for nodes alone.
+    After a sample instant of a compiled run dx0 is known already (r.sloped = 1). ETD-RK4 needs dx0 for nodes
+    alone. h: with lagging motors the slope depends on the length of the step (`lagging`).
     """
     if r.kind == ETD:
         split(r, r.x0, r.y0)
@@ -437,7 +474,7 @@ def fixed(r: Run, t: float, t1: float, last: int) -> int:
     x1 = r.x1
     if r.kind == RK4:
         classical(r, t, r.x0, r.dx0, t1 - t, x1)
-    elif abs(t1 - t - r.h) <= SAME_STEP * r.h:
+    elif abs(t1 - t - r.h) <= SAME_STEP * r.h:  # a full step, with the matrices of level 0
         exponential(r, 0, t, t1 - t, r.y0, r.N0, r.y1)
         join(r, r.y1, x1)
     else:
@@ -476,6 +513,7 @@ def stop(r: Run, code: int) -> int:
     Where its state x_e is not finite, x0 and t do not change, and another code says so. An arc without duration
     has its node already.
     """
+    # r.every > 0: the nodes need the slope x', at a time just before the event
     te = r.t_event
     if not finite(r.x_e, r.nx):
         return broken(r)
@@ -497,7 +535,7 @@ def through(r: Run, t_next: float) -> int:
     or a step without length, end as STEP_FAILED.
     """
     t0 = t = r.t
-    skipped, steps, code = 0, 0, 0
+    skipped, steps, code = 0, 0, 0  # skipped: steps since the last node
     r.limit = left(t_next)
     # np.ceil gives a float in both engines; math.ceil would give an int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
@@ -536,7 +574,7 @@ def travel(r: Run) -> int:
     those of the end.
     """
     while r.t < r.t_end:
-        r.limit = math.inf
+        r.limit = math.inf  # a sample instant sees inputs as they are after a switch at this time
         code = due(r)
         if code == 0:
             code = through(r, next_break(r))

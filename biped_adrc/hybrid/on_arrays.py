@@ -5,7 +5,10 @@ calls them to run any `HybridSystem` on NumPy arrays.
 vectors, and find breaks, which are sample instants and switching times of inputs. They write their results into
 `out` or another argument. Methods of the system get copies of arrays, since the march writes into its own.
 
-y = (w, E) are the coordinates of the exponential method, N = (N_w, N_E) its remainder (`hybrid.exponential`).
+Symbols: x state of nx numbers, x' its slope; h integration step [s]; y = (w, E) coordinates of the exponential
+method, w (n_slow,) and the stiff part E (k, c), with w' = N_w, E' = A E + N_E; N = (N_w, N_E) the remainder
+(`hybrid.exponential`). r is a `Run`. A node is a stored instant (t, x, x'), an outcome is (x+, mode+) after an
+event.
 """
 
 from __future__ import annotations
@@ -37,7 +40,7 @@ def inner(function: _Function) -> _Function:
 
 
 unit = inner
-"""The same; in the compiled engine a decorator that makes a function of its own."""
+"""Returns the function itself; the compiled engine's decorator of this name makes a C function of it."""
 
 # Each function below has a twin of the same name and arguments in `engine.kernels.operations`. Sizes are handed
 # over (`size`, r.nx) although NumPy knows them, because the twin gets pointers, which have no length.
@@ -59,6 +62,7 @@ class Calendar:
     @cached_property
     def clocks(self) -> list[tuple[Clock, float]]:
         """Every clock, with the time t0 [s] from which its sample instants t0 + k period are counted."""
+        # start of counting [s], for a clock that restarts with each arc and for one that does not
         first = {True: self.t_arc, False: self.t_first}
         return [(clock, first[clock.restart] + clock.offset) for clock in self.system.clocks()]
 
@@ -74,6 +78,7 @@ class Calendar:
         order.
         """
         for clock, start in self.clocks:
+            # before `start` a clock with an offset has no sample instants
             if t >= start and constants.is_tick(t, start, clock.period):
                 x = clock.update(t, x, self.mode)
         return x
@@ -90,7 +95,17 @@ class Calendar:
 class Run:
     """One arc of a system while the march moves it: time and state now, settings, and work arrays.
 
-    The fields have the names of the compiled run (`engine.kernels.record.Run`), where each is explained.
+    The fields have the names of the compiled run (`engine.kernels.record.Run`), where each is explained. Those
+    of the functions in this module:
+
+        t, t_end, limit             time now, latest end of the arc, latest time at which the flow is asked [s]
+        x0, dx0, x1, dx1, x_e       state and slope at both ends of a step; state at the time tried last (nx,)
+        before, values, after       event functions (guards,) just before the last event, at both ends of a step
+        event_functions, accepted   the guards of the mode; number of a guard -> its event that was accepted
+        phi, form                   matrices and coordinates (`system.Split`) of the exponential method
+        t_next, steps               aim [s] and iterator of a solver, which takes its own steps
+        n_slow, nN, levels          numbers in w and in the remainder, and of step lengths h 2^-level
+        t_b, t_far, f_far           where sub-steps towards an event end: results of `march.halve`
     """
 
     if TYPE_CHECKING:
@@ -119,6 +134,7 @@ class Run:
         self.event_functions = self.system.guards(self.mode)
         names = [guard.name for guard in self.event_functions]
         self.guards, self.before = len(names), np.zeros(len(names))
+        # number of the guard that ended the arc before; -1 for none, or for one that this mode has not
         self.fired = names.index(fired.guard) if fired and fired.guard in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
         # look, pulled and sloped stay 0, and all of x flows: the march reads other values in compiled runs
@@ -135,6 +151,7 @@ class Run:
         if fired and len(fired.x_minus) == self.nx:
             watch(self, fired.t, fired.x_minus, self.before)
         self.kind, self.h, self.lags, self.lag_speed = constants.SOLVER, math.inf, 0, 0.0
+        # nan: no time, so that the first call of `solve` starts the solver
         self.t_next, self.steps = math.nan, iter(tuple[Step, ...]())
         self.nN = self.n_slow = self.levels = 0
         self.t_b = self.t_far = self.f_far = 0.0
@@ -154,7 +171,7 @@ class Run:
         self.kind, self.h, self.form, self.E_shape = constants.ETD, method.h, form, E.shape
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
-        self.nN = self.nx
+        self.nN = self.nx  # N has all rows of N_E; the compiled twin has one, the others being zero
         for name in constants.Y_ROWS:
             setattr(self, name, np.zeros(self.nx))
 
@@ -233,7 +250,9 @@ def join(r: Run, y: Array, x: Array) -> None:
 
 
 def remainder(r: Run, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, N_E) at (t, y), t in [s]; as in `flow` no later than r.limit, just before the next break."""
+    """N = (N_w, N_E) at (t, y), t in [s], but no later than r.limit, just before the next break, so that inputs
+    have their left limit there.
+    """
     N_w, N_E = r.form.remainder(min(t, r.limit), *r.parts(y))
     N[: r.n_slow], r.block(N)[:] = N_w, N_E
 
@@ -288,7 +307,8 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 def passed(r: Run, guard: int, fall: float) -> bool:
     """Whether an event function crossed zero well before the last event, so that its event is over.
 
-    Just before that event it was below zero by at least `fall`, by which it falls in the first TOGETHER after.
+    guard: its number. True where, just before the last event, it was below zero by `fall` or more; `fall` > 0
+    is by how much it falls in the first TOGETHER [s] after that event.
     """
     return bool(r.before[guard] + fall <= 0.0)
 
@@ -298,6 +318,7 @@ def accepts(r: Run, guard: int, te: float) -> bool:
 
     It is none where the guard has no status and its reset returns None.
     """
+    # guard: its number. One with a status (`terminal`) ends the run; any other has a reset
     it, x_minus = r.event_functions[guard], r.x_e.copy()
     if it.terminal is not None:
         r.accepted[guard] = FoundEvent(Event(it.name, te, x_minus, None), None, it.terminal)
@@ -310,7 +331,7 @@ def accepts(r: Run, guard: int, te: float) -> bool:
 
 
 def code_of(r: Run, guard: int) -> int:
-    """Keep the accepted event of a guard as r.event; returns STRUCK, the code of an arc that ends in one."""
+    """Keep the accepted event of a guard as r.event; returns STRUCK, the code of an arc that an event ends."""
     r.event = r.accepted[guard]
     return constants.STRUCK
 

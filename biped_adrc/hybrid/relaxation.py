@@ -30,6 +30,7 @@ def relaxation(theta: float) -> tuple[float, float, float, float]:
     """
     end = math.exp(-theta)
     if theta < 1.0:
+        # m_2 = e^(-theta) (1/3 + theta/(3 4) + theta^2/(3 4 5) + ..); 18 terms more are enough for theta < 1
         term = m2 = end / 3.0
         for k in range(4, 22):
             term *= theta / k

@@ -1,9 +1,10 @@
 """The loop over the arcs of a hybrid system: flow with sample instants, event, reset, next arc.
 
-An arc is the flow from one event to the next; to fly an arc is to integrate it. Its discrete state `mode` is
-constant and known to the system alone. `run_arcs` is the loop for both engines: in Python `flow_arc` flies an
-arc, by the march (`hybrid.march`), and in the compiled engine a kernel (`engine.run`). A system that moves by
-itself, such as another simulator, has a function `Mover` in place of a flow.
+An arc is the flow from one event to the next, a node a stored instant (t, x, x') of it; to fly an arc is to
+integrate it. The discrete state `mode` is constant over an arc, and its meaning is known to the system alone.
+`run_arcs` is the loop for both engines: in Python `flow_arc` flies an arc, by the march (`hybrid.march`), and
+in the compiled engine a compiled loop does (`engine.run`). A system that moves by itself, such as another
+simulator, has a function `Mover` in place of a flow.
 """
 
 from __future__ import annotations
@@ -151,6 +152,7 @@ def run_arcs(
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
+            # COMPLETED here means that no failure ended the arc: it has come to t_end, or to a final event
             status = options.timed_out if status is Status.COMPLETED else status
             break
         t, (x, mode) = event.t, flown.outcome
@@ -174,6 +176,7 @@ def finite_part(flown: FlownArc) -> FlownArc:
     rows, states = (arc.t, arc.x, arc.dx), () if event is None else (event.x_minus, event.x_plus)
     if all(x is None or np.isfinite(x).all() for x in (*rows, *states)):
         return flown
+    # each: by node, whether t, x and x' are finite; good: True up to the first node where one of them is not
     each = [np.isfinite(x.reshape(len(arc.t), -1)).all(axis=1) for x in rows]
     good = np.logical_and.accumulate(np.all(each, axis=0))
     if not good[0]:  # what an arc starts from is finite, its slope may not be
@@ -208,6 +211,7 @@ def status_of(error: BaseException, begun: bool = True) -> tuple[Status, str]:
     if not (begun and isinstance(error, Exception)):
         raise error
     detail = str(error) if isinstance(error, InputError) else sentence_of(error)
+    # no line of the user's code was running: a mistake in this package, which is not hidden
     if not detail:
         raise error
     return Status.RAISED, detail
@@ -230,11 +234,13 @@ def flow_arc(
     began [s]: time at which the arc began, where (t, x) is in the middle of one; None: it begins at t. An arc
     that fails before its first node has its start as the only node, with the slope zero.
     """
+    # result: the `FoundEvent` that ended the arc, None without one
     record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""
     calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
     move = system.mover(fired.guard if fired else None)
     run = None
+    # arm: compute the event functions at the start; outside of `try`, so an error there is raised
     if move is None:
         assert method is not None
         run = Run(calendar, method, record, t, x, fired)
@@ -243,6 +249,7 @@ def flow_arc(
         if run is not None:
             code = travel(run)
             _check(code, run.t)
+            # an event has its status in run.event, and the end of the time is no failure
             status = Status.EVENT_LIMIT if code == EVENT_LIMIT else status
             result = run.event
         while move is not None and t < options.t_end and result is None:

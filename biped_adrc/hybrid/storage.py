@@ -5,7 +5,8 @@ discrete state mode{i}, further signals read{i}_NAME at the nodes and, at an eve
 it, x_minus{i} and x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times.
 
 Nothing is pickled, so reading a file of somebody else's runs no code. Files are written whole or
-not at all. `scenario.stored` adds the walker's record as arrays beside the trajectory.
+not at all. `scenario.stored` adds arrays beside the trajectory, such as the parameters of the walker and its
+signals.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def save(
 
     - trajectory: states (K, nx) and what else its arcs hold, in full precision.
     - settings: stored together with those of the trajectory; of two with the same name these count.
-    - beside_it: further arrays by name, such as the walker's record; `load_beside` returns them.
+    - beside_it: further arrays by name, such as the run's signals; `load_beside` returns them.
 
     Raises InputError for another suffix than .npz or settings that JSON cannot hold, and OutputError
     where the file cannot be written.
@@ -105,6 +106,7 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
             if not arcs or f"t{len(arcs)}" in data:  # arrays of an arc more than `meta` has
                 raise ValueError(f"there are events of {len(arcs)} arcs")
         settings = dict(meta["settings"])
+        # both may be missing, and are printed as they are where they are there
         if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
             raise ValueError("its method or engine is not text")
         return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
@@ -123,7 +125,9 @@ def load_beside(path: Path | str) -> dict[str, Stored]:
 def _arc(
     data: Mapping[str, Stored], i: int, event: Mapping[str, Any] | None, mode: Callable[..., object]
 ) -> Arc:
-    """Arc i of the arrays in a file; event: its event in the JSON, None for none; mode: as in `load`."""
+    """Arc i of the arrays in a file; event: its event in the JSON, None for none; mode: function that makes the
+    arc's discrete state from its stored numbers.
+    """
     result = None
     if event is not None:
         plus = data.get(f"x_plus{i}")

@@ -1,7 +1,7 @@
 """What a hybrid system is: a flow, event functions with resets, clocks, and times at which inputs switch.
 
     x' = f(t, x; mode)        between events
-    x+, mode+ = reset(t, x-)  when a guard's witness (event function) crosses zero in its direction
+    x+, mode+ = reset(t, x-)  when a guard's witness (event function) falls through zero
     x+ = update(t, x-, mode)  at the sample instants t0 + k T of a clock
 
 At equal times the order is reset, sample instant, flow. `mode` is the discrete state: any immutable
@@ -131,12 +131,13 @@ class HybridSystem(Shown):
         raise NotImplementedError(f"{type(self).__name__} has neither a flow nor a mover")
 
     def check_state(self, t: float, x: Array) -> None:
-        """Raise RanAwayError for a state x (nx,) at t [s] beyond what the system can have; here never."""
+        """Raise RanAwayError for a state x (nx,) at t [s] beyond the system's bounds; this base has none."""
 
     def mover(self, fired: str | None) -> Mover | None:
         """The function that moves a system without flow and guards, such as another simulator, over one arc.
 
-        None for a system that has them. fired: name of the event that ended the arc before, None at the start.
+        None for a system with a flow and guards, which `hybrid.march` integrates. fired: name of the event that
+        ended the arc before, None at the start.
         """
         return None
 

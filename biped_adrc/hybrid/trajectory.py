@@ -65,11 +65,12 @@ class Arc(Shown):
         The first of the two equal times of a jump, and the end of the arc, are the next smaller float: a signal
         evaluated there is what acted until the jump, such as the torque before a sample instant.
         """
-        later = np.append(self.t[1:], self.t[-1])
+        later = np.append(self.t[1:], self.t[-1])  # the next node's time, for the last node its own
         return np.where(self.t == later, np.nextafter(self.t, -np.inf), self.t)
 
     def thinned(self, apart: float) -> Arc:
         """A copy of the arc with fewer nodes, at least `apart` [s] apart; ends and both sides of jumps stay."""
+        # keep: at first both nodes of each pair of equal times, the first node and the last one
         same = np.diff(self.t) == 0.0
         keep = np.append(same, True) | np.concatenate(([True], same))
         last = self.t[0]
@@ -86,6 +87,7 @@ class Arc(Shown):
         """
         if len(self.t) == 1:
             return self.x[0].copy()
+        # i: the interval from node i to i + 1 that has t, the later one of two for the limit from the right
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
         i = min(max(i, 0), len(self.t) - 2)
         at, x, dx = self.t, self.x, self.dx
@@ -172,6 +174,7 @@ class Trajectory(Shown):
             raise InputError(f"side is '{side}', expected 'left' or 'right'")
         if not self.t_start <= t <= self.t_end:
             raise InputError(f"t = {t} s is outside [{self.t_start}, {self.t_end}] s")
+        # at an event the next arc begins with x+; after the last arc there is only the event's own x_plus
         ends = [arc.t[-1] for arc in self.arcs]
         i = int(np.searchsorted(ends, t, side="right" if side == "right" else "left"))
         i = min(i, len(self.arcs) - 1)

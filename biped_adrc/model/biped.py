@@ -4,15 +4,21 @@
 
 q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N is the
 absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z up; a link of
-absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error,
-both (n,) [N m].
+absolute angle a points along (-sin a, cos a).
+
+    D_s             inertia matrix (n, n) [kg m^2] of the robot pinned at its stance foot
+    C, G_s, Omega   Coriolis matrix (n, n) [N m s], torques of gravity (n,) [N m], Omega = C q' + G_s
+    u, B_s          torques of the motors (p,) [N m], and the constant matrix (n, p) by which they act
+    delta, zeta     error of the model, and external generalised force, each (n,) [N m]
+    kappa, xi       (1) solved for the joints with motors: q_b'' = kappa u + xi, see `reduction`
+    R, r            relabelling of the legs at an impact, q+ = R q- + r, from just before to just after it
 
 `Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made from
-that tree: `pinned` at the stance foot for single support, `floating` for the impact. All rooms above take
-their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are two
-objects when the model is wrong. Pinocchio counts the angles of the pinned tree from the ground, so the methods
-below pass T q, with the constant matrix T (n, n) of `pinned`, and map forces back by its transpose (k.T.T). A
-prime is a time derivative.
+that tree: `pinned` at the stance foot for single support, `floating` for the impact. The rest of the package
+takes the numbers of a robot from this class. Use it for the plant and for the controller's nominal model alike;
+they are two objects when the model is wrong. Pinocchio counts the angles of the pinned tree from the ground, so
+the methods below pass T q, with the constant matrix T (n, n) of `pinned`, and map forces back by its transpose
+(k.T.T). A prime is a time derivative.
 
 At an impact the legs exchange their roles. The coordinates are named by role, so both q and v are relabelled:
 the coordinate of the stance hip gets the angle of the former swing hip, and so on. Two joints that change over
@@ -141,7 +147,8 @@ class Biped(Shown):
 
     @cached_property
     def motor_joints(self) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
-        """The joints of the URDF with the angles q_1, ..., q_p: [1] in odd single supports, [0] in even ones.
+        """The joints of the URDF with the angles q_1, ..., q_p: entry k % 2 of the pair in single support k,
+        from 1, so [1] in odd ones and [0] in even ones.
 
         In even ones the legs have changed over, and q_i is the angle of the twin in the other leg; where
         `swap` changes the sign, the joint is mirrored: its axis and its range are those of the negative angle.
@@ -202,7 +209,7 @@ class Biped(Shown):
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property
     def pinned_tree(self) -> Tree:
-        """The tree of links with the stance foot as its root."""
+        """The tree turned round: it hangs from the stance foot, which a joint pins to the ground."""
         return reroot(self.tree, self.description.stance_foot, self.description.trunk)
 
     @cached_property
@@ -295,7 +302,8 @@ class Biped(Shown):
         """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m].
 
         It is computed by the articulated body algorithm; joint friction is added where `friction` is set. With
-        T q the coordinates of the pinned tree, the tree's torques are T^-T force, and q'' = T^-1 a_tree.
+        T q the coordinates of the pinned tree, the tree's torques are T^-T force, and q'' = T^-1 a_tree, with
+        T^-1 in k.inverse.
         """
         if self.friction:
             force = force + self.friction_torque(v)
@@ -357,22 +365,24 @@ class Biped(Shown):
         and pure moments on a link do not enter. External forces on links do: subtract their resultant from F,
         as `analysis.signals` does.
         """
+        # [2]: of position, velocity and acceleration of the COM the acceleration
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
 
     def momentum(self, q: Array, v: Array) -> Array:
         """Linear momentum m p_com' (x, z) (2,) [N s] in single support at (q, q')."""
+        # [1]: of position, velocity and acceleration the velocity, for which any acceleration will do, as 0 v
         return self.mass * self.pinned.centre_of_mass(self._angles(q), self._angles(v), 0.0 * v)[1]
 
     def extended_inertia(self, q: Array) -> Array:
         """Inertia matrix D_e(q) (n + 2, n + 2) [kg m^2, kg m, kg] of the unpinned model (2), in the coordinates
         q_e = (q_s, p_e) with the stance foot at p_e (2,) [m].
         """
-        return self.floating.extended(self._angles(q))[0]
+        return self.floating.extended(self._angles(q))[0]  # of (D_e, E_2)
 
     def E_2(self, q: Array) -> Array:
         """Jacobian E_2 = dp_2/dq_e (2, n + 2) [m, 1] of the swing foot p_2, (4); q_e = (q_s, p_e)."""
-        return self.floating.extended(self._angles(q))[1]
+        return self.floating.extended(self._angles(q))[1]  # of (D_e, E_2)
 
     def impact(self, q: Array, v: Array) -> Impact:
         """The plastic impact of the swing foot at (q-, q'-) (n,) [rad, rad/s], by (7): the velocities just
@@ -389,7 +399,9 @@ class Biped(Shown):
 
         Raises ModelError for an unknown body, or one without mass.
         """
+        # the body parameters that change, by link; a link may be scaled more than once
         d, inertials = self.description, dict[str, Inertial]()
+        # a link may be named too; the name of a body comes first
         bodies = {**d.links, **{link: (link,) for link in self.tree.links if link not in d.links}}
         for kind, by_body in factors.items():
             for body, factor in by_body.items():
@@ -416,7 +428,7 @@ class Biped(Shown):
 
 
 def check_numbers(biped: Biped) -> None:
-    """Check at random states that D_s is positive definite and well conditioned, Omega and the impact finite.
+    """Check at 4 random states that D_s is positive definite and well conditioned, Omega and the impact finite.
 
     Masses and lengths are checked one by one where a file is read; this finds those that do not fit together,
     such as a mass beside another that is 1e20 times as large. Well conditioned: the largest eigenvalue times
@@ -429,7 +441,7 @@ def check_numbers(biped: Biped) -> None:
         q, v = random.uniform(-np.pi, np.pi, n), random.normal(0.0, 3.0, n)
         with np.errstate(all="ignore"):
             D, Omega = biped.inertia(q), biped.bias(q, v)
-            # (-1, 0) fails the test below
+            # least, most = (-1, 0) fails the test below
             least, most = np.linalg.eigvalsh(D)[[0, -1]] if np.all(np.isfinite(D)) else (-1.0, 0.0)
             fits = most * np.finfo(float).eps <= ACCURACY * least
             try:

@@ -1,25 +1,31 @@
 """Double support: the unpinned model (2) and the plastic impact (3)-(9) of the paper.
 
-q_e = (q_s, p_e) with p_e (2,) [m] the end of the support leg. The floating URDF is rooted at the
-torso, whose two slides (the base) replace p_e, so its own velocity v_float (n + 2,) differs from q_e'; the
-Jacobian of the stance foot gives `v_float = J_e(q) q_e'`, hence
+The coordinates are q_e = (q_s, p_e): q_s (n,) [rad] of single support and the end p_e (2,) [m] of the support
+leg. The floating URDF is rooted at the torso, whose two slides (the base) replace p_e, so its own velocity
+v_float (n + 2,) differs from q_e'; the Jacobian of the stance foot gives `v_float = J_e(q) q_e'`, hence
 
     D_e = J_e' M J_e,   E_2 = J_2 J_e                                (2), (4)
     D_e (q_e+' - q_e-') = E_2' F_2,   E_2 q_e+' = 0                  (7)
 
-A prime is a transpose on a matrix, a time derivative on a vector. M is the inertia matrix of the floating
-model, J_2 the Jacobian of the swing foot in its velocities. F_2 = (F_T, F_N) is the impulse of the ground on
-the swing foot [N s]. The second line says that only this impulse acts, and that the new stance foot neither
-slips nor rebounds. - and + stand for just before and just after the impact. (5) in the paper has the sign of
-E_2' F_2 against (3), (4) and (7); (7) is right.
+A prime is a transpose on a matrix, a time derivative on a vector; - and + stand for just before and just after
+the impact.
+
+    D_e, E_2        inertia matrix in q_e; Jacobian dp_2/dq_e of the swing foot p_2 (2,) [m]
+    M, J_2          inertia matrix of the floating model; Jacobian of the swing foot, both in v_float
+    D_s, Omega      inertia matrix [kg m^2], Coriolis and gravity terms [N m] of single support, in q_s
+    F_2             (F_T, F_N), tangential and normal impulse of the ground on the swing foot [N s]
+
+Line (7) says that only this impulse acts, and that the new stance foot neither slips nor rebounds. (5) in the
+paper has the sign of E_2' F_2 against (3), (4) and (7); (7) is right.
 
 `LinkMotion` computes the angular momentum of single links from their own velocities, to test laws
 that these matrices must obey:
 
     L = sum_k m_k (c_k - p) x c_k' + J_k omega_k        of some links, about a point p
 
-c_k, omega_k come from Pinocchio's link placements and velocities, so neither D_e nor (7) enters.
-Positive counter-clockwise with x to the right and z up. `Biped` makes the FloatingDynamics.
+m_k is the mass of link k, J_k its inertia about its COM c_k, and omega_k its spin [rad/s]. c_k and omega_k come
+from Pinocchio's link placements and velocities, so neither D_e nor (7) enters. L is positive counter-clockwise
+with x to the right and z up. `Biped` makes the FloatingDynamics.
 """
 
 from __future__ import annotations
@@ -93,7 +99,7 @@ class FloatingDynamics:
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
         foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[XZ]
-        x[self.base] = -foot
+        x[self.base] = -foot  # `foot` was its place with the base at the origin
         return x
 
     def velocity_map(self, q: Array) -> Array:
@@ -123,10 +129,10 @@ class FloatingDynamics:
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
-        It does not use the pinned model, so it checks that one. With Z = J_e[:, :n] a basis of the null space
-        of the contact Jacobian, D_s = Z^T M Z and Omega = Z^T (nle + M dZ/dt v); nle are Pinocchio's Coriolis
-        and gravity terms. dZ/dt v is zero but in the rows of the base: there it is minus the acceleration that
-        the stance foot has at the velocities Z v with all accelerations zero.
+        The pinned model is not used, so the result serves as a check of it. With Z = J_e[:, :n] a basis of the
+        null space of the contact Jacobian, D_s = Z^T M Z and Omega = Z^T (nle + M dZ/dt v); nle are Pinocchio's
+        Coriolis and gravity terms. dZ/dt v is zero but in the rows of the base, where it is minus the
+        acceleration that the stance foot has at the velocities Z v with all accelerations zero.
         """
         x = self.configuration(q)
         Z = self.velocity_map(q)[:, : self.n]
@@ -180,6 +186,7 @@ class LinkMotion:
         """
         model, data, total = self.floating.model, self.data, pin.Force.Zero()
         for j in range(1, model.njoints) if joints is None else joints:
+            # the spatial momentum of the body, from its own frame to the world's
             total += data.oMi[j].act(model.inertias[j] * data.v[j])
         return total
 
@@ -200,6 +207,7 @@ class LinkMotion:
         model, result = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)
+        # all joints between the world and the swing foot
         shared = set(model.supports[top])
         while j not in shared:
             result.append(j)
@@ -214,9 +222,11 @@ class LinkMotion:
         this number unchanged.
         """
         model, data = self.floating.model, self.data
+        # angular velocities [rad/s] of the links on both sides; the rotor turns with their difference
         below = data.oMi[joint].rotation @ data.v[joint].angular
         parent = int(model.parents[joint])
         above = data.oMi[parent].rotation @ data.v[parent].angular
+        # minus: the axis y points into the plane, and counter-clockwise is positive
         rotor = -float((below - above)[1]) * float(model.armature[model.joints[joint].idx_v])
         centre = data.oMi[joint].translation[[0, 2]]
         return self.about(centre, model.subtrees[joint]) + rotor

@@ -1,15 +1,17 @@
 """Derivatives of the dynamics and of the impact with respect to the state, without difference quotients.
 
-The variational equation (`analysis.variational`) needs df/dx and dDelta/dx to more digits than
-differences of the dynamics would give.
+The variational equation (`analysis.variational`) needs the derivatives by x = (q, q') of the motion x' = f(x)
+and of the impact x+ = Delta(x-) to more digits than differences of the dynamics would give.
 
-Single support, from Pinocchio's derivatives of RNEA on the pinned model in `q_tree = T q_s` with a
-constant T (Carpentier, Mansard, RSS 2018). With tau(q, v, a) = D_s a + Omega at a = q'',
+Single support, from Pinocchio's derivatives of the recursive Newton-Euler algorithm (RNEA) on the pinned model
+in `q_tree = T q_s` with a constant T (Carpentier, Mansard, RSS 2018). With v = q' and the generalised force
+tau(q, v, a) = D_s a + Omega at a = q'',
 
     dq''/dq = -D_s^-1 dtau/dq,   dq''/dv = D_s^-1 (dfriction/dv - dtau/dv),   dq''/dforce = D_s^-1
 
-The transpose of T maps the derivatives back to q_s. force (n,) [N m] is B_s u + delta + zeta, and friction the
-joint friction.
+The transpose of T maps the derivatives back to q_s. D_s (n, n) [kg m^2] is the inertia matrix and Omega (n,)
+[N m] the sum of Coriolis and gravity terms. force (n,) [N m] is B_s u + delta + zeta: motor torques on all n
+coordinates, model error and external generalised force; friction (n,) [N m] is that of the joints.
 
 Impact: (7) is r(q, v-, z) = 0 with z = (q_e+', F_2) (n + 4,), where q_e = (q_s, p_e) contains the position p_e
 (2,) of the stance foot, F_2 (2,) is the impulse on the swing foot, and - and + stand for before and after.
@@ -74,7 +76,7 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
     """
     n, impact, robot = biped.n, biped.impact(q, v), robot_of(biped)
     x, before, z = (ca.MX.sym(*name) for name in (("q", n), ("v", n), ("z", n + 4)))
-    D, J_m, J_2, _ = pose_function(robot)(x)
+    D, J_m, J_2, _ = pose_function(robot)(x)  # the place of the swing foot is not in (7)
     r = ca.vertcat(*impact_rows(D, J_m, J_2, robot.K.mass, before, z[: n + 2], z[n + 2 :]))
     rows = ca.Function("impact", [x, before, z], [ca.jacobian(r, y) for y in (x, before, z)])
     by_q, by_v, by_z = map(np.array, rows(q, v, np.concatenate((impact.v_e, impact.impulse))))

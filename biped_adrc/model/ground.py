@@ -1,13 +1,15 @@
-"""The ground: axes along and out of a slope, steps down and up, random ones, and stones.
+"""The ground: axes along and out of a slope, steps down and up, random ones, and stones to land on.
 
 The slope is constant and tilts the whole ground; a positive one goes downhill in the walking direction. A step
 of the ground, down or up, is placed by the number of a single support, from 1: `StepDown(3, 0.02)` lowers by 20
-mm the ground on which the third single support ends, and all that comes after it. `Walker` holds the slope and
-the tuple of steps; an impact is where the height of the swing foot over that ground comes down to zero.
+mm the ground on which the third single support ends, and all that comes after it. `Walker`, the closed loop of
+robot and controller, holds the slope and the tuple of steps; an impact is where the height of the swing foot
+over that ground comes down to zero.
 
 A drop [m] is how much lower the ground lies where a single support ends than at its stance foot; < 0 for up.
 
-All this ground is rigid. `SoftGround` is that of a plant with contact, in MuJoCo.
+Stones are stepping stones: footholds at prescribed distances. All this ground is rigid; `SoftGround` has the
+numbers of a compliant one, for a plant that MuJoCo simulates.
 """
 
 from __future__ import annotations
@@ -76,6 +78,7 @@ class SoftGround(Checked, Shown):
         """
         d = self.impedance[1]
         full = mass / (self.time_constant * self.damping_ratio) ** 2
+        # at: the impedance d(r) at a depth, here at the surface and from 1 mm on
         at_surface, deep = (full * (at / d) ** 2 / (1.0 - at) for at in self.impedance)
         return at_surface, deep
 
@@ -149,7 +152,8 @@ def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
     stones: lengths [m] of single supports 1, 2, ... step: a number, or a symbol of the code generator, which
     cannot be an index.
     """
-    L: Any = usual
+    L: Any = usual  # the length [m]
+    # equality of the numbers k and step, which may be a float
     for k, stone in enumerate(stones, 1):
         L = np.where(abs(step - k) < 0.5, stone, L)
     return L

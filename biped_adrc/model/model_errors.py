@@ -1,4 +1,4 @@
-"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
+"""Errors of a model: masses, COMs, inertias and friction of the plant that differ from the nominal ones.
 
     m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b -> (1 + e_f) b     F_c -> (1 + e_f) F_c
 
@@ -26,6 +26,7 @@ from biped_adrc.model.biped import Biped
 
 FACTORS = ("mass", "com", "inertia")
 """Names of the errors of bodies, in the order in which they are drawn."""
+# ranges of fields {name: error}: finite errors; those that leave more than nothing; those that leave 0 or more
 FINITE = each("finite numbers by name", math.isfinite)
 ABOVE = each(
     "finite numbers above -1 by name, such as {'torso': 0.2}", lambda e: -1.0 < e < math.inf
@@ -124,7 +125,8 @@ class ModelErrors(Checked, Shown):
 def impact_error(seed: int, spread: float, n: int) -> Array:
     """Relative errors e (n,) [1] of the rates after impact, each uniform from -spread to spread, by a seed.
 
-    The impact then leaves (1 + e) q'+ in place of q'+ of (7), entry by entry.
+    The plant's impact then leaves (1 + e) q'+, entry by entry, in place of the rates q'+ [rad/s] of the plastic
+    impact.
     """
     return np.random.default_rng(seed).uniform(-spread, spread, n)
 

@@ -87,6 +87,7 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
     x, z = b.hip(q)
     # (z, -x) is the direction of the hip in a clockwise turn, forwards; -1: a positive pitch rate is backwards
     forwards = np.sign(b.hip_velocity(q, topple) @ np.array([z, -x]))
+    # phase[-1] is Theta' [rad/s] at the rates topple; the gap is 0 where Theta' = -1 in a topple forwards
     yield "Theta falls as the robot topples forwards", abs(float(forwards * b.phase[-1]) + 1.0)
 
 
@@ -117,9 +118,12 @@ def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
     knee, the larger change, since ideal joints transmit no impulsive torque. The third compares the linear
     momentum after the impact in two ways: floating before the relabelling, and pinned at the new foot after it.
     """
+    # [0, 0]: the old stance foot is at rest before the impact
     before = LinkMotion(b.floating, q, np.append(v, [0.0, 0.0]))
     after, foot = LinkMotion(b.floating, q, hit.v_e), b.swing_foot(q)
     whole = abs(after.about(foot) - before.about(foot))
+    # outboard(j): angular momentum about joint j of all links that it carries
     leg = [abs(after.outboard(j) - before.outboard(j)) for j in before.old_leg()]
     linear = b.momentum(hit.q, hit.v) - after.momentum().linear[XZ]
+    # initial: 0 for an old leg without joints
     return np.array([whole, np.max(leg, initial=0.0), np.max(np.abs(linear))])

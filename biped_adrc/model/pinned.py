@@ -1,5 +1,8 @@
 """Single support: Pinocchio's terms of the model pinned at the stance foot, in the paper's q_s.
 
+q_s (n,) [rad] are the angles of the joints and, last, the absolute pitch of the torso; D_s (n, n) [kg m^2] is
+the inertia matrix in q_s, Omega (n,) [N m] the sum of Coriolis and gravity terms.
+
 The pinned tree hangs from the stance foot, by the revolute joint PIN_JOINT (the pin): its first coordinate is
 the absolute angle of the stance shin. The paper's coordinates count from the torso. Both are angles of the same
 links, so `q_tree = T q_s` with a constant T, and `D_s = T' M T`, `Omega = T' nle(T q, T v)`, with M the inertia
@@ -88,7 +91,8 @@ class PinnedDynamics:
     """
 
     def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: Rotors):
-        """Build the model of `tree`, which hangs from the stance foot; d and armature: as for `pinned_model`.
+        """Build the model of `tree`, which hangs from the stance foot; d: record of the robot, with its joints
+        and gravity; armature [kg m^2]: rotor inertia at every motor, or one number for each.
 
         stance_chain (n,): the pin's angle is stance_chain q_s, the absolute angle of the stance foot's link.
         Raises ModelError when the tree and the record have different numbers of coordinates.
@@ -193,7 +197,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     chain, pitch = tree.path_below(foot, torso), tree.joint_above(torso)
     if chain is None:
         raise ModelError(f"'{tree.source}': foot '{foot}' does not hang below '{torso}'")
-    assert pitch is not None
+    assert pitch is not None  # the torso hangs on a joint where a path leads up to it
     # chain: joints from the foot up to the torso
     origin = {joint.parent: joint.origin for joint in chain}  # of the new frames in the old ones
     pin_joint = Joint(PIN_JOINT, "revolute", "ground", foot, ZERO, pitch.axis)

@@ -11,7 +11,7 @@ The vectors d are fitted to Pinocchio's own positions; the fit is exact but for 
 passed as two arrays, re and im. The functions take numbers and object arrays of symbols alike: NumPy asks each
 symbol for its `cos` and `sin`. `planar_robot` has the dynamics.
 
-`wrench_torque` is the generalised force of a force and a moment at a point fixed to a link, for
+`wrench_torque` is the generalised force zeta (n,) [N m] of a force and a moment at a point fixed to a link, for
 disturbances: with J(q) (2, n) the Jacobian of the point, and b (n,) that of the link's own absolute angle,
 
     zeta = J^T (F_x, F_z) + b^T M
@@ -51,7 +51,8 @@ def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexA
     """
     n = len(A)
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
-    turns = np.exp(1j * q @ A.T)
+    turns = np.exp(1j * q @ A.T)  # exp(i a), a row for each q
+    # x + i z [m], (3 n + 3, points)
     there = np.array([np.atleast_2d(places(x)) for x in q]) @ np.array([1.0, 1.0j])
     d = np.linalg.lstsq(turns, there, rcond=None)[0]
     least = exact * max(1.0, float(np.max(np.abs(there))))
@@ -133,7 +134,8 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
         pin.framesForwardKinematics(f.model, f.data, f.configuration(q))
         return np.asarray(f.data.oMf[frame].act(np.array([x_z[0], 0.0, x_z[1]])))[[0, 2]]
 
-    # row 4 is the turn about y, which points into the plane: minus makes it counter-clockwise
+    # any angles: the turn of a link in the plane does not depend on them. Row 4 is the turn about y, which
+    # points into the plane: minus makes it counter-clockwise
     zero = f.configuration(np.zeros(biped.n))
     J = pin.computeFrameJacobian(f.model, f.data, zero, frame, pin.LOCAL_WORLD_ALIGNED)
     return _fitted(biped, place, np.ascontiguousarray(-J[4, f.angles]))

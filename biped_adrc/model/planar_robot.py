@@ -5,7 +5,14 @@ need the dynamics as formulas, which `PlanarRobot` has for any planar robot, wit
 model. q (n,) are the coordinates q_s of `Biped`, v = q'. A prime is a transpose on a matrix, a time derivative
 on a vector.
 
-    D_s(q) q'' + Omega(q, q') = B_s u + zeta,   Omega = C q' + G_s
+    D_s(q) q'' + Omega(q, q') = B_s u + delta + zeta,   Omega = C q' + G_s
+
+    D_s, Omega   inertia matrix (n, n) [kg m^2], Coriolis and gravity terms (n,) [N m]
+    C, G_s       Coriolis matrix (n, n) [N m s], torques of gravity (n,) [N m]
+    B_s, u       torques of the motors (p,) [N m], and the constant matrix (n, p) by which they act
+    zeta, delta  external generalised force, and error of the model, each (n,) [N m]
+    p_com, m     place (x, z) of the COM [m], whole mass [kg]
+    g, rotor     gravity [m/s^2]; inertia of the motors' rotors, reflected to the coordinates (n,) [kg m^2]
 
 Let a = A q be the absolute angles of the n links, d_k (n,) the constant complex vectors of `planar` to the COM
 of link k, x + i z = sum_i d_ki exp(i a_i) from the stance foot, m_k its mass, J_k its inertia about the COM,
@@ -19,8 +26,9 @@ and o the product entry by entry. Then in absolute angles, with c = cos a and s 
 and in the coordinates D_s = A^T D_a A + diag rotor, Omega = A^T Omega_a. (C_ij here are cosines, not the
 Coriolis matrix C above.) D_s and Omega are compared to Pinocchio's before anything uses them.
 
-In double support q_e = (q_s, p_e), with the stance foot at p_e (2,) [m], J_m (2, n) the Jacobian of m p_com and
-J_2 (2, n) that of the swing foot,
+In double support q_e = (q_s, p_e), with the stance foot at p_e (2,) [m]. With J_m (2, n) the Jacobian of m
+p_com and J_2 (2, n) that of the swing foot, the inertia matrix D_e in q_e and the Jacobian E_2 of the swing
+foot are
 
     D_e = (D_s, J_m'; J_m, m 1),   E_2 = (J_2, 1)                    (2), (4) of the paper
 
@@ -32,8 +40,8 @@ N' takes the impulse F_2 out of (7):
 N' D_e N (n, n) is the inertia about the swing foot: symmetric, positive definite, and n rows in
 place of the n + 4 of (7). D_e itself is singular for a robot whose mass is in one point.
 
-It is a part like controllers and observers (`core.part`): the engine runs its methods on symbols, so none of
-them branches on a number.
+`PlanarRobot` is a part like controllers and observers (`core.part`): the engine, which makes machine code, runs
+its methods on symbols, so none of them branches on a number.
 """
 
 from __future__ import annotations
@@ -172,6 +180,7 @@ class PlanarRobot:
         """
         numbers: tuple[Any, ...] = self.K
         pairs = zip(numbers, self.present, strict=True)
+        # single numbers, such as the mass, stay symbols
         kept: list[Any] = [np.where(mask, x, 0.0) if mask.ndim else x for x, mask in pairs]
         return with_fields(self, K=PlantArrays(*kept))
 
@@ -194,6 +203,7 @@ class PlanarRobot:
         t, A, K = turned(self.A, q), self.A, self.K
         C, S = _differences(t)
         D = K.W_re * C - K.W_im * S
+        # C and S have zeros there: K.inertia has Re W_ii + J_i
         np.fill_diagonal(D, K.inertia)
         D_s = A.T @ D @ A
         for i in range(len(A)):
@@ -205,7 +215,8 @@ class PlanarRobot:
         """Gravity G_s = dV/dq (n,) [N m] and dT/dq = C^T q' (n,) [N m], with the potential energy V and the
         kinetic energy T.
 
-        t: cosines and sines of the absolute angles. v = q' (n,) [rad/s]. C is the Coriolis matrix.
+        t: cosines and sines of the absolute angles a. v = q' (n,) [rad/s]. C^T: the Coriolis matrix transposed.
+        dT/da = a' o ((Re W o S + Im W o C) a') is mapped to q by A^T, with C and S of the module.
         """
         A, K, rate = self.A, self.K, self.A @ v
         C, S = _differences(t)

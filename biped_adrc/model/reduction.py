@@ -10,6 +10,12 @@ The unactuated rows of (11) are solved for q_N'' and inserted into the actuated 
 actuated joint is a double integrator with an input gain kappa and a total disturbance xi. Controllers
 and observers work on (13) alone.
 
+    D_s, Omega    inertia matrix (n, n) [kg m^2], Coriolis and gravity terms C q' + G (n,) [N m]
+    u, B_s        torques of the motors (p,) [N m], and the constant matrix (n, p) by which they act
+    xi~           zeta + delta (n,) [N m]: external generalised force, and error of the model
+    F_T, F_N      force [N] of the ground on the stance foot, along x (to the right) and z (up)
+    kappa, xi     gain (p, p) [1/(kg m^2)] and total disturbance (p,) [rad/s^2] of the actuated joints
+
 q_b (p,) are the joints with motors, q_N the other coordinates, usually the pitch alone; D11 (p, p), D12, D21,
 D22 are the blocks of D_s for them, and index 1 stands for the rows of q_b, 2 for those of q_N.
 
@@ -54,8 +60,8 @@ class Reduction(NamedTuple):
 class BodyTerms(NamedTuple):
     """Terms of the whole robot at one state that few controllers need, besides its `Reduction`.
 
-    With the momentum D_s q' = pi, (1) is pi' = C' q' - G + B_s u + zeta; the force of the ground is
-    F = F_a q'' + F_0, by Newton's law for the COM.
+    With the momentum D_s q' = pi, the equation of motion is pi' = C' q' - G + B_s u + zeta; the force of the
+    ground is F = F_a q'' + F_0, by Newton's law for the COM.
     """
 
     G: Array
@@ -91,7 +97,7 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
     coordinate D22 is a number, and no system is solved for it. Raises SingularError for a singular D22, or a
     singular D11 - D12 D22^-1 D21.
     """
-    if p == 0:
+    if p == 0:  # all rows are unactuated: a_N is the whole acceleration
         a_N = -solve_positive(D, Omega, "D_s")
         none = np.zeros((0, 0))
         return Reduction(D, Omega, none, np.zeros(0), none, np.zeros((D.shape[0], 0)), a_N)

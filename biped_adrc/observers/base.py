@@ -7,21 +7,22 @@
 
 for the observers under ADRC: q_b are the angles of the p joints with motors, kappa u is the acceleration that
 the torques u give them by the nominal model, xi = q_b'' - kappa u is the total disturbance, and ^ marks an
-estimate. The observer under DOB (`momentum`) has the momentum of all n coordinates as y and the known force on
-them as input. States are passed in and handed back; an observer holds only numbers. So one observer object may
-serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
-code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and judges
-it alone.
+estimate. The disturbance observer (DOB) of `momentum` has the momentum of all n coordinates as y and the known
+force on them as input. States are passed in and handed back; an observer holds only constants. So one observer
+object may serve many walks at once, and an integrator may evaluate a step twice. The engine, a compiler, turns
+the methods into machine code. `control.tracking` puts an observer under a controller, `analysis.observer`
+chooses its poles and judges it alone.
 
 All observers of the package share a chain of integrators per coordinate in scaled states,
 
     x_k = z_k scale^(k-1), k = 1..m+2,
 
 with x1 position, x2 velocity, x3 disturbance and its derivatives, m extended states in all from x3 on. In x
-itself the observer matrix with the poles of Table I has condition number 3e29; scaled it has 5e6. `lead`
-integrators lie between disturbance and measurement: two from an acceleration to an angle, one from a force to a
-momentum. `ChainObserver` has start, estimates and reset, which do not depend on how the gains were chosen;
-`gpi`, `high_gain`, `kalman` and `momentum` add their flow.
+itself the observer matrix with the poles of the paper's Table I has condition number 3e29; scaled it has 5e6.
+`lead` integrators lie between disturbance and measurement: lead = 2 from an acceleration to an angle, lead = 1
+from a force to a momentum, where there is no x2 and the disturbance follows x1. `ChainObserver` has start,
+estimates and reset, which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and
+`momentum` add their flow.
 """
 
 from __future__ import annotations
@@ -98,6 +99,7 @@ class Observer(Part):
     array([1., 1., 1., 1.])
     """
 
+    # an example for messages of errors
     SUCH_AS = "GPIObserver.from_bandwidth(500.0)"
 
     MAKERS: ClassVar[tuple[str, ...]] = ()
@@ -124,30 +126,35 @@ class Observer(Part):
     def flow(self, z: Any, y: Array, input: Array) -> Any:
         """z' in continuous time, for the measurement y (p,) and the input (p,).
 
-        Raises InputError for an observer that was made for sampled time.
+        This base raises InputError: an observer in sampled time does not write the method.
         """
         self._only("works in sampled time only; give a SampledTime")
 
     def correct(self, z: Any, y: Array) -> Any:
         """In sampled time: z corrected by the measurement y (p,) of the sample instant.
 
-        Raises InputError for an observer in continuous time, as `predict` does.
+        This base raises InputError: an observer in continuous time does not write the method.
         """
         self._only("works in continuous time; call sampled(period)")
 
     def predict(self, z: Any, input: Array) -> Any:
-        """In sampled time: z one period later under a constant input (p,)."""
+        """In sampled time: z one period later under a constant input (p,).
+
+        This base raises InputError: an observer in continuous time does not write the method.
+        """
         self._only("works in continuous time; call sampled(period)")
 
     def sampled(self, period: float) -> Observer:
-        """The observer in discrete form for ticks every `period` [s]. Raises InputError where it has none."""
+        """The discrete form for ticks every `period` [s]. This base raises InputError: it has none."""
         self._only(
             "has no discrete form; give it a method sampled(period), or use ContinuousTime()"
         )
 
+    # `once` keeps the result for each observer and period
     @once
     def at_ticks(self, period: float) -> Observer:
         """The result of `sampled`, checked. Raises InputError for one without `correct` and `predict`."""
+        # `sampled` may be a user's; a method that is still the one of this base was not written
         found = self.sampled(period)
         check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
         for name in ("correct", "predict"):
@@ -177,8 +184,8 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
     """Check poles [rad/s]: two or more with negative real parts, complex ones in
     conjugate pairs. Returns them.
 
-    Without pairs the gains would not be real. what: the observer, for the message. Raises
-    InputError with the wrong pole.
+    Without pairs the gains would not be real. what: the observer, for the message. Raises InputError with the
+    wrong pole, also for more poles, or larger or smaller magnitudes, than `check_chain` allows.
     """
     try:
         numbers = tuple(complex(pole) for pole in poles)
@@ -258,7 +265,7 @@ class ChainObserver(Observer):
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
         """State z whose estimates are y, dy and xi, each (p,) in physical units; derivatives of xi are zero.
 
-        With one integrator y is a momentum and dy is not used.
+        With lead = 1 y is a momentum, xi a force, and dy is not used.
         """
         z = np.zeros((self.order, len(y)))
         z[0] = y
@@ -271,7 +278,7 @@ class ChainObserver(Observer):
     def estimate(self, z: Array) -> Estimate:
         """Estimates x1^, x2^ and xi^ in z, each (p,), in physical units.
 
-        xi^ = 0 for m = 0. With one integrator x1^ is a momentum, xi^ a force, and x2^ = 0.
+        xi^ = 0 for m = 0. With lead = 1 x1^ is a momentum, xi^ a force, and x2^ = 0, as no state stands for it.
         """
         none = np.zeros(z.shape[1])
         velocity = z[1] * self.scale if self.lead > 1 else none
@@ -284,9 +291,10 @@ class ChainObserver(Observer):
     ) -> Array:
         """State z after impact, by a policy; MEASURED keeps xi^ and its derivatives, with the legs swapped.
 
-        With one integrator xi^ is a force, which the impact does not end, so MODEL keeps it too, and only its
-        derivatives become zero. Columns of z behind the first p = len(swap), of unactuated coordinates, keep
-        their place.
+        swap (p,): the relabelling, entries of (x, -x). y, dy, xi: measured position and velocity, and the
+        model's disturbance, after impact; with lead = 1 y is a momentum, and dy has no use. Then xi^ is a
+        force, which the impact does not end, so MODEL keeps it, and only its derivatives become zero. Columns
+        of z behind the first p = len(swap), of unactuated coordinates, keep their place.
         """
         if policy is ResetPolicy.NONE:
             return z
@@ -298,6 +306,7 @@ class ChainObserver(Observer):
             z[0] = y
             if self.lead > 1:
                 z[1] = dy / self.scale
+        # only with lead = 1, whose z[0] is the momentum, z[1] the force, and the rest its derivatives
         if policy is ResetPolicy.MODEL:
             z[2:] = 0.0
         return z

@@ -13,8 +13,8 @@ disturbance [rad/s^2], the others the derivatives of the disturbance. l_k [1/s^(
 The estimation error obeys equation (19) of the paper; its m + 2 poles are chosen, and the gains follow. In
 continuous time the states are scaled by w [rad/s], the geometric mean of the magnitudes of the poles:
 z_k = x_k^ / w^(k-1). The scaled gains l_(m+2-k) / w^k, k = 1..m+2, are the coefficients of the polynomial
-whose roots are the poles divided by w. The injection is written l (y - x1^), never l y - l x1^: with gains up
-to 1e29 that form is lost in round-off.
+whose roots are the poles divided by w. The injection is written l (y - x1^), never as the difference
+l y - l x1^, which is lost in round-off with gains up to 1e29.
 
 In discrete time, with the period T [s], the states are scaled by T instead: Z_k = x_k^ T^(k-1). The observer
 has its *current* (filtered) form, in which y is the measurement of the same sample instant:
@@ -25,8 +25,8 @@ has its *current* (filtered) form, in which y is the measurement of the same sam
 Phi is the transition matrix of a chain of integrators, Phi_ij = 1/(j - i)! for j >= i, else 0, and
 Gamma = T^2 (1/2, 1, 0, ...). With one integrator between input and measurement instead of two (`momentum`),
 Gamma is T (1, 0, ...), and a force takes the place of kappa u. L places the eigenvalues of (I - L C) Phi,
-C = (1, 0, ...), at exp(s T) for each pole s, by Ackermann's formula. To hold y - x1^ constant over a period
-instead would be unstable with the poles of Table I at T = 1 ms; this form is stable there.
+C = (1, 0, ...), at exp(s T) for each pole s, by Ackermann's formula. The continuous observer with y - x1^ held
+over each period would be unstable with the paper's poles (Table I) at T = 1 ms; the current form is stable.
 
 m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
 follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain`
@@ -65,8 +65,8 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 class InjectedChain(ChainObserver):
     """Base of the observers (17), whatever their gains; a subclass defines the `poles`.
 
-    k = lead + m is the number of states: m + 2 for the GPI observer, m + 1 for the momentum observer, which has
-    one integrator between input and measurement (lead = 1). w is `scale`.
+    k = lead + m is the number of states per coordinate: m + 2 for the GPI observer, m + 1 for the momentum
+    observer, which has one integrator between input and measurement (lead = 1). w is `scale`.
     """
 
     @property
@@ -94,6 +94,7 @@ class InjectedChain(ChainObserver):
         w = self.scale
         dz = w * np.outer(self.scaled_gains, y - z[0])
         dz[:-1] += w * z[1:]
+        # the input drives the state one above the disturbance: the velocity, with one integrator the momentum
         dz[self.lead - 1] += input / w ** (self.lead - 1)
         return dz
 
@@ -118,11 +119,12 @@ class InjectedChain(ChainObserver):
         for _ in range(k - 1):
             rows.append(rows[-1] @ Phi)
         last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
+        # complex poles come in pairs, so the imaginary part is round-off
         return np.ascontiguousarray(np.real(p_of_Phi @ last))
 
     def error_system(self) -> ErrorSystem:
-        """Error dynamics (19) in scaled states, e' = A e + b (q_b'' - kappa u): A (m + 2, m + 2) [1/s],
-        and the scale [s] of velocities.
+        """Error dynamics (19) in scaled states, e' = A e + b (q_b'' - kappa u): A (m + 2, m + 2) [1/s], and 1/w
+        [s], the factor of velocities in e and the only entry of b, in the row of the velocity.
         """
         A = self.scale * np.eye(self.order, k=1)
         A[:, 0] = -self.scale * self.scaled_gains
@@ -175,9 +177,9 @@ class SampledChain(ChainObserver):
     """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T.
 
     continuous: the observer in continuous time, which computes L. period: T. k = lead + m is the number of
-    states. The input is held between ticks. Where it changes within a period, as the known force beta of the
-    momentum observer, this looks like a part of the disturbance: the estimate has an error of about (T / 2)
-    dbeta/dt.
+    states per coordinate, z (k, p). The input is held between ticks. Where it changes within a period, as the
+    known force beta of the momentum observer, this looks like a part of the disturbance: the estimate has an
+    error of about (T / 2) dbeta/dt.
     """
 
     continuous: InjectedChain = field(metadata=SETUP)

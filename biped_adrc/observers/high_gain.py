@@ -7,7 +7,7 @@
 
 x1^, x2^, x3^ estimate a joint's angle, velocity and disturbance, y is the measured angle, and kappa u the
 acceleration that the torques give by the nominal model. s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is
-Hurwitz; its roots divided by eps are the poles. As eps falls, the loop comes to behave as if state and
+Hurwitz; its roots divided by eps are the poles. As eps falls, the closed loop comes to behave as if state and
 disturbance were known, but the peak of x_k^ after a jump grows as eps^-(k-1). So the torque has to be limited,
 and the observer to be reset at impact. Freidovich, Khalil, IEEE TAC 53(10), 2008; Khalil, High-Gain Observers
 in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17) in another parametrisation, with states

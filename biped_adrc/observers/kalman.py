@@ -55,6 +55,7 @@ class KalmanObserver(InjectedChain):
         check_whole(m, f"the order m of a Kalman observer is {m!r}", 1)
         check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")
         check_positive(measurement, f"its measurement noise is {measurement} rad s^(1/2)")
+        # order, bandwidth omega = (sqrt(W) / sqrt(R))^(1 / (m + 2)), and R
         return cls(int(m), float(drift / measurement) ** (1.0 / (m + 2)), float(measurement) ** 2)
 
     @property
@@ -81,7 +82,9 @@ class KalmanObserver(InjectedChain):
         k, T = self.order, period
         R = self.measurement / T
         Q = accumulated(k) * self.intensity * T ** (2 * k - 1) / R
+        # C = (1, 0, ..) measures the first state, and in units of R / T its noise has the variance 1
         P = solve_discrete_are(Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
+        # the gain P C^T / (C P C^T + 1)
         return P[:, 0] / (P[0, 0] + 1.0)
 
 

@@ -1,6 +1,8 @@
 """Momentum observer: from the momentum alone, an estimate r of the force zeta that the model does not contain.
 
-zeta (n,) [N m] is generalised, in the coordinates q (n,) [rad]; ^ is an estimate.
+zeta (n,) [N m] is generalised, in the coordinates q (n,) [rad]; ^ is an estimate. pi is the momentum, D the
+inertia matrix, C q' and G the Coriolis and gravity terms, B u the motors' torques u in all coordinates, l_i
+[1/s^i] the gains. beta is the force that the model knows.
 
     pi = D q' [kg m^2/s],   dpi/dt = beta + zeta,   beta = C^T q' - G + B u [N m]
 

@@ -6,7 +6,11 @@
 
 The controller always has the nominal robot as its model; the plant, the robot that walks, differs from it where
 the scenario asks for model errors. A `scene` is a `RobotAndGait`; `drawn(s, what)` is a seed for one random
-thing of the scenario. Called by `walk`, by studies, and by worker processes, which receive the scenario alone.
+thing of the scenario. The registry (`core.registry`) finds a class by kind and name, such as "controller" and
+"ADRC"; `takes` are the parameters of its constructor, `own` of a record those values that only it knows, and
+`named_part` calls it with those values known here, and own ones, that it takes. q, v (n,) [rad, rad/s] are
+coordinates and rates, the first p of them of joints with motors. Called by `walk`, by studies, and by worker
+processes, which receive the scenario alone.
 """
 
 from __future__ import annotations
@@ -81,15 +85,17 @@ class RobotAndGait:
         """
         robot, friction, name = s.robot, s.hardware.friction, s.gait.name
         values = {"preset": robot.preset, "friction": friction}
+        # part_of_user is None for a name that is no class of the user's: then a file of this package has it
         biped = part_of_user("robot", robot.name, values, Biped)
         biped = biped or Biped.load(robot.name, robot.preset, friction)
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
         gait = part_of_user("gait", name, {"biped": biped}, Gait)
-        # True: of another robot too, which `check_robot` refuses below for gaits of both origins
+        # True loads a gait that was made for another robot too; `check_robot` refuses it below, for gaits from
+        # files and from the user's classes alike
         gait = load_gait(name, biped, True) if gait is None else gait.check(biped)
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
-        if s.gait.continued:
+        if s.gait.continued:  # the curve of the gait goes on smoothly past both ends
             gait = replace(gait, constraint=continued(gait.constraint))
         return cls(biped, gait)
 
@@ -118,25 +124,28 @@ class RobotAndGait:
         v = v + x.rate_spread * random.standard_normal(len(v))
         v = v * (1.0 + x.speed + x.speed_spread * random.standard_normal())
         for name, added in x.own.items():
-            place = int(name[1:]) - 1
+            place = int(name[1:]) - 1  # "q5" or "v5" is entry 4
             if not 0 <= place < len(q):
                 raise InputError(f"start.{name}: '{s.robot.name}' has coordinates 1 to {len(q)}")
             (q if name[0] == "q" else v)[place] += added
         return q, v
 
     def slope(self, s: Scenario) -> float:
-        """The slope of a scenario's ground [rad]: its own, or where it says none that of the gait or cycle."""
+        """The slope of a scenario's ground [rad], positive downhill: its own, or where it says none that of the
+        gait or cycle.
+        """
         own = s.ground.slope
         return (self.cycle or self.walked).slope if own is None else own
 
     def controller(self, s: Scenario, stones: tuple[float, ...] = ()) -> Controller:
         """The controller of a scenario; walks of equal records share it, where nothing in it can change.
 
-        stones: lengths of the steps to the stones [m].
+        stones: lengths [m] of the walking steps that lead from stone to stone; () without stones.
         """
+        # all that the controller depends on beside robot and gait
         key = s.controller.model_dump_json(), s.hardware.torque_limit, stones
         law = self.laws.get(key) or controller(s, self.walked, self.biped, stones)
-        if constant(law):
+        if constant(law):  # one of the user's classes may change, and is made anew for each walk
             self.laws.keep(key, law)
         return law
 
@@ -170,12 +179,12 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     gait = scene.walked
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
-    # relative errors (n,) of the rates after impact; (0,) without an error of the impact map
+    # relative errors (n,) [1] of the rates after impact; (0,) without an error of the impact map
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
     course = stones(s)
     timing: ContinuousTime | SampledTime = ContinuousTime()
     if hardware.period is not None:
-        # a clock restarts at impact only if the controller knows the impact at once
+        # a clock restarts at impact only if the controller knows the impact at once, without a detector
         ideal = hardware.touchdown.name is None
         timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
     moved = hardware.rate_limit or hardware.lag
@@ -212,8 +221,8 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
 
 
 def limits(s: Scenario) -> Limits:
-    """Limits of ground and motors within which the walk is feasible; the torque limit, None, is the robot's
-    own.
+    """Limits of ground and motors within which the walk is feasible: friction, torque, and the time over which
+    the force of the ground is averaged. None, as for the torque, takes the value of the robot's record.
     """
     return Limits(s.limits.friction, None, s.limits.window)
 
@@ -249,6 +258,7 @@ def sensors(s: Scenario) -> Sensor | None:
         encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
     if more.name is None:
         return encoders
+    # named_part constructs the class of this name with those of seed and `own` that it takes
     seed = {"seed": drawn(s, "sensor")}
     sensor = named_part("sensor", more.name, seed, more.own, Sensor, "hardware.sensor")
     return sensor if encoders is None else encoders + sensor
@@ -273,6 +283,7 @@ def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> St
     Raises InputError for an unknown plant, or one that cannot be made.
     """
     own = {x: getattr(walker, x) for x in ("max_step_time", "fall_height")}
+    # the constructor takes what it names; {}: no values of a record; "ground": dotted name of it, for messages
     values = {**options, **own, "biped": walker.plant, "slope": walker.ground_slope}
     return named_part("plant", name, values, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
@@ -289,7 +300,9 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
         return None
 
     make = find("plant", g.plant).load()
+    # a value of the user's that neither the plant nor its ground takes is an error
     all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
+    # `construct` calls a class with those values that it takes; h: integration step of the plant
     options = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})
@@ -302,25 +315,27 @@ def _ground(s: Scenario) -> Steps:
     They add up: heights drawn with the root mean square `rms` [m] and up to `step_height` [m] for each walking
     step, and one step of the ground in single support `drop_step`, down by `drop` [m] (up if negative).
     """
+    # last: number of the last single support; the heights are drawn from the first on, whatever `first_step` is
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
-    seed = drawn(s, "ground")
+    seed = drawn(s, "ground")  # of both; where rms or step_height is 0, nothing comes of it
     each = np.random.default_rng(seed).uniform(-g.step_height, g.step_height, last)
     steps = uneven_ground(seed, g.rms, last) + stepped(each)
     return steps + stepped(np.array([g.drop]), g.drop_step)
 
 
 def stones(s: Scenario) -> Stones | None:
-    """The stones of a scenario, stated or drawn; None without stones.
+    """The stones of a scenario, stated or drawn; None without stones. A stone is a place on which the foot has
+    to land: stone k ends single support k, whose length [m] is that of the walking step to it.
 
-    Lengths [m] are drawn for each single support from 1 to the last one, and one more, since a controller looks
-    at the next stone.
+    Lengths are drawn for each single support from 1 to the last one, and one more, since a controller looks at
+    the next stone.
     """
     g = s.ground
     if g.stones is not None:
         return Stones(g.stones, g.stone_tolerance)
     if g.stone_range is None:
         return None
-    count = s.run.first_step + s.run.impacts
+    count = s.run.first_step + s.run.impacts  # the last one has the number count - 1
     random = np.random.default_rng(drawn(s, "stones"))
     lengths = random.uniform(g.stone_range[0], g.stone_range[1], count)
     return Stones(tuple(lengths.tolist()), g.stone_tolerance)
@@ -338,13 +353,16 @@ def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Dist
 
 
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
-    """Push number i of a scenario, from 0, as a disturbance. biped, period, plant: as for `disturbances`.
+    """Push number i of a scenario, from 0, as a disturbance.
 
-    Raises InputError for a value that its shape does not take, and for a push outside of the walk.
+    biped: the nominal robot, by which joints are known. period: duration of the gait's step [s]. plant: the
+    robot that walks, for forces on its links. Raises InputError for a value that its shape does not take, and
+    for a push outside of the walk.
     """
     push = s.pushes[i]
     # (F_x, F_z, M) [N, N, N m] on a link, with x forwards and z up; no moment
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
+    # the parameters of the class of this shape in time; one with `force` is a force by itself, without a link
     accepted = takes(find("disturbance", push.shape).load())
     forced = push.link is not None or "force" in accepted
     # values of the push without an effect: name -> why, False where it has one
@@ -366,7 +384,8 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     place, fields = f"pushes.{i}", Push.model_fields
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
-    # of pushes from before the first single support only a step, which stays, or one over impacts may act
+    # of pushes from before the first single support only a step of the torque, which stays, or a push that
+    # goes on over impacts may act
     if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
         raise Misfit(f"pushes.{i}.step", f"is {push.step}, the walk has {first} to {last}")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
@@ -387,11 +406,13 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
         last = max(period - push.duration, 0.0)
         begin = float(np.random.default_rng(drawn(s, "onset", i)).uniform(0.0, last))
     over = push.over_impacts
+    # time [s] at which the gait would begin this single support, from the start of the walk
     late = (push.step - s.run.first_step) * period if over else 0.0
     return {
         "step": None if over else push.step,
         "start": late + begin,
         "stop": late + push.stop(begin),
+        # a sine takes the frequency, noise the same number as its bandwidth
         "frequency": push.frequency,
         "bandwidth": push.frequency,
         "seed": drawn(s, "noise", i),
@@ -399,7 +420,8 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
 
 
 def _torques(s: Scenario, i: int, biped: Biped) -> Array:
-    """Torques (n,) [N m] of push i on the coordinates; on random joints its torque times factors in -1 .. 1.
+    """Torques (n,) [N m] of push i on the coordinates; for joints "random" its torque on all joints with
+    motors, times factors in -1 .. 1 that are drawn.
 
     Raises InputError for an unknown joint.
     """
@@ -408,6 +430,6 @@ def _torques(s: Scenario, i: int, biped: Biped) -> Array:
         random = np.random.default_rng(drawn(s, "joints", i))
         zeta[: biped.p] = push.torque * random.uniform(-1.0, 1.0, biped.p)
         return zeta
-    for joint, torque in push.factors.items():
+    for joint, torque in push.factors.items():  # name of the joint -> torque [N m], with its sign
         zeta[biped.description.joint_index(joint)] += torque
     return zeta

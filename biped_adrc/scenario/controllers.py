@@ -7,6 +7,11 @@
     inner                                           of an outer loop: the controller of the record `inner`
     everything else                                 the record's own values
 
+On the left are names of parameters, on the right where their values come from. A record is a checked table of
+plain values; `own` are those of its values that it does not declare, for a class of the user's. `takes` are the
+parameters of a constructor, `lacking` those that have neither a default nor a value here. Observers are made by
+their poles [rad/s], or by a bandwidth [rad/s] and an order, the number of extended states.
+
 Wrappers go around it: the policy of `contact`, and those of the registry's kind "around" for which the record
 has a number, such as a prediction [s]. A value that nothing takes is an error, since the user expected an
 effect.
@@ -50,7 +55,7 @@ OF_POLES = ("poles", "bandwidth", "order")
 def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] = ()) -> Controller:
     """The controller of a scenario on this gait, with the robot `biped` as its model.
 
-    stones: lengths of the steps to the stones [m].
+    stones: lengths [m] of the walking steps that lead from stone to stone, for a controller that places feet.
 
     Raises InputError for a class that is not there or lacks something, and a value that nothing takes.
     """
@@ -76,7 +81,7 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
     state would begin anew at each touchdown. Raises Misfit for a value of the record that nothing takes.
     """
     entry, what = find("controller", c.name), f"controller '{c.name}'"
-    make = entry.load()
+    make = entry.load()  # the class, or a function, of this name
     accepted = takes(make)
     outer = "inner" in accepted
     if c.inner is not None and not outer:
@@ -86,8 +91,10 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
         values, used = {**c.own, "inner": inner}, set(accepted)
     else:
         values, used = _values(what, make, c, entry.defaults)
+    # construct calls `make` with those of these values that are its parameters
     law = construct(what, make, {**known, **values}, Controller, place)
-    # values of the record that neither the constructor took, nor its gains and observer, nor a wrapper takes
+    # an error for a value of the record that neither the constructor took, nor its gains and observer, nor a
+    # wrapper takes; `unknown` makes the sentence, with the nearest of the names that it could have been
     for at in c.dotted():
         head = at.partition(".")[0]
         if outer and head in _WRAPPERS:
@@ -103,14 +110,17 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
 def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) -> Controller:
     """Wrap the controller `law` in the policy that the record `contact` of c names (what it does while contact
     settles), then in the registry's wrappers of the kind "around" for which c has a number other than 0, such
-    as `prediction` [s]. place, known: as for `_made`.
+    as `prediction` [s].
+
+    place: dotted name of the record c, for messages. known: arguments that the scenario has for every
+    constructor, which takes those that it names.
     """
     contact = c.contact
     if contact.name is not None:
         own = contact.own | ({} if contact.window is None else {"window": contact.window})
         inside = {**known, "inner": law}
         law = named_part("contact", contact.name, inside, own, AcrossContact, f"{place}.contact")
-    for name in REGISTRY["around"]:
+    for name in REGISTRY["around"]:  # each wrapper takes the controller as `inner`
         if number := getattr(c, name):
             inside = {**known, "inner": law, name: number}
             law = named_part("around", name, inside, {}, Controller, place)
@@ -120,7 +130,8 @@ def _around(place: str, c: ControllerRecord, law: Controller, known: Arguments) 
 def _values(
     what: str, make: Callable[..., object], c: ControllerRecord, defaults: Mapping[str, Any]
 ) -> tuple[Arguments, set[str]]:
-    """Arguments for the constructor `make` from a record c, and the dotted names of the values that were used.
+    """Arguments for the constructor `make` from a record c, and the dotted names of the values that were used,
+    counted from that record, such as "observer.poles".
 
     A gain K_p or K_d in the record replaces that one of the constructor's default gains (without default those
     of Table II of the paper). what: the controller, for messages. defaults: the registry's values for what the
@@ -158,14 +169,17 @@ def _observer(
     values is called. Observers name the order m.
     """
     usual = _default(make)
+    # ways: functions that make an observer of the class `kind`: makers first, then the class itself
     kind = type(usual) if o.name is None else find("observer", o.name).load()
     ways = [*(getattr(kind, name) for name in getattr(kind, "MAKERS", ())), kind]
     offered = {**settings, **o.own} | ({"m": settings["order"]} if "order" in settings else {})
     if o.name is None and not any(set(offered) & set(takes(way)) for way in ways):
         # nothing was asked for: None, unless the controller cannot be made without an observer
         return (usual if "observer" in lacking(make, ()) else None), set()
+    # where an argument is missing for each of them, the first one is called, and says what it lacks
     fitting = [way for way in ways if not lacking(way, offered)] or ways[:1]
     best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
+    # the record's name was used to find the class
     taken = {"name", *takes(best)} | ({"order"} if "m" in takes(best) else set())
     law = construct(f"the observer of {what}", best, offered, Observer, "controller.observer")  # type: ignore[type-abstract]
     return law, taken
@@ -173,6 +187,7 @@ def _observer(
 
 def _default(make: Callable[..., object]) -> Observer:
     """The default observer of a controller's constructor; the GPI observer of Table I where it has none."""
+    # a default is a function without arguments of a dataclass's field, or the default of a parameter
     of_class = {f.name: f.default_factory for f in fields(make)} if is_dataclass(make) else {}
     factory = of_class.get("observer")
     usual = factory() if callable(factory) else takes(make)["observer"].default

@@ -2,7 +2,9 @@
 
     {"run": {"seed": 1}}   <->   {"run.seed": 1}
 
-An item of a list of tables has its number from 0 in the name: "pushes.0.torque" is of the first push.
+An item of a list of tables has its number from 0 in the name: "pushes.0.torque" is of the first push. A table
+is a mapping, as TOML and JSON have it. A record (`scenario.records`) is a checked table; one that has an
+obvious name may be written as that name alone, so "ADRC" stands for {"name": "ADRC"}.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ def tables(values: Mapping[str, Any]) -> dict[str, Any]:
     """
     result: dict[str, Any] = {}
     for name, x in values.items():
+        # "run.seed" is split at its first dot; dot is empty where there is none
         head, dot, rest = str(name).partition(".")
         inner = tables({rest: x}) if dot else tables(x) if isinstance(x, Mapping) else x
         result[head] = merged(result.get(head), inner)
@@ -30,8 +33,9 @@ def tables(values: Mapping[str, Any]) -> dict[str, Any]:
 def merged(before: Any, more: Any) -> Any:
     """The nested values `before`, overridden level by level by the values `more`.
 
-    What is no table in `more` replaces all that was there. A table in `more` also changes single items of a
-    list, by their numbers {"0": ..}; values of a record; and those beside a text that stands for a record.
+    What is no table in `more` replaces all of `before`. A table in `more` also changes single items of a list
+    `before`, by their numbers {"0": ..}; single values of a record; and adds values to a text `before` that
+    stands for a record, which is kept under the key NAME.
     """
     if not isinstance(more, dict):
         return more
@@ -39,7 +43,7 @@ def merged(before: Any, more: Any) -> Any:
         before = {str(i): x for i, x in enumerate(before)}
     if isinstance(before, str):
         before = {NAME: before}
-    if hasattr(before, "record"):
+    if hasattr(before, "record"):  # a record: those of its values that are not the defaults
         before = before.record()
     if not isinstance(before, dict):
         return more

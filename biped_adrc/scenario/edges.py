@@ -1,14 +1,17 @@
-"""Remarks on a finished walk: pushes that an impact cut off, integration steps that are too long around the
-switching times of a push, the last stone, a gait for another robot, slope or controller, and a controller that
-does less than was asked.
+"""Remarks on a finished walk: sentences on what was not as it was asked for.
 
-A window of a push is given in the time of one single support. When the impacts come is known only once the walk
-is simulated, and depends on the push. A walk is therefore not refused: `Walk.remarks` states what was not as it
-was asked for, since a push that acts for less time than intended spoils a comparison without any other sign.
+They are on pushes that an impact cut off; integration steps that are too long around the switching times of a
+push; a walk that went on behind the last of its stepping stones; a gait that was made for another robot, slope
+or controller; and a controller that does less than was asked.
 
-An edge is a switching time of a push: an instant at which a disturbance switches on or off
-(`Disturbance.switches`). It is stated by the number of its single support and the time [s] from the start of
-that; the number 0 stands for times from the start of the walk.
+The window of a push, the time in which it acts, counts from the start of one single support. When the impacts
+come is known only once the walk is simulated, and depends on the push. So a walk with a window that an impact
+cuts cannot be refused before: `Walk.remarks` states it afterwards, since a push that acts for less time than
+intended spoils a comparison without any other sign.
+
+An edge is a switching time of a push: an instant at which a disturbance switches on or off. A disturbance has
+its edges in `switches`, as pairs (step, s): number of the single support and time [s] from its start; the
+number 0 stands for times from the start of the walk.
 
     the push from 0.1 to 0.3 s in single support 3 was cut by the impact at 0.2531 s
     the push from 0.6 s on in single support 2 did not begin before the impact at 0.5402 s
@@ -45,13 +48,15 @@ SAME_CURVE = 1e-6
 
 
 def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterator[str]:
-    """Yield the remarks: on pushes, integration steps around their edges, start, last stone, controller, gait.
+    """Yield the remarks on a walk: on pushes, integration steps around their edges, the start, single supports
+    behind the last stepping stone, controller and gait.
 
     gait: the one that was to be walked; None for a robot without motors, and for a walk from a state alone. A
-    push has a remark if it did not act, if an impact cuts it off, or if one of its edges is within `_NEAR` of
-    an impact, before or after it. An edge at the very start of a single support has none: it is how "from the
-    impact on" is written.
+    push has a remark if it did not act, if an impact cuts it off, or if one of its edges is within `_NEAR`,
+    1 ms, of an impact, before or after it. An edge at the very start of a single support has none: it is how
+    "from the impact on" is written.
     """
+    # summands: each push of a sum by itself
     for part in () if walker.disturbance is None else summands(walker.disturbance):
         # number of the single support, 0 for the whole walk -> times of the edges in it [s]
         edges = {k: sorted(s for j, s in part.switches if j == k) for k, _ in part.switches}
@@ -62,9 +67,11 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
             name = names[0] if names else f"the push {type(part).__name__}"
             yield f"{name} did not act: it was zero at every instant of the walk"
     yield from _of_steps(walker, trajectory)
+    # q (n,) of the first node of the first arc; the depth is below the plane through the stance foot
     depth = -walker.clearance(trajectory.arcs[0].x[0, : walker.plant.n])
     if depth > BURIED:
         yield f"the start has the swing foot {1e3 * depth:.3g} mm below the ground"
+    # stone k is where single support k is to end; behind the last one a foot may land anywhere
     count = 0 if walker.stones is None else len(walker.stones.lengths)
     if 0 < count < trajectory.arcs[-1].mode.step:
         behind = f"behind stone {count}, the last one, from single support {count + 1} on"
@@ -75,9 +82,11 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
 
 def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     """Yield a sentence for each controller that has a state but no method `jump`, which exchanges the legs in
-    the state at an impact, and for a `Footstep` controller with a target speed outside of those it can keep.
+    the state at an impact, and for a `Footstep` controller (it decides where the next foot lands, for a target
+    speed) whose target is outside of the speeds that it can keep.
     """
-    for law in nested(walker.controller):
+    for law in nested(walker.controller):  # the controller, and those inside it
+        # _writes: whether its class overrides this method of the base class
         name, kept = type(law).__name__, law._writes("initial_state") and not law._writes("jump")
         if kept and trajectory.events(FOOT_STRIKE):
             yield f"{name} has a state and no jump(s, after, swap) to exchange the legs in it at an impact"
@@ -88,16 +97,19 @@ def _of_controller(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
 
 def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
     """Yield a sentence for each of these three that is not the gait's own: the robot with its preset, the slope
-    of the ground, and the curve q_b = h(Theta) that the controller tracks.
+    of the ground, and the curve q_b = h(Theta) that the controller tracks, angles of the joints with motors
+    over the phase Theta = c q [rad], where c is a row of numbers (`phase`).
     """
     name, slope, plant = f"gait '{gait.name}'", walker.ground_slope, walker.plant
     if (gait.robot, gait.preset) != (plant.description.name, plant.preset):
         yield f"{name} was made for {gait.robot} {gait.preset}"
     if gait.slope != slope:
         yield f"{name} was made for a slope of {gait.slope:g} rad, and the ground has {slope:g} rad"
+    # curves: the one that the controller tracks (None without), and the one of the gait
     h, c = own_reference(walker.controller), gait.constraint
     # curves over another phase variable Theta cannot be compared point by point
     if h != c and isinstance(h, VirtualConstraint) and np.array_equal(h.phase, c.phase):
+        # h(Theta) gives value, slope and curvature: [0] are the angles
         inside = np.linspace(c.theta_plus, c.theta_minus)
         off = max(float(np.max(np.abs(h.h(x)[0] - c.h(x)[0]))) for x in inside)
         if off > SAME_CURVE:
@@ -112,13 +124,15 @@ def _acted(part: Disturbance, steps: set[int], trajectory: Trajectory, n: int) -
     """
     return any(
         np.any(part.zeta(t, arc.mode.step, arc.mode.start, x[:n], x[n : 2 * n]))
+        # False is sorted before True: arcs of these single supports come first
         for arc in sorted(trajectory.arcs, key=lambda arc: arc.mode.step not in steps)
         for t, x in zip(arc.t, arc.x, strict=True)
     )
 
 
 def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
-    """Yield sentences on those edges of one push that lie in single support `step`.
+    """Yield sentences on those edges of one push that lie in single support `step`: that the walk did not get
+    there, that an edge is close to an impact, or that the impact which ended the single support came first.
 
     times: of the edges, increasing [s], from the start of that single support; for step 0 from the start of the
     walk, and then no impact cuts the push.
@@ -133,10 +147,13 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
     # the impacts, as (number of the single support that it ends, time [s] counted as `times` are)
     ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
     impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
+    # s > 0: an edge at 0 is meant to be at the impact
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= _NEAR}
     for s, end in sorted(near):
         edge = f"the edge at {s:g} s within {1e3 * _NEAR:g} ms of the impact at {end:.4f} s"
         yield f"{name} has {edge}; move it away from there"
+    # the impact that ended this single support (none for step 0 or after a fall), and the edges after it: where
+    # all are after it the push did not begin, where some are it was cut
     own = [end for number, end in impacts if number == step]
     late = [s for end in own for s in times if s > end + _NEAR]
     if late and not near:
@@ -153,7 +170,7 @@ def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     fastest pole p, the tracking error after an edge is mostly an error of integration. Single supports with an
     edge are looked at, and those after them.
     """
-    # a method that controls its error has its tolerance "rtol" in its text, and needs no remark
+    # a method that controls its own error has its tolerance "rtol" in its text, and needs no remark
     if walker.disturbance is None or "rtol" in trajectory.settings.get("method", ""):
         return
     split = walker.split(Mode())
@@ -163,6 +180,7 @@ def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
     # the number 0 is for an edge in the time of the walk, which may lie in every single support
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
+    # each integration step has a node, so differences of the nodes' times are the steps
     longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
     if longest > LONGER * constant:
         yield (

@@ -1,4 +1,10 @@
-"""Records of a scenario's hardware: sampling, sensors, motors and joint friction."""
+"""Records of a scenario's hardware: sampling, sensors, motors and joint friction.
+
+A record is a table of plain values that is checked when it is made (`scenario.records`): each field has its
+default, unit and range in `field(..)`, and its help text below it. SHORT is the field that a text alone sets:
+hardware="rabbit" is hardware={"profile": "rabbit"}; "" is for none. An open record also keeps values that it
+does not declare, for a class of the user's.
+"""
 
 from __future__ import annotations
 
@@ -77,19 +83,22 @@ class HardwareRecord(Record):
     @classmethod
     def _opened(cls, values: Any) -> Any:
         """Make a mapping of a profile's name, and fill in the profile's values for those that `values` leaves
-        out; other values stay.
+        out; other values stay. pydantic calls it before it checks any of them.
         """
         values = super()._opened(values)  # type: ignore[operator]
         if not isinstance(values, Mapping):
             return values
         profile = PROFILES.get(str(values.get("profile")), {})
+        # where both have a table, such as encoders, the profile's entries that `values` lacks are filled in too
         own = {name: values[name] for name in profile if name in values}
         return {**values, **merged(profile, own)}
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:
-        """Raise Misfit for a value that would do nothing in continuous time."""
-        # by `Record.record`, which also has the values that the profile filled in
+        """Raise Misfit for a value that would do nothing in continuous time, that is without a period: all but
+        the torque limit and the plant's friction. pydantic calls it when all fields are set.
+        """
+        # not by its own `record`: that of `Record` also has the values that the profile filled in
         idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
         if self.period is None and idle:
             raise Misfit(min(idle), "does nothing in continuous time; give hardware.period too")
@@ -97,7 +106,8 @@ class HardwareRecord(Record):
 
     def record(self, usual: Record | None = None) -> dict[str, Any]:
         """Nested plain values that differ from those of the profile, and the profile's name unless it is
-        "none". `usual` does not count: the values of the profile are the defaults here.
+        "none". `usual`, by which other records are compared, does not count: the values of the profile are the
+        defaults here.
         """
         if self.profile == "none":
             return super().record()

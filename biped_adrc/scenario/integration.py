@@ -1,13 +1,18 @@
 """Which method integrates a walk, with which integration step, and the run of its parts one after the other.
 
-Where a push switches, ADRC's observer has a transient of 1 to 2 ms, not much longer than the integration step
-that suffices elsewhere. A walk is therefore cut at impacts into parts (`WalkPart`): a fine integration step in
-the single supports in which the disturbance switches and those after, a usual one in the others. The
-trajectories of the parts are joined.
+Where a push switches on or off, ADRC's observer has a transient of 1 to 2 ms, not much longer than the
+integration step that suffices elsewhere. A walk is therefore cut at impacts into parts (`WalkPart`): a fine
+integration step in the single supports in which the disturbance switches and those right after them, a usual
+one in the others. The trajectories of the parts are joined.
 
-    refined(walker, 8, 1, RK4(), 5e-5)               # parts: usual, fine where the push switches, usual
+    refined(walker, 8, 1, RK4(), 5e-5)    # 8 single supports from number 1 on, fine steps of 5e-5 s
+                                          # -> parts: usual, fine where the push switches, usual
 
-A method here is an integration method with its step or tolerance, such as RK4(h=1e-3).
+A method here is an integration method with its step or tolerance, such as RK4(h=1e-3), h in [s]. The
+exponential method integrates a linear stiff part of the loop exactly; `Walker.split` gives this part, or None.
+q, v (n,) [rad, rad/s] are coordinates and rates, x (nx,) is the state (q, v, the controller's, the hardware's).
+A mode is a single support: its number from 1 (step), and the time [s] at which it began (start). An arc of a
+trajectory is one single support. The engine is "compiled" (machine code) or "pinocchio" (Python).
 """
 
 from __future__ import annotations
@@ -63,11 +68,12 @@ follows within 0.05 %."""
 
 
 ASIDE = 1e-12
-"""Offset of a start [rad, rad/s] by which rounding is judged: between round-off and the error of a step."""
+"""Offset of a start [rad, rad/s] by which rounding is judged: larger than round-off, smaller than the error of
+an integration step."""
 DECIDES = 1e-7
 """Largest distance at an impact [rad, s] of two walks that begin ASIDE of each other and do not depend on
-rounding. Without comparisons (encoder counts, limits) the distance grew 400 times at most, for 22 laws and
-robots."""
+rounding. Without comparisons (encoder counts, limits) the distance grew 400 times at most, for 22 controllers
+and robots, so this bound of 1e5 times is far above that."""
 
 
 def default_method(walker: Walker) -> OneStepMethod:
@@ -82,8 +88,10 @@ def default_method(walker: Walker) -> OneStepMethod:
     hardware = (walker.sensors, walker.motors, walker.torque_limit)
     if walker.sampled and any(x is not None for x in hardware):
         method = RK4(HARDWARE_STEP)
+    # STABLE is for the decision; the new step has h rate = 1, well inside RK4's region of stability
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
         method = RK4(1.0 / rate)
+    # friction decays rates by `rubs` [1/s]: the step is at most _RESOLVED of this time
     rubs = rate_of_friction(walker.plant)
     return method if method.h * rubs <= _RESOLVED else replace(method, h=_RESOLVED / rubs)
 
@@ -107,18 +115,21 @@ def rate_of_law(walker: Walker) -> float:
         return 0.0
     still = np.zeros(walker.plant.n)
     try:
+        # an exception in the user's code becomes an error of this package; it is caught below
         with handing_out():
             m = walker.measure(0.0, still, still, Mode())
             state, law = walker.law.initial_state(m), walker.law
             layout, s, u = Layout.of(state), flatten(state), law.output(state, m)
             if len(s) == 0:
                 return 0.0
-            # half width of the differences: most flows are linear in s, and their slope needs no exact one
+            # rows: s moved in one entry by the half width of the differences; most flows are linear in s, so
+            # that any width will do
             moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
             ahead, behind = (
                 [flatten(law.flow(layout.tree(s + d * side), m, u)) for d in moved]
                 for side in (1.0, -1.0)
             )
+        # row i is the derivative to s_i: J is the transpose of ds'/ds, with the same eigenvalues
         J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
         return float(np.max(np.abs(np.linalg.eigvals(J))))
     except Exception:  # whatever a method may raise: the walk itself says what is wrong
@@ -134,6 +145,7 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
     `Walk.remarks` says so.
     """
     if run.method == "adaptive":
+        # the same number relative [1] and absolute [rad, rad/s]
         return Adaptive(run.tolerance, run.tolerance), None
     method = default_method(walker) if run.method is None else METHODS[run.method]()
     if run.h is not None:
@@ -157,8 +169,10 @@ def refined(
     steps = range(first_step, first_step + impacts)
     times = walker.disturbance.switching_times if walker.disturbance else lambda *at: ()
     late, short = walker.max_step_time, replace(usual, h=fine)  # type: ignore[type-var]
-    # when single support k begins is not known: k * late stands for it, as only finite or not is asked
+    # times(k, begin): when the disturbance switches in single support k. When k begins is not known: k * late
+    # stands for it, as all that matters is whether there is a finite time
     switched = {k for k in steps if any(map(math.isfinite, times(k, k * late)))}
+    # {k, k - 1}: fine where it switches, and in the single support after
     methods = (short if {k, k - 1} & switched else usual for k in steps)
     return tuple(WalkPart(len(list(group)), method) for method, group in groupby(methods))
 
@@ -174,10 +188,12 @@ def in_parts(
     """Simulate a walk from `start` by the methods of its parts in turn, and join the trajectories.
 
     Each part begins after the last impact of the one before; a fall ends the walk early. start: (q, v), each
-    (n,) [rad, rad/s], in the single support `mode`. engine, progress: as in `runs_in_parts`. Raises InputError
-    for more than one part under a clock that does not restart at impact, since a part begins with a sample
-    instant.
+    (n,) [rad, rad/s], in the single support `mode`. engine: "compiled" or "pinocchio". progress: called after
+    every event with the time [s] and the number of events. Raises InputError for a start that is no state, or
+    whose touchdown is past; and for more than one part under a clock that does not restart at impact, since a
+    part begins with a sample instant.
     """
+    # True: continuous time has no clock, and nothing that a new part could shift
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
             f"a walk of {len(parts)} parts needs a clock that restarts at impact, SampledTime(restart=True)"
@@ -199,7 +215,8 @@ def runs_in_parts(
     """Iterate over the trajectories of the parts, from state x (nx,) in this mode on; the iteration ends after
     a fall.
 
-    engine: "compiled" or "pinocchio". progress: called with the time [s] and the number of events.
+    engine: "compiled" or "pinocchio". progress: called after every event with the time [s] and the number of
+    events since the start of the first part.
     """
     done = 0  # events of the parts before
 
@@ -215,6 +232,7 @@ def runs_in_parts(
             engine, walker, x, mode, part.method, t0=t0, t_end=end, impacts=count, progress=report
         )
         yield run
+        # each arc ends with one event
         event, done = run.arcs[-1].event, done + len(run.arcs)
         if not run.status.ok or event is None or event.x_plus is None:
             return
@@ -239,6 +257,7 @@ def _joined(runs: Sequence[Trajectory]) -> Trajectory:
     last = runs[-1]
     if len(runs) == 1:
         return last
+    # "steps" are the single supports of a run, one arc each
     labels = [
         f"{run.settings['method']} (steps {run.arcs[0].mode.step} to {run.arcs[-1].mode.step})"
         for run in runs
@@ -259,9 +278,10 @@ def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> floa
         raise InputError("a walk from a file, on another plant or cut has no steps; ask a new one")
     n, first = walker.plant.n, run.arcs[0]
     k = np.arange(len(first.x[0]))
-    # cos(k) of the coordinate's number: a direction that no symmetry of the robot prefers
+    # q and v, the first 2 n numbers, are moved by ASIDE cos(k): a direction that no symmetry prefers
     x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)
     beside = runs_in_parts(walker, x, first.mode, parts)
+    # of each arc the time and q at its last node, just before the impact
     runs = run.arcs, [arc for other in beside for arc in other.arcs]
     a, b = (np.array([(arc.t[-1], *arc.x[-1, :n]) for arc in arcs]) for arcs in runs)
     return float(np.max(np.abs(a - b))) if len(a) == len(b) else math.inf

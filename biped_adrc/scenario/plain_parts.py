@@ -5,8 +5,9 @@ with inner objects in records of their own, each once, referred to by number. `R
 Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
 its own: of a class of the user's the name alone is stored, and a stand-in takes the place of such a controller.
 
-A part here is any such object. A class is ours if it is in one of the modules of this package that `_ROOMS`
-names; all others are the user's. How values are written:
+A part here is any such object. A class counts as ours if it is in one of the modules of this package that the
+pattern `_ROOMS` names, those of controllers, observers, disturbances, gaits, hardware, robots, timing and the
+walker; all others count as the user's. How values are written:
 
     None, bool, int, float, str   as they are
     array                         {"array": [...], "shape": [...], "dtype": "float64"}
@@ -33,7 +34,7 @@ from biped_adrc.core.registry import takes
 _ROOMS = re.compile(
     r"biped_adrc\.((control|observers|disturbances|gait|hardware|model(\.robots)?)\.[a-z_]+|core\.timing|closed_loop\.walker)"
 )
-"""Modules whose classes are made when a record is read."""
+"""Pattern of the names of those modules whose classes are imported when a record is read."""
 
 PartRecord = dict[str, Any]
 """One object: `class` as module:Class, `values` that its constructor takes; without them it is the user's."""
@@ -106,7 +107,7 @@ class Writer:
         """
         if hasattr(x, "__qualname__"):  # a class or a function itself
             return {"class": home_of(x)}
-        home, names = home_of(type(x)), takes(x.__class__)
+        home, names = home_of(type(x)), takes(x.__class__)  # names of the constructor's parameters
         if not is_ours(home) or not all(hasattr(x, name) for name in names):
             return {"class": home}
         return {"class": home, "values": {name: self.plain(getattr(x, name)) for name in names}}
@@ -122,7 +123,8 @@ class Reader:
     """Place of a record -> the object made of it, so that an object that is used twice is one again."""
 
     def made(self, x: object) -> Any:
-        """The value that `Writer.plain` wrote as x.
+        """The value that `Writer.plain` wrote as x: an array, list, tuple, mapping and so on by its one key,
+        an object from its record, anything else as it is.
 
         Raises MissingPart for an object of the user's and what contains one, InputError for a class that this
         version of the package does not have, and what a class raises of values that it does not take.
@@ -156,6 +158,8 @@ class Reader:
 def _class(home: str) -> Any:
     """A class of this package by module:Class. Raises InputError where this version does not have it."""
     module, _, name = home.partition(":")
+    # nothing else is imported, since an import runs code; and below, a class that the module itself has only
+    # imported from elsewhere is refused
     result = getattr(import_module(module), name, None) if is_ours(home) else None
     if not isinstance(result, type) or result.__module__ != module:
         raise InputError(f"there is no class '{home}' in this version of the package")

@@ -3,7 +3,9 @@
     ba.Push(joints="q1,-q2", torque=30.0, step=3, onset=0.1, duration=0.2)
     ba.Push(shape="sine", link="torso", force=60.0, frequency=5.0)
 
-It is a torque on joints, or a force on a link, of a shape in time. The texts of a command line:
+It is a torque on joints, or a force on a link, of a shape in time: a class that the registry finds by its name.
+STEP is the number of a single support, START and STOP are times from its beginning; q1, q2, .. are coordinates,
+those with motors first. A record is a checked table of plain values (`records`). The texts of a command line:
 
     q1,q2,q3,q4=30@19:0.1-0.3            30 N m on four joints in single support 19, from 0.1 to 0.3 s
     q1=20,q5=-5@3:0.05-0.2:rise=0.01     two torques, each edge taking 10 ms
@@ -74,6 +76,7 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
     @property
     def over_impacts(self) -> bool:
         """Whether the push goes on over impacts, by the record or, where it does not say, by its shape."""
+        # over_steps of the registry's entry: whether a push of this shape goes on over impacts by default
         by_shape = find("disturbance", self.shape).over_steps
         return by_shape if self.across_impacts is None else self.across_impacts
 
@@ -82,11 +85,13 @@ class Push(OpenRecord, defer_build=False):  # `help` shows the values of a finis
         """Torque [N m] by name of the joint, with the signs of `joints`; empty for random joints, whose factors
         are drawn when the walker is built.
         """
+        # a table has torques by joint already, and `joints` does not count
         if isinstance(self.torque, dict):
             return dict(self.torque)
         torques: dict[str, float] = {}
         for word in () if self.joints == RANDOM else self.joints.split(","):
             joint, sign = word.strip().lstrip("+-"), -1.0 if word.strip()[0:1] == "-" else 1.0
+            # a joint that is named twice gets both
             torques[joint] = torques.get(joint, 0.0) + sign * self.torque
         return torques
 
@@ -121,8 +126,8 @@ def parse_push(text: str) -> Push:
     """A push from its text: torques [N m] by joint, step, window [s], and :sine=HERTZ or :rise=SECONDS.
 
     Joints without a torque of their own take the next one: "q1,q2=30,q5=20@19:0.1-0.3". Without a stop
-    ("@19:0.1-") it is a step that stays. A sine ends with its single support. Raises InputError with the form
-    expected.
+    ("@19:0.1-") it is a step of the torque that stays. A sine ends with its single support. Raises InputError
+    with the form expected.
     """
     match = _PUSH.fullmatch(text.strip())
     if match is None:
@@ -136,13 +141,15 @@ def parse_push(text: str) -> Push:
     try:
         values["onset"] = begin = quantity(start, "s")
         if stop:
+            # by decimal numbers, so that 0.1 to 0.3 lasts 0.2 and not 0.19999999999999998
             values["duration"] = float(Decimal(repr(quantity(stop, "s"))) - Decimal(repr(begin)))
         torque = {
             joint.strip(): quantity(value, "N m")
             for joints, value in re.findall(r"([^=]+)=([^,]+),?", match["joints"])
             for joint in joints.split(",")
         }
-        # one torque for all joints is written as joints and a number, else as a table by joint
+        # one torque for all joints is written as joints and a number, else as a table by joint; after pop() the
+        # set is empty if there was one value only
         alike = set(torque.values())
         one = {"joints": ",".join(torque), "torque": alike.pop()}
         return Push(**values, **({"torque": torque} if alike else one))

@@ -17,7 +17,10 @@ reproduction of the paper read it.
     walk.plot, animate   figures and pictures
     walk.save, export    .npz to read it again, .mat for MATLAB
 
-A node is an instant whose state is stored. A walk is cut if only its beginning is kept (`until_infeasible`).
+A node is an instant whose state is stored, an arc the motion of one single support. A walk is cut if only its
+beginning is kept (`until_infeasible`). q (n,) [rad] are coordinates, v = q' their rates, q_b the p coordinates
+that have motors, q_d the reference of q_b [rad], u (p,) [N m] the motors' torques; F_T and F_N [N] are the
+force of the ground along it and out of it.
 """
 
 from __future__ import annotations
@@ -170,14 +173,16 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.recorded
-        # a robot without motors has neither: its reference is one of no joints, of arrays (0,)
+        # a robot without motors has no gait and no reference: it gets one of no joints, of arrays (0,)
         curve = own_reference(self.walker.controller) if self.gait is None else self.gait.constraint
         no_joints = TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
         return signals(self.walker, self.trajectory, no_joints if curve is None else curve)
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
-        """A certificate of each finished step: friction, torque, clearance and energy that it needs."""
+        """A certificate of each finished walking step: friction, torque, clearance and energy that it needs of
+        ground and motors; empty on soft ground.
+        """
         return self.certified()
 
     @property
@@ -237,11 +242,13 @@ class Walk(Shown):
 
     def feasible_within(self, limits: Limits) -> Feasibility:
         """Judge the walk as `feasibility` does, within other limits, whose None are the values of the robot's
-        record; the unfinished last step counts too.
+        record; the unfinished last walking step counts too.
         """
+        # k: the limits as numbers; after: momentum after the last impact [N s], if the walk ends with one
         run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
         impacts, after = self.impacts, after_last_impact(self.walker, run)
-        # a plant that does not say what its feet did has no soft steps: no slip is known, and 0 stands for it
+        # a plant that does not say what its feet did has no soft steps: no slip is known, and 0 stands for it.
+        # slips: the larger slip of both feet [m] in each single support, judged in place of friction
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
@@ -263,6 +270,7 @@ class Walk(Shown):
         """
         if self.scenario is None:
             raise InputError("an outcome is of a scenario's walk; take signals, or walk_scenario")
+        # before_fall: without the nodes of a fall, in which no tracking error is defined
         run, s = self.trajectory, self.signals.before_fall
         # the walk of a scenario begins at t = 0
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
@@ -288,6 +296,7 @@ class Walk(Shown):
         instant it is the walk itself. limits None: those of the robot's record.
         """
         run, ground = self.trajectory, self._soft_ground()
+        # on soft ground the time [s] in each single support at which a foot has slipped too far
         slipped = None if ground is None else slip_times(run, *ground)
         cut = until_infeasible(self.walker, run, self.signals, limits, slipped)
         if cut is run:
@@ -295,12 +304,13 @@ class Walk(Shown):
         # signals that came from a file are cut to these nodes; others are computed anew
         count = sum(len(arc.t) for arc in cut.arcs)
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
+        # recorded is None unless the signals came from a file; a cut walk has no parts to be walked again
         return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept), parts=())
 
     @cached_property
     def remarks(self) -> tuple[str, ...]:
         """Sentences to know before using its numbers, those of `edges.remarks`, each once; of a stored walk
-        those of its file. `walk` warns with each.
+        those of its file. `ba.walk` raises a Python warning for each.
         """
         if self.recorded is not None:
             return self.stored_remarks
@@ -320,7 +330,7 @@ class Walk(Shown):
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
-        # a stand-in for a class of the user's has the name of that class in `home`
+        # in a walk from a file a stand-in for a class of the user's has the name of that class in `home`
         name: str = getattr(law, "home", type(law).__name__)
         return name.rpartition(":")[2].removesuffix("Controller")
 
@@ -356,9 +366,11 @@ class Walk(Shown):
         .npz at its end. Raises InputError and OutputError.
         """
         writer = Writer()
+        # number of the walker's record in `writer.records`; and the gait as a value, None for none
         walker, gait = writer.part(self.walker), writer.plain(self.gait)
         record = {"parts": writer.records, "walker": walker, "gait": gait}
         about: dict[str, object] = {"versions": versions(), "remarks": list(self.remarks)}
+        # a name for each number of x
         about["states"] = list(self.walker.layout_of(self.trajectory.arcs[0].x[0]).names())
         if self.scenario is not None:
             about["scenario"] = self.scenario.record()
@@ -371,6 +383,7 @@ class Walk(Shown):
         single support.
         """
         s, events = self.signals, list[str]()
+        # of each arc only the last node lies before an event
         for arc in self.trajectory.arcs:
             events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
         columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}

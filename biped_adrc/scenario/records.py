@@ -8,9 +8,11 @@ A number may be text with a unit, "150 N m" or "1 ms"; "none" is no value where 
 has one obvious name, `SHORT`, may be that name alone. Values of records inside records have dotted names,
 "controller.observer.bandwidth", the same in Python, in TOML and on the command line.
 
-A part is what the registry makes of a name: a controller, an observer, a sensor, a push, a plant. A kind is one
-of these groups in the registry. Records of parts may be open: they keep values with other names in `own`, which
-only a part of the user's knows, and the part's constructor takes them by name.
+A part is what the registry (`core.registry`) makes of a name: a controller, an observer, a sensor, a push, a
+plant. A kind is one of these groups in the registry. Records of parts may be open: they keep values with other
+names in `own`, which only a part of the user's knows, and the part's constructor takes them by name. A table is
+a mapping, as TOML has it. pydantic, the library behind, checks the fields, calls validators "before" or "after"
+that, and collects faults in a ValidationError; a `Misfit` is one fault with the dotted name of its value.
 """
 
 from __future__ import annotations
@@ -98,6 +100,7 @@ def named_part(
     """
     entry = find(kind, name)
     make = entry.load()
+    # takes: the parameters of the constructor
     all_taken(place, own, {**takes(make), **dict.fromkeys(fields)})
     values = {**known, **entry.defaults, **own}
     return construct(f"{kind} '{name}'", make, values, base, place)
@@ -130,14 +133,15 @@ class Described(NamedTuple):
         Raises ValueError for a value of another type, out of its range, or not among its choices.
         """
         x = converted(self, as_python(x))
-        # an int is also a float here; a bool, which Python counts as an int, is neither
+        # an int is also a float here; a bool, which Python counts as an int, is neither. Without types, as of a
+        # value of a user's part, anything is right
         known = (*self.types, int) if float in self.types else self.types
         wrong = known and (not isinstance(x, known) or (isinstance(x, bool) and int in known))
         if wrong or (self.choices and x is not None and x not in self.choices):
             kinds = " or ".join(self.choices or (_KINDS[kind] for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds}{self.in_brackets}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
-            if not getattr(operator, sign)(x, limit):
+            if not getattr(operator, sign)(x, limit):  # such as operator.ge(x, 0.0)
                 raise ValueError(f"found {x!r}, expected {self.range_text}{self.in_brackets}")
         return x
 
@@ -188,6 +192,7 @@ class Record(BaseModel):
             return values
         # `dotted.merged` puts a text that stands for the record under NAME
         result = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
+        # values that the class does not declare
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
                 raise Misfit(name, unknown(name, cls.names()), known=False)
@@ -205,6 +210,7 @@ class Record(BaseModel):
         """The description `what` with the unit that the registry states for this value of the part named
         `part`; unchanged where it states none.
         """
+        # the field SHORT of such a record is the name of the part
         kind = described(cls, cls.SHORT).kind if cls.SHORT in cls.model_fields else ""
         return what._replace(unit=unit_in(kind, part, what.name, what.unit))
 
@@ -216,7 +222,7 @@ class Record(BaseModel):
         info: of pydantic: name of the field, and `data`, the fields that were read before it.
         """
         what = described(cls, str(info.field_name))
-        if isinstance(x, str):
+        if isinstance(x, str):  # the registry may state another unit for this field of this part
             what = cls._of_part(what, info.data.get(cls.SHORT))
         return what.read(x)
 
@@ -256,8 +262,10 @@ class Record(BaseModel):
             inner = record_in(at, part)
             if inner is None:
                 what = described(at, part, name)
-                return Described(name, (float,), text=what.text) if inside else what  # of a table
+                # inside: more names follow that of a table, such as errors.mass: one of its numbers is meant
+                return Described(name, (float,), text=what.text) if inside else what
             at = inner
+        # the name is that of a record
         if at.SHORT in at.model_fields:
             return at.field_of(at.SHORT)._replace(name=name)
         raise Misfit(name, f"is a record; name a value, as {name}.{next(iter(at.model_fields))}")
@@ -271,7 +279,7 @@ class Record(BaseModel):
         unknown field, and for a value that the field does not take.
         """
         what = cls.field_of(name)
-        result = what.taken(x)
+        result = what.taken(x)  # as the field keeps it
         if what.kind and isinstance(result, str):
             return portable(what.kind, result)
         return float(result) if type(result) is int and float in what.types else result
@@ -301,11 +309,12 @@ class Record(BaseModel):
         result = {}
         for name in type(self).model_fields:
             x, before = getattr(self, name), getattr(usual, name)
-            # of an inner record the differences; none, an empty table, counts as equal
+            # of an inner record the differences alone; an empty table of differences counts as equal
             if isinstance(x, Record) and isinstance(before, Record):
                 x, before = x.record(before), {}
             if x != before:
                 kind = described(type(self), name).kind
+                # portable: the name by which another process finds it, module:Class
                 result[name] = portable(kind, x) if kind and x is not None else as_json(x)
         others = usual.own
         return result | {name: as_json(x) for name, x in self.own.items() if others.get(name) != x}
@@ -391,10 +400,12 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
+    # a Literal is a text with choices; get_origin(tuple[float, ...]) is tuple
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
     if record_in(cls, name):
         types = (object, *types)
-    more: Any = info.json_schema_extra
+    more: Any = info.json_schema_extra  # unit and kind, by `field`
+    # pydantic's metadata are the ends of the range, such as Ge(ge=0)
     limits = tuple(pair for x in info.metadata for pair in asdict(x).items())
     default, text = info.get_default(call_default_factory=True), info.description or ""
     return Described(place or name, types, limits, default, text, choices, **more)
@@ -420,12 +431,14 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """
     result = error.errors()[0]
     place = dotted_place(result)
+    # the exception that a validator raised, if it was one
     inner = result.get("ctx", {}).get("error")
-    # a Misfit that was raised inside has a place within that at which pydantic caught it
+    # a Misfit raised in a validator has a place within the record that pydantic was checking, at `place`
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)
         if inner.known:
             return Misfit(place, inner.text)
+    # there is no value of this name: `unknown` proposes names that are like it, of the outermost record
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, cls.names()), known=False)
     return Misfit(place, complaint(result))

@@ -7,6 +7,13 @@
 It is what a study varies, what a command line names, what a stored walk carries, and what a worker process
 receives. `scenario.records` reads and checks the values; `build` makes the walker. Everything random is drawn
 from `run.seed`, one stream per purpose (`drawn`), so that the same scenario gives the same walk in any process.
+
+A record is a table of values, each field with its default, unit and range in `field(..)` and its help text
+below it. kind: the field is the name of a part of this kind, such as a controller, in the registry
+(`core.registry`), which finds its class. SHORT: the field that a text alone sets; "" for none. APART: pairs of
+values of which at most one may differ from its default. An open record also keeps values that it does not
+declare, for a class of the user's. A step of the ground is a place where it falls or rises; stones are places
+on which the feet have to land, one for each single support.
 """
 
 from __future__ import annotations
@@ -303,6 +310,7 @@ class Scenario(Record):
 
         A record that is the very object of its default was left out, and is not stated again.
         """
+        # vars(): the arguments by name
         here, fields = vars(), type(self).model_fields.items()
         records = {name: here[name] for name, x in fields if here[name] is not x.default}
         super().__init__(**tables(records | dotted))
@@ -311,7 +319,7 @@ class Scenario(Record):
     @classmethod
     def _parsed(cls, x: Any) -> Any:
         """A tuple of pushes, of texts of a command line ("q1=30@3:0.1-0.3 q5=20@4:0.1-"), of one push, of a
-        table by number {"0": ..}, or of a list; pydantic refuses anything else.
+        table by number {"0": ..}, or of a list; anything else is returned as it is, and pydantic refuses it.
         """
         # several pushes in one text: one begins behind a blank that JOINTS= follows
         if isinstance(x, str):
@@ -321,6 +329,7 @@ class Scenario(Record):
             x = [x[name] for name in sorted(x, key=int)] if numbered else [x]
         elif isinstance(x, Push):
             x = [x]
+        # tables in it become pushes when pydantic reads the field
         many = isinstance(x, list | tuple)
         return tuple(parse_push(y) if isinstance(y, str) else y for y in x) if many else x
 
@@ -358,7 +367,8 @@ DRAWN = (
     *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
     *("touchdown", "stones"),
 )
-"""What is random in a walk. The place selects the stream of random numbers, so a new name goes to the end."""
+"""What is random in a walk. The place in this list selects the stream of random numbers, so a new name goes to
+the end."""
 
 
 def drawn(s: Scenario, what: str, item: int = 0) -> int:
@@ -373,6 +383,7 @@ def drawn(s: Scenario, what: str, item: int = 0) -> int:
     that `hardware.sensor` names, apart from that of the encoders. touchdown: which touchdowns are missed.
     stones: lengths of the steps to the stones.
     """
+    # push 0 has the key without a number
     key = (DRAWN.index(what), item) if item else (DRAWN.index(what),)
     words = np.random.SeedSequence(s.run.seed, spawn_key=key).generate_state(1, np.uint64)
     return int(words[0] >> np.uint64(1))  # 63 bits, as files hold signed integers of 64

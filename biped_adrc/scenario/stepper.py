@@ -16,7 +16,10 @@ machine code; the others one by one (`engine.samples`).
 
 A sample is the motion from one sample instant to the next one, or to the end of the walk; it ends at an impact
 if the clock restarts there. To judge a single support is to compare the ground forces and torques that it needs
-with limits (`analysis.certificate`).
+with limits (`analysis.certificate`). A kernel is a function of the engine's machine code, which gets arrays as
+addresses in memory. q, v (n,) [rad, rad/s] are coordinates and rates, the first p of them of joints with
+motors; x (nx,) is the state of a walk, (q, v, controller, hardware); a mode is a single support, its number
+from 1 and the time at which it began. A node is an instant whose signals are stored.
 """
 
 from __future__ import annotations
@@ -100,6 +103,7 @@ class Stepper:
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
         """The curve of the scenario's gait, from which errors are measured; None for a walker."""
+        # read as: (period is None) of a scenario, (not sampled) of a walker
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError("no sample instants; give hardware.period or timing=SampledTime(1e-3)")
         if isinstance(what, Scenario):
@@ -122,7 +126,7 @@ class Stepper:
 
     @property
     def sample(self) -> Sample:
-        """Time, step, state and status of each walk now; the arrays are copies."""
+        """Time, number of the single support, state and status of each walk now; the arrays are copies."""
         rows, codes = self.walks.rows.copy(), self.walks.codes
         return frozen(Sample(rows[:, 0], rows[:, 2:], rows[:, 1].astype(np.int64), _STATUS[codes]))
 
@@ -155,6 +159,7 @@ class Stepper:
             mode = Mode(s.run.first_step)
             if seed is not None:  # only the seed changes, so nothing else is checked again
                 s = s.model_copy(update={"run": s.run.replace(seed=seed)})
+            # outside (p + 2,): torque and force that a sample in Python reads
             walker, outside = with_inputs(build(s, self.scene))
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
@@ -170,12 +175,14 @@ class Stepper:
         else:
             self.why = "the plant moves by itself"
         walk: CompiledWalk | PythonWalk | None = None
+        # of the compiled walk the nodes are kept (last argument) only if single supports are to be judged
         if not self.why:
             try:
                 walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.within is not None)
             except NotCompiled as reason:
                 self.why = str(reason)
         self.walkers[i] = walker
+        # 0 is the code of a walk that goes on
         self.walks.put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
@@ -194,7 +201,7 @@ class Stepper:
         return self.sample
 
     def move(self) -> None:
-        """Move the walks by one sample as `step` does, without its checks of the inputs and of the walks."""
+        """Move the walks that go on by one sample as `step` does, without its checks; renews `over`."""
         compiled, in_python = self.walks.move()
         self.over = self._judged() if compiled and self.within is not None else []
         self.over += [(i, self._needed(i, loop, arc)) for i, loop, arc in in_python if self.within]
@@ -206,6 +213,8 @@ class Stepper:
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
         for i, walk, impacts, ended in self.walks.struck():
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
+            # the nodes since the last single support that was judged; n.steps are the numbers of the single
+            # supports in them, n.edges the index of the first node of each
             n = Nodes(walk.run.rows(), plant.n, plant.p)
             q, v = walk.run.x[: plant.n], walk.run.x[plant.n : 2 * plant.n]
             # right after an impact there is no node of the next single support: the state gives the momentum
@@ -220,11 +229,13 @@ class Stepper:
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
         """Judge one single support of walk i, moved in Python by `loop`; `arc` has all its nodes."""
-        # the status says nothing here; the engine lets signals be computed in machine code
+        # the status, COMPLETED, says nothing here; with this engine in its settings signals are computed in
+        # machine code where that is possible
         run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
         # states of a plant that moves by itself are brought into the layout of a walker's
         run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
         walk = Walk(cast(Walker, self.walkers[i]), self.scene.walked, run)
+        # the run has one arc, so one single support
         return walk.feasible_within(cast(Limits, self.within)).supports[0]
 
     def save(self, i: int = 0) -> Snapshot:

@@ -7,11 +7,13 @@ Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": number of the walker's record in this list,
                 from 0, "gait": the gait as `plain_parts` writes a value}
-    signal.*    the arrays of `analysis.signals.Signals`, one row for each stored time
-    settings    versions, the scenario's record, remarks, names of the states, and what the caller adds
+    signal.*    the arrays of `analysis.signals.Signals` (torques, errors ..), one row for each stored time
+    settings    versions, the scenario's record, remarks (sentences on what was not as asked for), names of the
+                states, and what the caller adds
 
-A class of the user's is not imported again. A stand-in takes the place of such a controller or disturbance, so
-that the walk can be looked at and not walked on.
+A class of the user's is not imported again. A stand-in takes the place of such a controller or disturbance: the
+walk can be looked at, but it cannot go on. A part is an object such as a controller; its record is its class
+and the values of its constructor. An arc of a trajectory is the motion of one single support.
 """
 
 from __future__ import annotations
@@ -75,10 +77,11 @@ out."""
 
 
 def load_walk(path: Path | str) -> Walk:
-    """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
+    """The walk in a run file (.npz) written by `Walk.save`, or by the commands `simulate` and `reproduce`.
 
-    path: of the file. Nothing of the user's is imported: signals, figures and pictures are those of the file,
-    and a walk of an own controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
+    path: of the file. No class of the user's is imported: signals, figures and pictures are those of the file,
+    and the walk of a controller of the user's is walked again with `walk_scenario(walk.scenario)`. Raises
+    InputError.
 
     >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
     >>> ba.load_walk(walk.save(folder / "walk.npz")).impacts
@@ -86,7 +89,8 @@ def load_walk(path: Path | str) -> Walk:
     """
     # a file has modes as numbers: the single support's number as a float, and its start [s]
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
-    beside = storage.load_beside(path)
+    beside = storage.load_beside(path)  # the entries that are not the trajectory's own
+    # an error inside becomes an InputError that names the file
     with reading("run", path, InputError):
         if "walker" not in beside:
             raise InputError("it names no walker, as runs of Walk.save, simulate and reproduce do")
@@ -109,12 +113,13 @@ def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory
     ValueError for an array that does not fit the walk.
     """
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
+    # wide: name of a signal -> number of its columns; a signal that is not in it has one number per row
     wide = dict.fromkeys(_OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
     estimates = [name for name in arrays if name.startswith("xi")]
     wide |= dict.fromkeys((*OF_JOINTS, *estimates), plant.p)
     for name, x in arrays.items():
         shape = (rows, wide[name]) if name in wide else (rows,)
-        if x.dtype.kind not in "fi" or x.shape != shape:
+        if x.dtype.kind not in "fi" or x.shape != shape:  # floats or integers
             raise ValueError(f"signal {name} is {x.dtype}{x.shape}, expected numbers {shape}")
     return Signals(**arrays)
 
@@ -127,7 +132,7 @@ def _walker(reader: Reader, record: PartRecord) -> Walker:
     for name, x in record["values"].items():
         try:
             values[name] = reader.made(x)
-        except MissingPart as missing:
+        except MissingPart as missing:  # its class is the user's
             if name in STAND_INS:
                 values[name] = STAND_INS[name](missing.home)
     return Walker(**values)

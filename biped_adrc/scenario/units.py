@@ -4,7 +4,9 @@
 
 A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and a slash divides by all
 symbols up to the next slash: "N/m s" is N/(m s). The radian counts as a dimension, so that Hz and rad/s, which
-differ by 2 pi, are never confused.
+differ by 2 pi, are never confused. units.toml has the units: those that take a prefix ("prefixed", such as m),
+those that do not ("whole", such as deg or 1), each as its factor to SI units and its four exponents of m, kg, s
+and rad; and the prefixes with their factors.
 """
 
 from __future__ import annotations
@@ -61,8 +63,9 @@ def quantity(text: str, unit: str) -> float:
     number, own_unit = float(match[1]), match[2]
     if own_unit:
         result = unit_of(own_unit)
+        # `ANY` takes the unit's own dimension, and factor 1.0 is SI; no unit asked for, "", is dimensionless
         expected = result._replace(factor=1.0) if unit == ANY else unit_of(unit or "1")
-        if result.powers != expected.powers or not unit:
+        if result.powers != expected.powers or not unit:  # with "" even "%" or "1" is refused
             asked = f": '{own_unit}' is another dimension, expected a unit such as '{unit}'"
             plain = ", expected a number without a unit"
             raise ValueError(f"found '{text}'" + (plain if unit in PLAIN else asked))
@@ -79,7 +82,7 @@ def own_quantity(text: str, unit: str) -> float | str:
     Raises ValueError where the unit does not fit. With `ANY` (the result is then in SI units) nothing is
     raised, and a text such as "3 times", whose last word is no unit, stays as it is.
     """
-    match = _QUANTITY.fullmatch(text)
+    match = _QUANTITY.fullmatch(text)  # match[2] is the unit
     with suppress(ValueError) if unit == ANY else nullcontext():
         return quantity(text, unit) if match and match[2] else text
     return text
@@ -95,7 +98,7 @@ def unit_of(text: str) -> Unit:
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
             match = _FACTOR.fullmatch(word)
-            symbol = match and SYMBOLS.get(match[1])
+            symbol = match and SYMBOLS.get(match[1])  # its `Unit`, None if unknown
             if match is None or symbol is None:
                 known = ", ".join([*_TABLES["prefixed"], *_WHOLE])
                 raise ValueError(

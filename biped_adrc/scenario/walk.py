@@ -7,8 +7,11 @@ at half the integration step; their difference estimates the error of integratio
     walker = ba.Walker(biped, ba.NPDController(gait.constraint))
     result = ba.walk(walker, gait, impacts=8)        # a Walk
 
-Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
-from the stored state, and a walk starts just after its impact.
+Robots without motors walk on their known cycle, the fixed point of the return map from impact to impact:
+Newton's method finds it from a stored state, and a walk starts just after the impact of the cycle. q, v (n,)
+[rad, rad/s] are coordinates and rates; a mode is a single support, its number from 1 and the time at which it
+began. The parts of a walk are runs of single supports with one integration step each (`integration`): on the
+rigid plant, where a push switches, the step is finer.
 """
 
 from __future__ import annotations
@@ -48,9 +51,10 @@ from biped_adrc.scenario.scenario import RunRecord, Scenario
 def halved(s: Scenario, walker: Walker) -> Scenario:
     """The same scenario with every integration step half as long, to estimate the error of integration.
 
-    walker: that of the scenario, by which its steps are known. The scenario returned runs on the compiled
-    engine. The adaptive method, which chooses its own step, gets a hundredth of the tolerance. The half of the
-    shortest step that a scenario may have is not refused here, since `model_copy` checks no ranges.
+    walker: that of the scenario; where the scenario states no integration step, the default one for this walker
+    is halved. The scenario returned runs on the compiled engine. The adaptive method, which chooses its own
+    step, gets a hundredth of the tolerance. The half of the shortest step that a scenario may have is not
+    refused here, since `model_copy` checks no ranges.
     """
     run, ground, values = s.run, s.ground, dict[str, object](engine=COMPILED)
     if ground.plant != RIGID:
@@ -58,6 +62,7 @@ def halved(s: Scenario, walker: Walker) -> Scenario:
     elif run.method == "adaptive":
         values |= {"tolerance": 1e-2 * run.tolerance}
     else:
+        # the method with its step h, and the step where a push switches; None if that is h too
         usual, fine = methods_of(run, walker)
         assert isinstance(usual, RK4 | Exponential)
         values |= {"h": 0.5 * usual.h, "fine": fine and 0.5 * fine}
@@ -108,6 +113,7 @@ def walk(
     check_part(walker, "what is to walk", Walker)
     # the gait may be None beside a start, unless errors of joints could then be measured from nothing
     tracks = walker.plant.p == 0 or own_reference(walker.controller) is not None
+    # a list times False is empty, times True unchanged
     check_part(gait, "the gait of the walk", Gait, *[NoneType] * (start is not None and tracks))
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
@@ -121,6 +127,7 @@ def walk(
             )
         start = gait.start(walker.nominal)
     parts = tuple[WalkPart, ...]()
+    # `shared` is a copy with another field; equal calls give the same object
     if walker.slope is None:
         walker = shared(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
     if plant is not None:
@@ -131,6 +138,7 @@ def walk(
         run = walk_on(loop, walker, start, Mode(first_step), impacts, progress)
     else:
         usual = RunRecord.model_construct(engine=engine)  # all else by default
+        # (method, integration step where a push switches); a method that was asked for has one step everywhere
         methods = methods_of(usual, walker) if method is None else (method, None)
         parts = refined(walker, impacts, first_step, *methods)
         run = in_parts(walker, start, Mode(first_step), parts, engine, progress)
@@ -144,7 +152,7 @@ def walk_scenario(
     s: Scenario, progress: Progress | None = None, controller: Controller | None = None
 ) -> Walk:
     """Simulate a scenario from just after the impact of the gait's periodic orbit, or of the cycle of a robot
-    without motors, with the scenario's offsets.
+    without motors, with the scenario's offsets added to that state (its record `start`).
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
@@ -163,6 +171,7 @@ def walk_scenario(
     if controller is not None:
         walker = replace(walker, controller=controller)
     begin, parts = scene.start(s), tuple[WalkPart, ...]()
+    # the loop of a plant that moves by itself, such as MuJoCo's; None on the rigid plant
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, mode, s.run.impacts, progress)
     else:

@@ -7,7 +7,8 @@
 
 The columns are name, value as text in a file, value in SI units, and its unit or meaning. Robots and gaits are
 loaded once per process. A study may name files (a robot's TOML and URDF, a gait) and classes of the user: their
-contents are hashed into the versions of its results.
+contents are hashed into the versions of its results. The registry finds a class by kind and name, such as
+"controller" and "ADRC", or by module:Class. A scene is a robot and its gait; a row is the results of one walk.
 """
 
 from __future__ import annotations
@@ -73,6 +74,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
     for name, x in values:
         for path in files_of(name, x):
             result[f"file {path}"] = _hash(path)
+        # kind in the registry, for a value that is a name of it; is_own: whether it is module:Class
         kind = Scenario.field_of(name).kind
         if kind and is_own(str(x)):
             result[f"source {x}"] = _source(find(kind, str(x)).load())
@@ -142,8 +144,10 @@ class Trial(NamedTuple):
 
 
 def acting(disturbance: Disturbance | None) -> tuple[Disturbance, ...]:
-    """The parts of a disturbance, without waves whose amplitude is zero: they change nothing, though a seed may
-    shift the times of their window. Empty for None.
+    """The parts of a disturbance that act: those without a wave whose amplitude is zero, which changes nothing,
+    though a seed may shift the times of its window. Empty for None.
+
+    A wave, of the class `Windowed`, is an amplitude times a shape in time.
     """
     parts = () if disturbance is None else summands(disturbance)
     # a force on a link has its shape in time in `wave`; other pushes are waves themselves
@@ -156,10 +160,12 @@ def differ(*trials: Trial) -> bool:
 
     All that a seed can change is compared to the last bit. True also where a user's part cannot be compared.
     """
+    # both errors are of a part whose content cannot be read: then the last line says that they may differ
     with suppress(NotCompiled, ModelError):
         known = set()
         for c in (t.case for t in trials):
             w = c.walker
+            # numbers_of has the numbers of robot, controller and hardware; True: floats count by value
             rest = acting(w.disturbance), w.ground_steps, w.stones, c.q, c.v
             known.add(structure((numbers_of(w), *rest), True))
         return len(known) > 1
@@ -172,6 +178,7 @@ def trial_of(s: Scenario) -> Trial:
     Raises InputError for values that do not fit together, or that a study cannot use: continuous time, a second
     integration step (`run.fine`), another engine.
     """
+    # text -> whether it is so
     wrong = {
         "hardware.period is none, expected a time [s] such as 1 ms": s.hardware.period is None,
         "run.fine is a step besides, expected none": s.run.fine is not None,
@@ -182,7 +189,7 @@ def trial_of(s: Scenario) -> Trial:
     scene = scene_of(s)
     q, v = scene.start(s)
     walker, mode = build(s, scene), Mode(s.run.first_step)
-    # [0]: the other one, the step where a push switches, is None in sampled time
+    # methods_of gives the method and, at [1], a finer step where a push switches: None in sampled time
     curve = scene.walked.constraint
     made = Case(walker, q, v, methods_of(s.run, walker)[0], s.run.impacts, mode, curve)
     return Trial(s, scene, made, soft_loop(s, walker))

@@ -9,7 +9,13 @@ import:
         print(found.table())
 
 A case is a named set of values, a condition another one that is crossed with it (`study`). A search proposes
-candidates, settings of a case, and walks them on three sets of walks, "search", "choice" and "test" (`search`).
+candidates: the case with other values of some variables, its setting; number 0 is the case itself. They are
+walked on three sets of walks: all on "search", the best few of them again on "choice", by which one is chosen,
+and this one and the case on "test" (`search`). A limit is a bound on a number of a candidate's walks.
+
+A point is one walk: its place in the study (a number from 0), what locates it (`at`: case, condition, set,
+candidate, seed ..), and the values of its scenario. A row is the results of one walk by column. To rehearse is
+to build walkers without walking them.
 """
 
 from __future__ import annotations
@@ -69,13 +75,16 @@ def study(
     study_ = study if isinstance(study, Study) else read_study(study)
     if study_.search is not None:
         optuna_library()
+    # pairs (case, condition) in whose walks nothing is drawn from the seed: they are walked once, not per seed
     undrawn = Undrawn()
     if function is None:
         # only walks are rehearsed: what a function of the caller's makes of the values is not known
         undrawn = study_.rehearse()
+        # aside: only this column needs a second walk, from a start beside the first one
         function = partial(run_trials, aside="rounding" in study_.columns)
     folder = Path(out)
     with opened(folder, study_) as store, crew:
+        # place of each stored row -> whether it fits its checksum
         fits, total = store.mend(), study_.count_of(undrawn)
         there = {place for place, fit in fits.items() if fit}
         runner = Runner(function, store, crew, total, there, progress)
@@ -87,6 +96,7 @@ def study(
             runner.run(study_.points(undrawn))
             return Results(study_, folder)
         walker = _Searched(study_, study_.search, runner, undrawn)
+        # for each case a Choice, or a text that says why there is none
         result = {name: walker.choice(name) for name in study_.cases or ("",)}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
@@ -94,6 +104,7 @@ def study(
             raise InputError("\n".join(failures))
         walker.test(choices)
     for name, x in choices.items():
+        # selected: candidates walked on the set "choice", best first
         comment = f"Chosen by the study '{study_.name}', candidate {x.selected[0].number}."
         write_scenario(folder / chosen_file(name), scenario_of(x.values), comment)
     return Results(study_, folder, choices, failures)
@@ -120,6 +131,7 @@ class _Searched:
         best: list[int] = []
 
         def report(c: Candidate) -> None:
+            # nothing is reported while the same candidate stays the best
             if best[-1:] != [c.number]:
                 best.append(c.number)
                 missed = "" if c.feasible else f", missing limits by {100 * sum(c.missed):.3g} %"
@@ -134,6 +146,7 @@ class _Searched:
         if not failure:
             few = _few(search, result)
             pairs = zip(few, walk("choice", few), strict=True)
+            # the same candidates, judged by their walks on the second set
             again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]
             failure = self.failure(again, case, "choice")
         if not failure:
@@ -147,6 +160,7 @@ class _Searched:
         The table of results compares with what is walked first: the setting chosen for the first case; without
         cases the setting as it was.
         """
+        # selected[0] is the best on the set "choice", candidates[0] the case itself, number 0
         chosen = [(x.selected[0], case, "chosen") for case, x in choices.items()]
         before = [(x.candidates[0], case, "before") for case, x in choices.items()]
         every = [*chosen, *before] if self.study.cases else [*before, *chosen]
@@ -165,17 +179,20 @@ class _Searched:
         conditions = self.study.conditions_of(walks)
         first, points = self.place, list[Point]()
         for (number, values, named), c in itertools.product(candidates, conditions):
+            # there: values of the scenario; at: names that locate the walk; seed: {} if nothing is drawn
             there = {**values, **self.study.conditions.get(c, {})}
             at = walk_names(set=kind, **named, candidate=number, condition=c)
             for seed in self.study.seeded(walks.seeds, at, self.undrawn):
                 points.append(Point(first + len(points), at | seed, there | seed))
         self.place += len(points)
         self.runner.run(points, len(points))
+        # read from the file, which has rows of earlier calls too; a walk without a seed stands for all seeds
         result = [
             (str(at.get("condition", "")), row)
             for at, row in self.runner.store.results(first, len(points))
             for _ in range(1 if SEED in at else len(walks.seeds))
         ]
+        # cut into pieces, one for each candidate
         count = len(conditions) * len(walks.seeds)
         return [result[i : i + count] for i in range(0, len(result), count)]
 
@@ -189,6 +206,7 @@ class _Searched:
             f"{m.sentence}: missed by {sum(c.missed[i] > 0.0 for c in found)}"
             for i, m in enumerate(self.search.limits)
         )
+        # False is less than True: a walked candidate is nearer than one that was not
         nearest = min(found, key=lambda c: (not c.walked, sum(c.missed), c.number))
         return (
             f"study '{self.study.name}'{case and f', {case}'}: none of {len(found)} candidates keeps all "
@@ -198,8 +216,8 @@ class _Searched:
 
 
 def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
-    """The best `search.finalists` candidates, without a second one of the same values; and the case itself, if
-    it is none of them.
+    """The best `search.finalists` of the candidates found, without a second one of the same values; and the
+    case itself, found[0], if it is none of them.
     """
     some: dict[str, Candidate] = {}
     for c in search.ranked(found):

@@ -3,12 +3,15 @@
 A row is the results of one walk by column; columns.toml has the columns with their units. A measure is such a
 number: a column, and what is taken of it over all walks (median, mean, quantile or worst).
 
-Some columns need no walk: they are numbers of the linearised loop of a scenario without its seed and condition,
-which takes some 40 ms. On soft ground they are those of the rigid plant.
+Some columns need no walk: stable, delay_margin, disk_margin and ripple are numbers of the linearised loop of a
+scenario without its seed and condition (`analysis.loops.specification`), which takes some 40 ms. On soft ground
+they are those of the rigid plant.
 
-A walk that is not feasible, or has no number in the column, ranks worst: it counts as plus infinity where less
-is better and as minus infinity where more is better, and is never left out. A walk of which only the impulses
-at impact ask for more than the friction of the ground (column `but_impact`) counts as feasible here.
+A candidate is values of a scenario that a search proposes, a condition a named set of values under which walks
+are made. A walk is feasible if ground and motors could have carried it. One that is not, or has no number in
+the column, ranks worst: it counts as plus infinity where less is better and as minus infinity where more is
+better, and is never left out. A walk of which only the impulses at impact ask for more than the friction of the
+ground (column `but_impact`) counts as feasible here.
 """
 
 from __future__ import annotations
@@ -86,7 +89,7 @@ class Measure(Section):
 
     @property
     def sign(self) -> float:
-        """1 where less is better, as here; -1 where more is, in subclasses."""
+        """1 where less is better, as here; -1 where more is, as subclasses may say."""
         return 1.0
 
     @property
@@ -103,11 +106,13 @@ class Measure(Section):
     def number(self, row: Row) -> float:
         """The number of a walk in the unit of the column; `worst` where the walk does not count, or has none.
 
-        Columns of OF_ALL have a number for every walk; None, of what was no walk, is 0 in them.
+        Columns of OF_ALL, such as impacts or distance, have a number for every walk, however it ended; None, of
+        what was no walk, is 0 in them.
         """
         x = row.get(self.column)
         if self.column in OF_ALL:
             return float(x or 0.0)
+        # fine: whether the walk counts with its number
         fine = is_counted(row) if self.counts == "feasible" else is_made(row)
         return float(x) if fine and isinstance(x, int | float) else self.worst
 
@@ -115,7 +120,7 @@ class Measure(Section):
         """The measure of these walks, (condition, row) each, in the unit of the column.
 
         known: column -> number, for columns that need no walk; it is returned in place of one from the walks,
-        and `worst` for None.
+        and `worst`, the infinity of the worse side, for None.
         """
         if self.column in known:
             x = known[self.column]
@@ -171,7 +176,8 @@ class Limit(Measure):
         return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
-        """By how much a measure x misses the limit, as a share of its bound [1]; 0 where x keeps it.
+        """By how much the number x of this measure misses the limit, as a share of its bound [1]; 0 where x
+        keeps it.
 
         It is at most MOST_EXCESS; where the bound is 0 it is the distance itself, in the unit of the column.
         """
@@ -184,7 +190,8 @@ def _specification(text: str) -> Specification:
     """The numbers of the linearised loop of a scenario, cached, since a candidate is asked for several columns.
 
     text: JSON of the values by name, which can be a key of the cache as a dict cannot. The ground keeps its
-    shape, and is made rigid, since a loop on soft ground is not linearised. Raises InputError.
+    slope and heights, and is made rigid (the default of its record), since a loop on soft ground is not
+    linearised. Raises InputError.
     """
     s = scenario_of(json.loads(text))
     g = s.ground

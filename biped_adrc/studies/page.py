@@ -1,7 +1,10 @@
-"""The page of a study: its table, and one picture for each question that its rows answer.
+"""The page of a study (HTML): its table, and one picture for each question that its rows answer.
 
-A row is the results of one walk by column; a group is the walks of one case under one condition, and a line of
-the table says what they are together (`results`).
+A row is the results of one walk by column, such as peak_error. A case is a named set of values that are
+compared, a condition one under which they are; a group is the walks of one case under one condition, and a line
+of the table says what they are together: how many are feasible (ground and motors could carry them), and the
+median of the study's measure, a column of the rows. A search chooses values of its variables for each case: a
+candidate is one such choice, with a number, and its `Choice` has all of them, and the best ones in `selected`.
 """
 
 from __future__ import annotations
@@ -35,9 +38,11 @@ def write_page(found: Results) -> Path:
     text = rendered(
         "study",
         s=found.study,
+        # status -> number of walks; _ is a text on the first of them
         statuses={status: n for status, (n, _) in found.statuses().items()},
         columns=headings(found),
         lines=[texts(line) for line in found.table()],
+        # (heading, text below, picture)
         figures=[(words, "", data_uri(render(x, "svg"))) for words, x in _figures(found)],
         chosen=choices(found),
         notes=(*found.failures, *found.notes),
@@ -47,7 +52,9 @@ def write_page(found: Results) -> Path:
 
 
 def headings(found: Results) -> tuple[str, ...]:
-    """Headings of the columns of `texts`; the ratio is to the case of the table's first line."""
+    """Headings of the columns of `texts`; the ratio is to the case of the table's first line, or to "first"
+    where this case has no name.
+    """
     middle = f"median {found.study.measure.column}"
     first = next((line.name for line in found.table()), "") or "first"
     return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"
@@ -58,6 +65,8 @@ def choices(found: Results) -> dict[str, str]:
     study without cases has the name "chosen". Empty without a search.
     """
     variables = found.study.search.variables if found.study.search else ()
+    # selected: candidates that were walked again, best first, so [0] was chosen. x.values: values of its
+    # scenario; a variable that has no effect is not among them
     return {
         name or "chosen": f"candidate {x.selected[0].number}, "
         + ", ".join(f"{k} = {as_text(x.values[k])}" for k in variables if k in x.values)
@@ -72,13 +81,14 @@ def texts(line: TableLine, short: bool = False) -> tuple[str, ...]:
     the first case, p-value. short: whether to leave out the intervals but that of the ratio.
     """
     count = f"{round(line.feasible.value * line.walks)} of {line.walks}"
+    # line.ratio, None for the first case, has a ratio with interval and the p-value of the pairs of walks
     middle, ratio, p = interval(line.median), "–", "–"
     if line.ratio is not None:
         ratio = interval(line.ratio.ratio)
         p = "–" if math.isnan(line.ratio.p) else f"{line.ratio.p:.2g}"
     if short:
         middle = middle.partition(" ")[0]
-    else:
+    else:  # behind the first blank of "0.85 (0.64 to 0.95)" is the interval
         count = f"{count} {interval(line.feasible).partition(' ')[2]}".strip()
     return line.name, line.condition, count, str(line.made), middle, ratio, p
 
@@ -87,7 +97,7 @@ def interval(x: Interval) -> str:
     """ "value (low to high)", without the ends where there are none; a dash for a number that is not finite."""
     if not math.isfinite(x.value):
         return "–"
-    value, low, high = (f"{y:.3g}" for y in x)
+    value, low, high = (f"{y:.3g}" for y in x)  # an interval is these three numbers
     return value if math.isnan(x.low) else f"{value} ({low} to {high})"
 
 
@@ -98,6 +108,7 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     lines, measure = found.table(), found.study.measure
     if not lines:
         return
+    # (case, condition) -> line of the table; below also -> interval, as `dots_figure` draws them
     by = {(x.name, x.condition): x for x in lines}
     medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
@@ -105,16 +116,18 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         shares = {key: x.feasible for key, x in by.items()}
         title = "share of feasible walks"
         yield "Whose walks are feasible?", dots_figure(shares, title, "linear")
-    # columns of OF_ALL, such as impacts, are no errors: no question of size or ratio is asked of them
+    # OF_ALL are the columns that every walk has, however it ended, such as impacts: they are no errors, so no
+    # question of size or ratio is asked of them
     column, counts = _named(measure.column), measure.column in OF_ALL
     better = f"ratio to {lines[0].name} in {measure.column}"  # a ratio has no unit
+    # question, title of the axis, numbers, and where a line is drawn: at the ratio 1, where both are equal
     for question, title, numbers, at in (
         ("How large is the error?", f"median {column}", medians, None),
         ("Who is better on the same walk?", better, ratios, 1.0),
     ):
         if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
             yield question, dots_figure(numbers, title, "log", at)
-    if found.study.axes:
+    if found.study.axes:  # a grid or draws
         shares_of = _map(found, lambda x: float(is_counted(x)), "share of feasible walks", False)
         yield "Where are walks feasible?", shares_of
         if any(0.0 < measure.number(x.row) < math.inf for g in found.groups for x in g.rows):
@@ -125,7 +138,9 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
             name: [(c.number, c.objective, c.feasible) for c in x.candidates if c.walked]
             for name, x in found.choices.items()
         }
+        # candidates are judged on the first of a search's three sets of walks
         title = f"{measure.words}, first set of walks"
+        # the last argument says whether less is better
         yield "Where did the search lead?", path_figure(paths, title, measure.sign > 0.0)
 
 
@@ -137,11 +152,13 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
     logarithmic scale.
     """
     study, groups = found.study, found.groups
+    # name of a field -> how many different values its walks have; x.at are the values of a walk that vary
     levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
     axes = sorted(levels, key=lambda name: -levels[name])
     panels: dict[str, tuple[list[Any], list[Any], list[float]]] = {}
     for g in groups:
-        # on a grid, walks that only an idle seed separates would weigh double in the mean of their cell
+        # on a grid, walks that differ by a seed which changed nothing would weigh double in the mean of their
+        # cell: `different` keeps one of them
         for x in found.different(g) if study.grid else g.rows:
             where = _panel(g, x.at, axes)
             xs, ys, values = panels.setdefault(where, ([], [], []))

@@ -8,9 +8,12 @@ The file can be opened after a kill at any moment: rows that are handed in toget
 is written into a file before it is known to be of the same study and the same versions. A row that does not fit
 its checksum is walked again; a file that SQLite finds damaged is refused.
 
-A case is a named set of values that are compared, a condition one under which they are; `study` has both. Walks
-of two cases under the same condition with the same values and the same seed are a pair. A walk that is not
-feasible counts as an infinite error. Rows that are equal to the last bit count as one walk. Confidence
+A case is a named set of values that are compared, a condition one under which they are; a group is the walks of
+one case under one condition. A measure is a column of the results whose median the table shows. Walks of two
+cases under the same condition with the same values and the same seed are a pair. A walk that is not feasible
+(ground and motors could not have carried it) counts as an infinite error. A search walks candidates, a case
+with other values of some variables, on three sets of walks, "search", "choice" and "test"; on the last the
+chosen one and the case as it was. Rows that are equal to the last bit count as one walk. Confidence
 intervals are those of `analysis.statistics`. They exist only where the walks are a sample, by seeds or by
 draws; the walks of a declared grid are no sample, so a number over them, or of one walk, has no interval.
 """
@@ -72,6 +75,7 @@ class Store:
 
         A walk that is there already is replaced. Raises OutputError.
         """
+        # said: the row as JSON, and the status
         rows = [(p.place, json.dumps(p.at), json.dumps(p.record), *said) for p, *said in walks]
         with _errors(self.path), self.db:
             text = "INSERT OR REPLACE INTO walks VALUES (?, ?, ?, ?, ?, ?)"
@@ -88,6 +92,7 @@ class Store:
             if found != "ok":
                 raise ValueError(found)
             rows = self.db.execute("SELECT * FROM walks")
+            # the last column, x, is the checksum of the others
             fits = {place: checksum((place, *row)) == x for place, *row, x in rows}
             wrong = [(place,) for place, fit in fits.items() if not fit]
             self.db.executemany("DELETE FROM walks WHERE place = ?", wrong)
@@ -99,6 +104,7 @@ class Store:
         """
         text = "SELECT * FROM walks WHERE place >= ? AND place < ? ORDER BY place"
         with _errors(self.path):
+            # the last column, x, is the checksum of the others
             for *row, x in self.db.execute(text, (first, first + count)):
                 if checksum(row) != x:
                     raise ValueError(f"row {row[0]} does not fit its checksum")
@@ -137,6 +143,7 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     """Write the tables and the study into an empty file; check those of any other file. Returns what is wrong
     with it, as the rest of a sentence that begins with its name; an empty text if nothing is.
     """
+    # mark of results files, and form of their tables: 0 and 0 in a new file
     (mark,), (form,) = (db.execute(f"PRAGMA {x}").fetchone() for x in MARKS)
     tables = [text for (text,) in db.execute("SELECT sql FROM sqlite_master ORDER BY rowid")]
     if not mark and not tables:
@@ -157,6 +164,7 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
         there, here = (flat(json.loads(text)) for text in (old, study.model_dump_json()))
         why = differences(there, here) or "its values are the same, and its hash is not theirs"
         return f"holds the rows of the study '{there['name']}', another one: {why}"
+    # empty where all are the same, and then so is the result
     other = differences(json.loads(before), versions)
     return other and f"was made with other versions, and numbers may differ: {other}"
 
@@ -262,6 +270,7 @@ class Results(Shown):
         """A text that is equal for walks (or pairs of walks) whose rows are equal to the last bit, so that they
         count once; walks at different levels of the grid (but for the seed as an axis) have different texts.
         """
+        # x.at: the values that locate a walk; of these its levels of the grid
         cell = [name for name in self.study.grid if name != SEED]
         return repr([([x.at.get(name) for name in cell], x.row) for x in walks])
 
@@ -278,7 +287,9 @@ class Results(Shown):
         all groups under this condition are taken, and has no ratio itself. Where the walks are no sample
         (`Study.drawn`) numbers stand without interval and p-value.
         """
-        first, lines = dict[str, Group](), []  # first: condition -> its first group
+        # first: condition -> its first group. paired: ratio of two lists of numbers, entry by entry, with an
+        # interval and a p-value; share and median: with an interval
+        first, lines = dict[str, Group](), []
         for g in self.groups:
             reference, rows = first.setdefault(g.condition, g), self.different(g)
             ratio = None if g is reference else paired(*self._pairs(g, reference))
@@ -301,11 +312,12 @@ class Results(Shown):
         value is infinite, on the worse side of the measure, for a walk that ended early or, unless the measure
         takes all walks that were made, is infeasible.
         """
+        # one, other: (levels, seed) -> walk
         number, one, other = self.study.measure.number, _by_place(a), _by_place(b)
         pairs: dict[str, tuple[float, float]] = {}
         for levels, seed in one | other:
             x, y = (z.get((levels, seed)) or z.get((levels, None)) for z in (one, other))
-            if x and y:
+            if x and y:  # the key is a text that is equal for pairs that are equal to the last bit
                 pairs[self._same(x, y)] = number(x.row), number(y.row)
         return [x for x, _ in pairs.values()], [y for _, y in pairs.values()]
 
@@ -318,6 +330,7 @@ class Results(Shown):
         equal = sum(len(g.rows) for g in self.groups) - sum(x.walks for x in lines)
         # a sample of several walks, of which the median has no interval
         few = self.study.drawn and any(x.walks > 1 and math.isnan(x.median.low) for x in lines)
+        # sentence -> whether it holds
         notes = {
             self.study.walked_once(once): once and many,
             f"{equal} walks are equal to the last bit to another one, and do not count again.": equal,

@@ -4,8 +4,9 @@ Nothing raises: values that do not fit give a row with the status REFUSED, a con
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
 which JSON and SQL do not have.
 
-The columns are computed at the nodes of a walk (its sample instants and events): from its signals, or from the
-table that the compiled walk fills at the same instants. On the rigid plant a walk is judged by its certificate,
+The columns are computed at the nodes of a walk (its sample instants and events): from the signals of its stored
+run, or from the table that machine code fills at the same instants, without a stored run. On the rigid plant a
+walk is judged by its certificate, that is by the forces of the ground and torques that each walking step needs,
 on soft ground by how far its feet slip (`analysis.feasibility`). On soft ground the friction is the ratio of
 the forces of the ground itself, so it is never above the ground's coefficient, and an impact is part of the
 forces.
@@ -14,8 +15,10 @@ forces.
 column are in columns.toml.
 
 A record is the values of one walk's scenario by dotted name, a row its results by column. A trial is a walk
-that is built and not yet simulated. A stage is one of build, walk, measure; where one raises, the row that says
-why takes the trial's place in the stages after it.
+that is built and not yet simulated: its scenario, robot and gait (`scene`), walker, start and method (`case`),
+and for another plant than the rigid one its loop. A stage is one of build, walk, measure; where one raises, the
+row that says why takes the trial's place in the stages after it. A verdict is whether ground and motors could
+have carried the walk (feasible), and if not why.
 """
 
 from __future__ import annotations
@@ -85,8 +88,9 @@ def rows_of(
     with one at a time; a record on which it raises alone has a row with the status RAISED, so that one bad
     record spoils no other.
     """
-    FOLDERS.update(folders or {})
+    FOLDERS.update(folders or {})  # where this process looks for modules of the user's
     try:
+        # strict: an error where the function does not return a row for each record
         rows = zip(function(records), records, strict=True)
         return [(json.dumps(dict(row), allow_nan=False), row.get("status")) for row, _ in rows]
     except (Exception, SystemExit) as error:
@@ -103,15 +107,17 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
     Stage by stage (build, walk, measure) all trials that memory holds well are worked on together: the code of
     one stage stays in the processor's cache, which takes a fifth less time than trial by trial.
     """
+    # _PREPARING is a lock: threads of a process share robots and compiled code. Walking itself needs no lock
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
+    # size: how many walks are in memory together, by the longest of them
     size, rows = max(1, _AT_ONCE // max(impacts, default=1)), list[WalkRow]()
     for i in range(0, len(trials), size):
         some = trials[i : i + size]
         with _PREPARING:
             runs = _each(_run_of, some)
-        walks = _each(lambda run: run(), runs)
+        walks = _each(lambda run: run(), runs)  # calls what `_run_of` has returned
         with _PREPARING:
             pairs = zip(some, walks, strict=True)
             rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
@@ -120,7 +126,8 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
     """The function that walks a trial; unlike building and measuring, it may run in several threads at once. On
-    another plant than the rigid one, `t.loop` is walked in place of the walker.
+    another plant than the rigid one, `t.loop` is walked in place of the walker; `left_by` brings its run into
+    the form of the others.
     """
     c, loop = t.case, t.loop
     if loop is None:
@@ -164,20 +171,24 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
         **_pace(t, walked),
     }
     if status not in NO_WALK:
-        # not feasible, as if every limit were broken, until `counted` has looked at the nodes
+        # until `counted` has looked at the nodes: not feasible, as if all limits, named in REASONS, were broken
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
         row |= {"rounding": walk_scenario(s).rounding()} if aside and t.loop is None else {}
+        # parts(..).s is the controller's state, in which a barrier for the foot has counted these instants
         row["infeasible_qp"] = infeasible_instants(parts(walker, walked.final_state).s)
     # signals at the nodes: from the whole run, or from the table that the compiled walk filled
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
-        # after (2,) [N s]: momentum after the last impact, for its impulse, if the walk ends with that impact
+        # n: nodes; k: limits as numbers; after (2,) [N s]: momentum after the last impact, for its impulse, if
+        # the walk ends with that impact
         n, k, after = Nodes(walked.table, plant.n, plant.p), limits(s).of(plant.description), None
         if walked.status is Status.COMPLETED:
+            # q and q', the first 2 n numbers of x+
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
         tracked, h = n, t.case.curve
+        # of a fall the errors count only as long as the phase is on the curve h
         if walked.status in FALLS and isinstance(h, VirtualConstraint):
             tracked = n.before_fall(h, plant.phase)
         result = counted(n, tracked, Feasibility(walked.status, judged, walked.impacts))
@@ -196,6 +207,8 @@ def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) ->
     place of impulses at impact.
     """
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
+    # totals: largest and rms error, of `tracked`; rms torque, work and net work, of all nodes. The ratio of
+    # impulses is None without an impact
     return {
         **dict(zip(OF_TOTALS, (*totals(tracked)[:2], *totals(n)[2:]), strict=True)),
         "outcome": outcome,
@@ -247,6 +260,7 @@ def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
     if walked.impacts == 0:
         return {"distance": 0.0}
     plant, gait = t.case.walker.plant, t.scene.walked
+    # x_minus: states just before the impacts, of which the first n numbers are q; times: start and impacts [s].
     # length of a step: x of the swing foot from the stance foot [m], horizontal on any slope
     steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
     times = [walked.t_start, *walked.times.tolist()]

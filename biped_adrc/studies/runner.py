@@ -1,7 +1,9 @@
 """Carry out walks: chunks of points go to an executor, and every finished chunk is stored at once.
 
-A point is one walk that is to be made, a chunk some of them that one worker walks together. An executor is one
-of `concurrent.futures`. A record is the values of a walk's scenario by name, a row its results.
+A point is one walk that is to be made: its place in the study (a number from 0), the names that locate it
+(`at`), and its record. A record is the values of a walk's scenario by name, a row its results. A chunk is some
+points that one worker, a process, walks together. An executor is one of `concurrent.futures`; a future stands
+for a chunk that it has and for the rows to come.
 
 A kill at any moment loses the chunks on their way and nothing else; the same command walks them again. A worker
 that dies takes its chunk with it, and a pool all chunks on their way: their walks are then made one by one, and
@@ -69,6 +71,7 @@ class Crew:
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
+        # the user's own executor goes on
         if self.executor is not self.workers:
             end_all(self.executor)
 
@@ -84,6 +87,7 @@ class Crew:
         """How many chunks are walked at the same time; for an executor that does not say it, as that of a Dask
         client, the number of cores here.
         """
+        # executors of Python's library have this attribute
         return int(getattr(self.executor, "_max_workers", None) or cores())
 
     def renew(self) -> None:
@@ -126,6 +130,7 @@ class Runner:
         # at least four chunks for each worker, so that none waits long for the last one
         size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
         missing = self._missing(iter(points))
+        # _send and _collect return points whose worker died, which _again walks one by one; mostly none
         while part := tuple(itertools.islice(missing, size)):
             self._again(self._send(part))
             while len(self.pending) >= _AHEAD * workers:
@@ -152,6 +157,7 @@ class Runner:
         processes has died.
         """
         try:
+            # FOLDERS: where modules of the user's are, which the worker has to import too
             records, folders = [p.record for p in chunk], dict(FOLDERS)
             future = self.crew.executor.submit(rows_of, self.function, records, folders)
         except BrokenExecutor:
@@ -164,6 +170,7 @@ class Runner:
         chunks whose worker died.
         """
         lost: list[Point] = []
+        # BrokenExecutor: a process died. Any other error is of the way to the worker: `rows_of` raises none
         for future in futures.wait(self.pending, return_when=when).done:
             chunk, error = self.pending.pop(future), future.exception()
             if error is None:
@@ -186,6 +193,7 @@ class Runner:
         """
         if not lost:
             return
+        # a pool of which one process died loses all chunks that it had
         lost = [*lost, *self._collect(futures.ALL_COMPLETED)]
         self.tell("a worker died; what it was walking is walked again, one by one")
         self.crew.renew()

@@ -5,7 +5,9 @@
     [search.walks]        search, choice, test = {seeds, conditions}
 
 A case is a named set of values of the study, from which a search starts; each case has its own search, with
-the same budget. A candidate is the case with other values of the variables. Counted in candidates are
+the same budget. A condition is a named set of other values, under which each is walked. A candidate is the case
+with other values of the variables: these are its setting. A row is the results of one walk by column. Counted
+in candidates are
 
 - budget: how many of a case are walked in the search, the case itself among them;
 - generation: how many are proposed together, before any of them is walked;
@@ -93,6 +95,7 @@ class Variable(Section):
         """Whether the variable has an effect in a scenario with these values: by `when`, where a field without
         a value has its default. free: names of fields that may still get any value; these count as met.
         """
+        # those: the values of the field `name` with which this variable has an effect
         return all(
             name in free or values.get(name, Scenario.field_of(name).default) in those
             for name, those in self.when.items()
@@ -103,7 +106,7 @@ def _variable(name: str, value: Any) -> Variable:
     """The variable of the field `name`, from its table in a file, with its values read with units. A single
     value in `when` may stand without a list. Raises ValueError.
     """
-    keys = table(value)
+    keys = table(value)  # a copy, from which `when` can be taken out
     beside = keys.pop("when", {})
     when = by_entry(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
@@ -143,7 +146,8 @@ class Search(Section):
         return (self.objective, *self.limits)
 
     def count(self, sets: Mapping[str, int]) -> int:
-        """Largest number of walks of one case. sets: "search", "choice", "test" -> walks of one candidate.
+        """Largest number of walks of the search of one case. sets: "search", "choice", "test" -> number of
+        walks of one candidate in this set.
 
         The case itself is walked beside the finalists, and on the test set beside the chosen one: + 1, and 2.
         """
@@ -154,6 +158,7 @@ class Search(Section):
         """The variables, by name, that may have an effect in a case with these values, whatever values the
         search gives to the other variables.
         """
+        # all variables are free, so only fields that are no variables can make one idle
         return {name: v for name, v in self.variables.items() if v.acts(values, self.variables)}
 
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
@@ -178,6 +183,7 @@ class Search(Section):
         limits on columns that need no walk are judged, and whose objective is the worst.
         """
         values = self.values(base, chosen)
+        # column -> number, of those columns that need no walk; m.excess: by how much a limit is missed
         known = numbers_without_walk([m.column for m in self.measures], values)
         # before the walks, a limit that needs them counts as kept
         missed = (
@@ -188,7 +194,9 @@ class Search(Section):
         return Candidate(number, chosen, values, objective, tuple(missed), walks is not None)
 
     def ranked(self, found: Sequence[Candidate]) -> list[Candidate]:
-        """The walked candidates, best first: by the sum of what they miss, then by the objective, by number."""
+        """The walked ones of the candidates `found`, best first: by the sum of what they miss of limits, then
+        by the objective, then by number.
+        """
         walked, sign = [c for c in found if c.walked], self.objective.sign
         return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
 
@@ -196,7 +204,8 @@ class Search(Section):
         """Yield settings that stand for all in a case with these values: the middle of all variables, and each
         choice beside the middle of the others; each as the values of those variables that have an effect.
 
-        Corners of ranges may be refused, as gains that do not go together are: their walks rank worst.
+        It is for a check that walkers can be built. Corners of ranges are not tried: they may be refused, as
+        gains that do not go together are, and then only their walks rank worst.
         """
         acting = self.acting(values)
         middle = {name: v.middle for name, v in acting.items()}
@@ -235,8 +244,8 @@ _SMALLEST = 10
 _ASKED = 8
 """Most proposals for each place of a generation, since some miss a limit that is known without a walk."""
 _MISSED = 1e30
-"""The sampler minimises; a candidate that misses limits has this number times 1 + the sum of its misses.
-"""
+"""The sampler minimises; a candidate that misses limits has this number times 1 + the sum of its misses, above
+every objective."""
 
 WalkAll = Callable[[Sequence[Candidate]], Sequence[Walks]]
 """A function that walks candidates, and returns their walks in the same order."""
@@ -268,6 +277,7 @@ def searched(
         # those to be walked in this generation, and all that are judged in it
         batch, new = list[Candidate](), list[Candidate]()
         for number in itertools.islice(numbers, _ASKED * search.generation):
+            # without walks: judged by limits that need none; number 0 is the case itself, with no other values
             c = search.judged(base, number, proposals.ask(number) if number else {})
             # the case itself is walked in any event, as it is what the others are compared with
             if number == 0 or not any(c.missed):
@@ -277,14 +287,14 @@ def searched(
                 proposals.tell(c)
             if len(batch) == min(left, search.generation):
                 break
-        if not batch:
+        if not batch:  # all of _ASKED proposals for each place missed limits: the search ends
             break
         for c, walks in zip(batch, walk(batch), strict=True):
             new.append(search.judged(base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
         result += sorted(new, key=lambda c: c.number)
         report(search.ranked(result)[0])
-        proposals.refine(result)
+        proposals.refine(result)  # to CMA-ES, when TPE's part is spent
     return result
 
 
@@ -293,6 +303,7 @@ class _Proposals:
 
     space: variable -> Optuna's distribution from which its values are proposed. fixed: values of the variables
     that are not proposed any more. open: Optuna's trials that are not judged yet, by number of the candidate.
+    study: Optuna's, which proposes values and is told how good they were. refining: whether TPE's part is over.
     """
 
     def __init__(self, optuna: Any, search: Search, base: Values) -> None:
@@ -302,6 +313,7 @@ class _Proposals:
         self.fixed: dict[str, Any] = {}
         self.open: dict[int, Any] = {}
         self.refining = False
+        # the first 10 are random
         sampler = optuna.samplers.TPESampler(seed=search.seed, n_startup_trials=10)
         self.study = optuna.create_study(sampler=sampler)
 
@@ -340,7 +352,8 @@ class _Proposals:
         CMA-ES needs two variables with ranges and generations of four; else TPE goes on. It keeps the choices
         of the best candidate (`fixed`).
         """
-        best = [c for c in self.search.ranked(found) if c.number]  # without the case itself
+        # walked candidates, best first, without the case itself, number 0
+        best = [c for c in self.search.ranked(found) if c.number]
         if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
@@ -349,6 +362,7 @@ class _Proposals:
         space = {n: x for n, x in self.space.items() if n in acting and variables[n].range}
         if len(space) < 2 or self.search.generation < 4:
             return
+        # the candidates so far, by their values of these variables, become the trials from which CMA-ES begins
         create, scores = self.optuna.trial.create_trial, [(c.chosen, self.score(c)) for c in best]
         trials = [
             create(params={n: chosen[n] for n in space}, distributions=space, value=score)

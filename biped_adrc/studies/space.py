@@ -3,7 +3,9 @@
     p = low + (high - low) w,   or   p = low (high / low)^w on a logarithmic scale
 
 w in [0, 1) is a uniform random number or a point of a Sobol sequence; low and high are in the SI unit of p. A
-field is a value of a scenario, by its dotted name such as "controller.K_p".
+field is a value of a scenario, by its dotted name such as "controller.K_p"; `Scenario.value_of(name, x)` reads
+and checks a value for it, such as "2 ms" -> 0.002. A grid has levels of some fields, a draw samples of some; a
+case or a condition is a set of values with a name; a seed is `run.seed` of a scenario.
 """
 
 from __future__ import annotations
@@ -46,6 +48,7 @@ def by_entry(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, An
     `read_one` refuses.
     """
     result, wrong = {}, []
+    # flat: dotted names, but for tables with one of these keys, which stay whole
     for name, x in flat(table(value), whole=("from", "to", "choices")).items():
         try:
             result[name] = read_one(name, x)
@@ -96,6 +99,7 @@ class Levels(Span):
 
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
+        # geomspace: equal ratios
         spaced = np.geomspace if self.scale == "log" else np.linspace
         return spaced(self.low, self.high, self.count).tolist()
 
@@ -110,6 +114,7 @@ def read_range(name: str, value: object, kind: type[R] = Span) -> R:  # type: ig
     table says so. Raises ValueError.
     """
     types, keys = Scenario.field_of(name).types, table(value)
+    # an int is also taken by a field of floats, which is not whole
     whole = int in types and float not in types
     ends = {key: Scenario.value_of(name, keys[key]) for key in ("from", "to") if key in keys}
     return kind.model_validate({"whole": whole, **keys, **ends})
@@ -119,7 +124,7 @@ def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     """The values of the field `name` in a list, read with their units. Raises ValueError for less than `least`
     values, and for two that are equal.
     """
-    row = value if isinstance(value, list | tuple) else ()
+    row = value if isinstance(value, list | tuple) else ()  # () has too few values, and is refused
     result = tuple(Scenario.value_of(name, x) for x in row)
     # by their texts, as values of several types may stand in one list
     if len({repr(x) for x in result}) < max(least, len(result)):
@@ -138,6 +143,7 @@ def _seeds(value: object) -> object:
     """The seeds that `value` of a file states: 0 .. n - 1 for a number n, `count` ones from `from` on for
     {from, count}, or a list of different ones. Raises ValueError for anything else.
     """
+    # a list stands for the count here, which it is not, and is looked at below
     keys = value if isinstance(value, Mapping) else {"from": 0, "count": value}
     if set(keys) == {"from", "count"}:
         first, count = keys["from"], keys["count"]
@@ -191,6 +197,7 @@ class Draw(Section):
 
             # a Sobol sequence is balanced at powers of 2: the next one is drawn, and its first points are taken
             w = qmc.Sobol(n, seed=random).random_base2(math.ceil(math.log2(self.count)))
+        # w (count, n): a row for each sample, a column for each range
         ranges = self.ranges.items()
         rows = (zip(ranges, row, strict=True) for row in w[: self.count].tolist())
         return [{name: r.at(x) for (name, r), x in row} for row in rows]

@@ -8,13 +8,17 @@
     [conditions]  NAME = {..}          sets of other values, each crossed with each case
     [grid]        p = [..] or {from, to, count, scale}
     [draw]        kind, count, seed, p = {from, to, scale}
-    [search]                           `study.search`
+    [search]                           as in `studies.search`
+
+p is a value of a scenario by its dotted name, such as controller.K_p; NAME = {..} is a table of such values.
 
 A point is one walk: the points are the Cartesian product of cases, conditions, levels (of the grid), samples
 (of the draw) and seeds, the seeds varying fastest. Its place is its number in this order; what locates it in
 the study, `at`, are case, condition and the values that vary. Where no part of a walker uses random numbers,
 the seed `run.seed` changes nothing, and one walk stands for all seeds (`Undrawn`). A row is the results of one
-walk.
+walk by column, a measure one number of many rows, such as the median of a column. A search looks for good
+values of its variables by walks on three sets, "search", "choice" and "test", without a seed in common. To
+rehearse is to build walkers without walking them.
 
 Whatever is wrong in a file is reported in one error. Values are numbers in the SI unit or texts with a unit.
 Names of values are those of a scenario, such as "controller.K_p".
@@ -118,6 +122,7 @@ class Study(Section):
             "seeds": dict.fromkeys([SEED] if self.seeds or self.search else []),
             "search.variables": {} if self.search is None else self.search.variables,
         }
+        # pairs of places (a, b) of which b may override a
         over = {("base", "cases"), ("base", "conditions"), ("base", "search.variables")}
         over |= {("cases", "search.variables")}
         for (a, x), (b, y) in itertools.combinations(places.items(), 2):
@@ -126,6 +131,7 @@ class Study(Section):
 
     def _searched(self, search: Search) -> Iterator[str]:
         """Yield the faults of a study with a search, each as a sentence."""
+        # iterating over search.walks gives (kind, set of walks) for "search", "choice" and "test"
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
         files = [chosen_file(name) for name in self.cases]
@@ -161,6 +167,7 @@ class Study(Section):
         undrawn: pairs (case, condition) in which no part uses the seed: one walk stands for all their seeds.
         """
         if self.search is not None:
+            # kind of the set -> number of walks of one candidate
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
         samples = 1 if self.draw is None else self.draw.count
@@ -179,12 +186,14 @@ class Study(Section):
         """A table {"run.seed": seed} for each seed, that is for each walk. One empty table, for a single walk,
         where there are no seeds, or where case and condition in `at` are a pair of `undrawn`.
         """
+        # place_of: (case, condition)
         return [{SEED: seed} for seed in seeds if place_of(at) not in undrawn] or [{}]
 
     def walked_once(self, undrawn: Iterable[tuple[str, str]]) -> str:
         """A sentence that names these pairs (case, condition), in which nothing is drawn; empty for no pairs.
         The pair ("", "") is named by the study.
         """
+        # filter: without an empty case or condition
         words = "; ".join(", ".join(filter(None, one)) or self.name for one in sorted(undrawn))
         return words and f"Walked once, as nothing that acts is drawn from the seed: {words}."
 
@@ -267,6 +276,7 @@ class Study(Section):
         again with the second seed: returned are the pairs (case, condition) in which that changed nothing, none
         for a study with fewer than two seeds. Raises InputError that names the point.
         """
+        # the second seed, or none; result: the pairs in which no difference has been found yet
         other = [{SEED: seed} for seed in self.every_seed[1:2]]
         result = {place_of(names) for _, names in self.sets() if other}
         for values, names in self.sets():
@@ -303,6 +313,7 @@ class Study(Section):
             step = math.ceil(len(levels) / MOST_LEVELS)  # of a long axis only each step-th level
             yield from (first | samples[0] | {name: x} for x in levels[1::step])
         worded = (x if any(isinstance(y, str) for y in x) else x[:1] for x in axes.values())
+        # from 1 on: the first combination, of all first levels, has been yielded above
         for combined in itertools.islice(itertools.product(*worded), 1, MOST_LEVELS):
             yield dict(zip(axes, combined, strict=True)) | samples[0]
 
@@ -328,6 +339,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         below = read_scenario(file).dotted()
     try:
         study = Study.model_validate(tables)
+        # over: names of the values that the study varies
         over = {*study.axes, *([SEED] if study.seeds or study.search else [])}
         kept = {name: x for name, x in below.items() if name not in over}
         study = study.model_copy(update={"base": kept | study.base})
@@ -335,6 +347,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         lines = [_problem(one) for one in error.errors()]
         head = f"{where}, " if len(lines) == 1 else f"{where} has {len(lines)} problems:\n  "
         raise InputError(head + "\n  ".join(lines)) from error
+    # a class module:Class of the user's is looked for in the folder of the study file, by workers too
     for name, x in study.values():
         if Scenario.field_of(name).kind and is_own(str(x)):
             FOLDERS[top_of(str(x))] = str(here)
@@ -347,6 +360,7 @@ def _problem(error: Any) -> str:
     """
     if error["type"] != "extra_forbidden":
         return problem(error)
+    # the tables in which the key could have been; loc: the names of the tables around it, and its own
     inside = (Search, WalkSets, Variable, Aim, Limit)
     parts = (Study,) if len(error["loc"]) == 1 else inside
     known = sorted({name for part in parts for name in part.model_fields})
@@ -355,5 +369,7 @@ def _problem(error: Any) -> str:
 
 
 def chosen_file(case: str) -> str:
-    """The name of the scenario file in which a search writes what it chose for a case, "" for none."""
+    """The name of the scenario file in which a search writes what it chose for a case: "chosen", then the words
+    of the case's name, joined by -; case "" is that of a study without cases.
+    """
     return "-".join(["chosen", *re.findall(r"\w+", case)]) + ".toml"

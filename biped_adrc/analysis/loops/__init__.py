@@ -1,7 +1,9 @@
 """The sampled loop of a whole walker at frozen phases of its gait: stability, margins
 and ripple before any walk.
 
-- `specification`  margins and ripple: any controller, sensors, clock, motors
+A phase is a share of the time of a walking step; ripple is the torque that errors of the encoders cause.
+
+- `specification`  margins and ripple of a walker with any controller, sensors, clock and motors
 - `walker_loop`    the loop as matrices, with its responses
-- `frozen_gait`    the robot along a gait and its like with other inertias, and the sample instant, linearised
+- `frozen_gait`    linearises the robot at phases of a gait, also with other inertias, and the sample instant
 """

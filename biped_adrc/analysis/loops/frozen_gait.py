@@ -5,20 +5,31 @@ q''), and a small change of it obeys
 
     d q'' = A_q dq + A_v dq' + D^-1 B_s du                  about q'' of the orbit
 
+    q              the n coordinates [rad]; q_b are the first p, the joints with motors, q_N is the pitch
+    u              torques (p,) [N m] of the motors; B_s = [1; 0] (n, p) puts them into the rows of q_b
+    D              inertia matrix (n, n) [kg m^2]
+    A_q, A_v       derivatives of q'' with respect to q and q' (n, n)
+    kappa          gain of the torques in q_b'' = kappa u + .., (p, p) [1/(kg m^2)]
+
 The configuration is frozen: a controller that samples at 1 kHz sees it move by less than 1 % of the step in a
-period. The same is done for robots whose trunk and legs are lighter or heavier than the model. So an error of
-the model enters as it does in a walk, as a matrix L L_model^-1 with L = (I - H_b - H_N A_N) kappa in place of
-one number: it couples the joints and reaches Theta. H_b and H_N are the columns of H for q_b and q_N in the
-reference's q_d'' = drift + H q'', and q_N'' = A_N q_b'' + a_N is the unactuated row.
+period.
+
+The same is done for robots whose trunk and legs are lighter or heavier than the model: both lighter, both
+heavier, and one lighter with the other heavier, four robots in all. In `analysis.observer` an error of the
+model is one factor on kappa. Here, as in a walk, it is a matrix: L of the robot times the inverse of L of the
+model, with L (p, p) = (1 - H_b - H_N A_N) kappa the gain from u to the second derivative of the tracking error.
+This matrix is not diagonal, so an error of the model couples the joints, and the reference, which moves with
+the phase Theta of the gait, is a part of it. H_b and H_N are the columns of H for q_b and q_N in the
+reference's q_d'' = drift + H q'', and A_N those of the unactuated row, q_N'' = A_N q_b'' + a_N.
 
 `tick_matrices` linearises the sample instant (tick) of a walker at the same phases:
 
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')
 
-for small changes of all. z is the walker's state from tick to tick: controller, observer, sensors with their
-filter, and the torques that the controller knows of. The derivative is taken of the methods themselves
-(`analysis.tick_derivative`), so that the path of an encoder's error through Theta and Theta' is in it, and no
-controller has a formula here.
+for small changes of all; + is just after the tick. z is the walker's state from tick to tick: controller,
+observer, sensors with their filter, and the torques that the controller knows of. The derivative is taken of
+the methods themselves (`analysis.tick_derivative`), not of a formula for each controller; so it has the path of
+an encoder's error through Theta and Theta' too.
 
 Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
 """
@@ -105,7 +116,7 @@ class FrozenGait(Shown):
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
     """Iterate over the plant and four robots like it: all lighter, all heavier, trunk heavier and legs lighter,
-    and the other way round, each by the share `spread` [1]; over the plant alone for 0.
+    trunk lighter and legs heavier, masses and inertias each by the share `spread` [1]; the plant alone for 0.
     """
     yield plant
     if spread == 0.0:
@@ -118,9 +129,10 @@ def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
 
 
 def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) -> FrozenPoint:
-    """Linearise all robots at q, v, a (n,) of the orbit, each under the force that
-    gives it this acceleration a.
+    """Linearise all robots at q [rad], v, a (n,) of the orbit at t [s] after its step began, each under the
+    force that gives it this acceleration a.
     """
+    # A = [[0, 1], [A_q, A_v]], B = [0; D^-1 B_s] of each robot
     n, p = robots[0].n, robots[0].p
     A, B = np.zeros((len(robots), 2 * n, 2 * n)), np.zeros((len(robots), 2 * n, p))
     A[:, :n, n:] = np.eye(n)
@@ -179,17 +191,20 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     assert isinstance(twin.timing, SampledTime)
     assert twin.held is not None
     n, T, mode = twin.plant.n, twin.timing.period, Mode()
+    # ticked(t, x, mode) -> x after the tick, J; it is made once, for the first point
     result, ticked = [], None
     for point in points:
         x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
         J = np.zeros((0, 0))
         layout = twin.layout_of(x)
         ticked = ticked or tick_derivative(twin, layout)
-        # the earlier ticks only fill the memory of the sensors; J of the last one is kept
+        # the earlier ticks, at points that the rates v of the orbit lead to the frozen one, only fill the
+        # memory of the sensors; J of the last one is kept
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
-        # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it
+        # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it; u:
+        # the rows of the torque that this tick sent, z: those of z+; columns 2 n on are of z, before of (q, q')
         u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
@@ -199,8 +214,8 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     """The tick without the numbers of z on which, at all phases, neither the torque nor z+ depends.
 
     Numbers whose columns of Z and C are proportional, such as the old angle of an encoder and the rate of its
-    filter, become one, their weighted sum. Without the dropped numbers others may have no effect, so it
-    repeats.
+    filter, become one, their weighted sum. Without the dropped numbers others may have no effect, so the
+    function calls itself until none is dropped.
     """
     Z, Y, C, E = tick
     columns = np.concatenate((*Z, *C)).T  # row i: all effects of number i of z
@@ -213,6 +228,8 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     some = np.flatnonzero((first == np.arange(k)) & (largest != 0.0))
     if len(some) == k:
         return tick
+    # share (kept numbers, k): the kept number becomes the sum of all of its kind, each with the factor of its
+    # column
     share = (first == some[:, np.newaxis]) * largest / largest[some, np.newaxis]
     return _acting(TickMatrices(share @ Z[:, :, some], share @ Y, C[:, :, some], E))
 
@@ -221,7 +238,7 @@ def _released(layout: Layout, J: Array) -> Array:
     """J (nx, nx) with x+ at the later instant at which the torque of the tick begins to act, f T after it: the
     rows of the torque that waits replace those of u. Unchanged for a delay of whole periods.
     """
-    # `release` moves numbers and computes nothing, so its derivative moves the same rows
+    # at that instant numbers are only moved, so the derivative moves the same rows
     u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))
     if waiting.start < waiting.stop:
         J = J.copy()

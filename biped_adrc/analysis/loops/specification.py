@@ -3,11 +3,11 @@
     spec = specification(walker, gait)
     spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
 
-A candidate is a walker: controller with observer and reference, sensors with filter, clock with delay,
-motors. Its sampled loop is linearised (`walker_loop`) at several phases of the gait, at each with several
-robots. By default (`frozen_gait`) the phases are 15, 40, 65 and 90 % of the time of a step, and the robots are
-five: the plant, and four whose masses and inertias of trunk and legs are 20 % larger or smaller. Of all these
-loops:
+A candidate is a walker: controller with observer and reference, sensors with filter, clock with delay, motors.
+Its sampled loop is linearised (`walker_loop`) at several phases of the gait, at each with several robots. By
+default (`frozen_gait`) the phases are 15, 40, 65 and 90 % of the time of a step, and the robots are five: the
+plant, and four with masses and inertias off by 20 %, in the 2 x 2 combinations of a trunk that is lighter or
+heavier and legs that are lighter or heavier. Of all these loops:
 
 - stable [true or false]: every mode of every loop decays.
 - delay_margin [s]: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
@@ -111,12 +111,14 @@ class Specification(Shown):
 
     @cached_property
     def disk_margin(self) -> float:
-        """The smallest multiloop disk margin of the loops [1]; above 2 no gain alone makes one unstable.
+        """The smallest multiloop disk margin of the loops [1]; above 2 no error of the gains alone,
+        without one of the phases, makes one unstable.
 
         It is 0 for an unstable loop.
         """
         if not self.stable:
             return 0.0
+        # all matrices (p, p), of each loop at each frequency, in one row for the module's function
         S = self.loops.sensitivity()
         return disk_margin(S.reshape(-1, *S.shape[-2:]))
 
@@ -192,6 +194,8 @@ def balanced_bound(M: ComplexArray) -> Array:
     p = M.shape[-1]
     a = np.moveaxis(np.abs(M) ** 2, 0, -1) * (1.0 - np.eye(p))[..., np.newaxis]  # (p, p, F)
     d = np.ones((p, len(M)))
+    # a: squares of the scaled entries; f: norm of column i over that of row i, by which the squares of the row
+    # are multiplied and those of the column divided: both norms are then equal. 1e-300: no division by zero
     for i in [*range(p)] * BALANCED:
         f = np.sqrt((a[:, i].sum(0) + 1e-300) / (a[i].sum(0) + 1e-300))
         a[i] *= f
@@ -203,7 +207,7 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 def structured_value(M: ComplexArray) -> float:
     """Least upper bound of mu of one matrix M (p, p): the minimum over scalings d of the module's sigma_max."""
-    from scipy.optimize import minimize  # it takes half a second to load, in vain for `poincare`
+    from scipy.optimize import minimize  # here: half a second, which other analyses save
 
     p = len(M)
     if p == 1:
@@ -222,6 +226,7 @@ def structured_value(M: ComplexArray) -> float:
         value = np.log(sigma[0]) + np.log(weight.sum()) / power
         return float(value), slope[:-1] / weight.sum()
 
+    # from a smooth norm to ones that are nearer to sigma_max, each from the minimum of the one before
     x = np.zeros(p - 1)
     for power in _SMOOTH:
         x = minimize(smooth, x, args=(power,), jac=True, method="BFGS").x
@@ -239,7 +244,7 @@ def disk_margin(S: ComplexArray) -> float:
     # largest radius cannot have the largest mu
     rough = np.linalg.norm(M, axis=(-2, -1))
     radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))
-    M = M[rough >= (1.0 - 1e-9) * radius]
+    M = M[rough >= (1.0 - 1e-9) * radius]  # 1e-9 for round-off
     bounds, largest = balanced_bound(M), 0.0
     for k in np.argsort(-bounds):
         if bounds[k] <= largest:

@@ -5,11 +5,15 @@ One period, for small changes of the state at a phase of the gait:
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `frozen_gait`
     (q, q', u_m)+ = Phi (q, q', u_m) + Gamma_1 u_(k-j-1) + Gamma_2 u_(k-j)       robot and motors
 
-u_k is the torque that is computed at tick k, and u_m the one that lagging motors produce. The delay (j + f) T,
-0 <= f < 1, is the clock's plus an unknown one, the same in all motors; robot and lagging motors are exact for a
-torque that changes at f T. A mode is exp(s t) with lambda = exp(s T) an eigenvalue over one period; modes with
-|s| <= `slow` are the gait's own, for a robot falls over its foot, and do not count. All loops of a walker are
-computed together.
+    q, u           the n coordinates [rad] and the torques (p,) [N m] of the motors
+    z              what controller, observer and sensors keep from tick to tick; a tick is a sample instant
+    u_k, u_m       torque that is computed at tick k, and the one that lagging motors produce
+    (j + f) T      delay, j whole periods T [s] and a part 0 <= f < 1 of one: the clock's plus an unknown delay,
+                   which is the same in all motors
+
+Phi and Gamma are exact for robot and lagging motors under a torque that changes at f T. A mode is exp(s t) with
+lambda = exp(s T) an eigenvalue over one period; modes with |s| <= `slow` are the gait's own, for a robot falls
+over its foot, and do not count. All loops of a walker are computed together.
 """
 
 from __future__ import annotations
@@ -98,6 +102,7 @@ class WalkerLoops:
         p,) is an error of the sensors in (q, q'), then an error that is added to u, so D ends with a unit
         matrix.
         """
+        # k, m, r, p: sizes of z, (q, q'), (q, q', u_m) and u; waiting: how many torques wait for their turn
         j, f = whole_and_part(self.delay + unknown, self.period)
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         Z, Y, C_z, E = self.tick
@@ -117,6 +122,7 @@ class WalkerLoops:
             else:
                 M[..., :r, line + p * (i - 1) : line + p * i] += G
         M[..., r:line, :m], M[..., r:line, r:line], B[..., r:line, :m] = Y, Z, Y
+        # the torques move up by one place, and u of this tick becomes the first
         if waiting:
             M[..., line : line + p, :], B[..., line : line + p, :] = C, D
             M[..., line + p :, line : size - p] = np.eye(size - p - line)
@@ -175,13 +181,14 @@ class WalkerLoops:
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
         """
-        from scipy.optimize import brentq  # it takes half a second to load, in vain for `poincare`
+        from scipy.optimize import brentq  # here: half a second, which other analyses save
 
         tried = [0.0, 0.25 * self.period]
         while tried[-1] < most:
             tried.append(1.25 * tried[-1])
         pairs = [(low, min(high, most)) for low, high in itertools.pairwise(tried) if low < most]
         growth = cache(self.growth)
+        # the pair of delays between which it becomes unstable; (most, most) where it does not up to `most`
         if upwards:
             low, high = next((x for x in pairs if not growth(x[1]) < 0.0), (most, most))
         else:
@@ -224,6 +231,7 @@ class WalkerLoops:
         may grow, are removed by their projections. For a stable loop only.
         """
         M, B, C, D = self.matrices()
+        # of the inputs w only the first m, errors of (q, q'), are used
         m = len(errors)
         values, left, right = eig(M, left=True)
         # `one` projects on mode i along all others: after this its eigenvalue is 0, and no error reaches it
@@ -241,5 +249,6 @@ def response(z: ComplexArray, M: Array, B: Array, C: Array) -> ComplexArray:
     M (.., s, s), B (.., s, m), C (p, s) or (.., p, s), for s states, m inputs and p outputs.
     """
     M, B = M[..., np.newaxis, :, :], B[..., np.newaxis, :, :]
+    # 0 z gives B the axis of frequencies
     states = np.linalg.solve(z * np.eye(M.shape[-1]) - M, B + 0.0 * z)
     return np.asarray(C[..., np.newaxis, :, :] @ states)

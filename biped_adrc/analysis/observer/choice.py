@@ -1,5 +1,9 @@
 """The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order m.
 
+The observer estimates angle, velocity and total disturbance xi of a joint; m is the number of its states for xi
+and derivatives of xi, so it has m + 2 poles. kappa is the input gain of the torques u, q_b'' = kappa u + xi,
+with q_b the angles of the joints with motors; e is the tracking error, K_p and K_d the feedback's gains.
+
 An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi / N)^2 / 12,
 independent from one sample instant to the next while the joint moves by counts. Through observer and gains it
 makes a commanded acceleration with the standard deviation sigma_a [rad/s^2] in each joint, and in joint i a
@@ -7,8 +11,8 @@ torque of
 
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
-with sigma_a from the sampled loop; kappa is the robot's input gain, q_b'' = kappa u + xi. The encoders' part in
-Theta and in the rates of the reference, which no observer filters, is not included; `analysis.loops` has it.
+with sigma_a from the sampled loop. The part of the encoders' error that enters through the phase Theta and the
+rates of the reference, which no observer filters, is not included; `analysis.loops` has it.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if the
 torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report` calls
@@ -149,6 +153,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     # from the first allowed bandwidth on, so that last_true begins with one that holds
     allowed = dropwhile(lambda w: candidate(w).obstacle, bands)
     w = last_true(lambda w: not candidate(w).obstacle, allowed)
+    # last_true returns infinity where it finds no bandwidth that is not allowed
     if math.isinf(w):  # none of the bands is allowed, or all above the first
         w = math.nan if candidate(MOST).obstacle else MOST
     if math.isnan(w):
@@ -162,5 +167,5 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
 def without_observer(gains: Gains) -> float:
     """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
     K_p, K_d = first_gains(gains)
-    s = 1j * REJECTED
+    s = 1j * REJECTED  # i times the frequency
     return float(1.0 / abs(s**2 + K_d * s + K_p))

@@ -2,17 +2,19 @@
 
     e' = A^ e   (19) of the paper,   e(0+) = true states after impact - estimates after the reset
 
-The true states are q_b, q_b', the total disturbance xi (p,) [rad/s^2] of q_b'' = kappa u +
-xi (13), and derivatives of xi in time. e_1, e_2, e_3 (p,) are the errors of the first three,
-and A^ is the observer's matrix.
+The true states are q_b [rad], the angles of the p joints with motors, q_b', the total disturbance xi (p,)
+[rad/s^2] of q_b'' = kappa u + xi (13), with u (p,) [N m] the torques, and derivatives of xi in time. e_1, e_2,
+e_3 (p,) are the errors of the first three, A^ is the observer's matrix, and 0+ the instant just after the
+impact.
 
 At an impact velocities and xi jump; each `ResetPolicy` sets the estimates in another way. The gait walks its
 periodic orbit, and just before impact the estimates have no error. The torque that the error costs is
 
     u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
 
-its deviation from the torque u* of exact estimates. kappa is constant, its value just after impact. The model
-is linear and includes neither the torque limit nor a fall. `ObserverReport` shows one row per reset policy.
+its deviation from the torque u* of exact estimates; K_p and K_d are the feedback's gains. kappa is constant,
+its value just after impact. The model is linear and includes neither the torque limit nor a fall.
+`ObserverReport` shows one row per reset policy.
 """
 
 from __future__ import annotations
@@ -78,7 +80,7 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     zero = ZeroDynamics.of(biped, gait.constraint)
     orbit = zero.cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
-    # dt = dTheta / Theta'
+    # dt = dTheta / Theta'; `cumulative` integrates over Theta from the start of the step to each node
     t = zero.cumulative @ (1.0 / (orbit.v @ gait.constraint.phase))  # of the nodes [s]
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
@@ -99,9 +101,11 @@ def reset_error(observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy
 
     Before the impact the estimates are the true states.
     """
+    # state i, counted from 0, is scaled by scale^i
     units = observer.scale ** np.arange(observer.order)[:, np.newaxis]
     before, after = impact.before / units, impact.after / units
     y, dy, *xi = impact.after
+    # the model's xi for the reset policy MODEL; for m = 0 the chain has none
     xi_0 = xi[0] if xi else np.zeros_like(y)
     estimate = observer.reset(before, policy, impact.swap, y, dy, xi_0)
     return after - estimate
@@ -120,10 +124,12 @@ def impact_peak(
     E = reset_error(observer, impact, policy)
     A = observer.error_system().A
     rates = np.abs(np.real(observer.poles))
+    # from 1 % of the fastest time constant on
     later = np.geomspace(0.01 / rates.max(), LONG / rates.min(), INSTANTS)
     values = np.array([expm(A * t) @ E for t in (0.0, *later)])
     e_1, e_2 = values[:, 0], values[:, 1] * w
     e_3 = values[:, 2] * w**2 if k > 2 else np.zeros_like(e_1)
+    # acceleration that the errors cost; kappa^-1 makes it a torque. The order is that of ImpactPeak
     a = gains.K_p * e_1 + gains.K_d * e_2 + e_3
     peaks = (float(np.max(np.abs(x))) for x in (e_1, e_2, e_3, a @ impact.inertia.T))
     return ImpactPeak(*peaks)

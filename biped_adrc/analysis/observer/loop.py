@@ -1,12 +1,21 @@
 """The linear loop of one joint under ADRC whose torque acts after a delay: loop gain and delay margin.
 
-Numbers such as (19) are equations of the paper. q_b is the joint's angle, q_d its reference, d the delay, xi
-the total disturbance, and ^ marks an estimate. With chi(s) the observer's polynomial (19), a = kappa u - q_d''
-and e = q_b - q_d, the robot and (20) are
+Numbers such as (19) are equations of the paper.
+
+    q_b, q_d       the joint's angle and its reference [rad], e = q_b - q_d
+    kappa u        acceleration that the torque u gives to the joint; a = kappa u - q_d'' is the commanded one
+    xi             total disturbance [rad/s^2], q_b'' = kappa u + xi
+    x1^, x2^, xi^  estimates of e, e' and xi
+    d              delay from the command to its effect [s]
+    m, l_k         number of the observer's states for xi and its derivatives, and the observer's gains
+    chi(s)         the observer's polynomial (19), s^(m+2) + l_(m+1) s^(m+1) + ... + l_0
+    K_p, K_d       gains of the feedback (20)
+
+The robot and the feedback are
 
     e'' = a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
 
-Opened at the delay, the loop has the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
+Opened at the delay, the loop has the gain L(s), and roots i w on the imaginary axis where exp(i w d) = -L(i w):
 
     unknown  L = P / (s^(m+2) Q)           the observer is fed with a(t)
     known    L = (K_d s + K_p) / s^2       it is fed with a(t - d)
@@ -15,8 +24,8 @@ Opened at the delay, the loop has the gain L(s), and roots on the imaginary axis
     P = the terms of (s^2 + K_d s + K_p) chi below s^(m+2)
 
 since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for d = 0 is the characteristic polynomial. All
-coefficients of P and Q are sums of products of positive ones, so nothing cancels, and s is counted in units of
-w, the geometric mean of the poles, which keeps the numbers near 1. Without delay
+coefficients of P and Q are sums of products of positive ones, so nothing cancels. In the code s is counted in
+units of the observer's `scale`, the geometric mean of the poles, there called w too. Without delay
 
     e / xi = s^m Q / ((s^2 + K_d s + K_p) chi)                    (23), corrected
     xi^ / xi = (chi - s^(m+2) - l_(m+1) s^(m+1) - l_m s^m) / chi
@@ -33,12 +42,14 @@ where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
 
     Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledChain`
 
-X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
-short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off. With an
-unknown delay the observer is fed with a_k; with a known one, as the controllers are, with the mean of the
-torque that acts until the next sample instant. For f > 0 the mean has the right effect on the velocity and an
-error f (1 - f) T^2 / 2 per change of the torque in the angle. For fast observers that error can be worse than
-an unknown delay.
+Here Z are the observer's scaled states, L, Phi and Gamma its correction gains, transition matrix and input
+vector, F the feedback's gains, g the robot's kappa over the model's, and n the error of the measured angle. X =
+(e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at short
+periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off. With an unknown
+delay the observer is fed with a_k; with a known one, as the controllers are, with the mean of the torque that
+acts until the next sample instant. For f > 0 the mean has the right effect on the velocity and an error f (1 -
+f) T^2 / 2 per change of the torque in the angle. For fast observers that error can be worse than an unknown
+delay.
 """
 
 from __future__ import annotations
@@ -104,6 +115,7 @@ class ObserverLoop:
         printed: without the factor K_d of l_(m+1), as the paper prints it; else corrected. s is counted in
         units of w, the observer's scale.
         """
+        # k_d = K_d / w, k_p = K_p / w^2, l_1 = l_(m+1) / w, l_2 = l_m / w^2
         (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
         # the printed factor 1 of l_(m+1) [1/s] is 1 / w in units of w
         factor = 1.0 / self.observer.scale if printed else k_d
@@ -114,6 +126,7 @@ class ObserverLoop:
         """Coefficients (m + 2,) of the polynomial P of the loop gain, highest power first, dimensionless: those
         of the product of chi and the feedback below s^(m+2).
         """
+        # the product begins with the powers m + 4, m + 3 and m + 2, which Q has
         return np.asarray(np.polymul(self._feedback, self._chi)[3:], dtype=float)
 
     # -- frequency responses -------------------------------------------------------------------------
@@ -132,16 +145,19 @@ class ObserverLoop:
 
     def tracking_error(self, frequency: Array, printed: bool = False) -> ComplexArray:
         """e / xi (K,) [s^2] at frequencies (K,) [rad/s] by (23), corrected, or `printed` as in the paper."""
+        # zeros behind the coefficients multiply by s^m; 1 / scale^2 goes back from s / w to s
         numerator = np.concatenate((self._Q(printed), np.zeros(self.observer.m)))
         return self._response(numerator, frequency) / self.observer.scale**2
 
     def estimate(self, frequency: Array) -> ComplexArray:
         """xi^ / xi (K,), dimensionless, at frequencies (K,) [rad/s]; zero for m = 0, which has no xi^."""
+        # chi without its three highest powers
         rest = self._chi[3:] if self.observer.m else np.zeros(1)
         return self._response(rest, frequency, feedback=False)
 
     def noise(self, frequency: Array) -> ComplexArray:
         """a / n (K,) [1/s^2] at frequencies (K,) [rad/s]: commanded acceleration per error of the angle."""
+        # two zeros behind the coefficients multiply by s^2; scale^2 goes back from s / w to s
         numerator = np.concatenate((self._P, [0.0, 0.0]))
         return -self._response(numerator, frequency) * self.observer.scale**2
 
@@ -152,6 +168,7 @@ class ObserverLoop:
         s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
         if known:
             return np.polyval(self._feedback[1:], s) / s**2
+        # the observer's order is m + 2: Q s^(m+2)
         bottom = np.concatenate((self._Q(), np.zeros(self.observer.order)))
         return np.polyval(self._P, s) / np.polyval(bottom, s)
 
@@ -170,6 +187,7 @@ class ObserverLoop:
         turns = np.flatnonzero(np.diff(level(grid) > 0.0))
         if len(turns) == 0:
             return DelayMargin(np.inf, np.inf)
+        # turns: intervals of the grid in which |L| crosses 1; at: the frequencies [rad/s] of these crossings
         at = np.exp([brentq(level, grid[i], grid[i + 1], xtol=1e-14) for i in turns])
         delays = np.mod(np.angle(-self.gain(at, known)), 2.0 * np.pi) / at
         first = int(np.argmin(delays))
@@ -291,6 +309,7 @@ class SampledLoop:
         """
         if not self.stable:
             return np.nan
+        # column 1 of the inputs (T^2 xi, n) is n; the output is T^2 a
         _, B, C, D = self.step
         P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
         return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2

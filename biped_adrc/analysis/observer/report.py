@@ -4,8 +4,15 @@
 margins, the largest stable period, the torque noise of one encoder count, the peak after an impact, and the
 largest bandwidth of each order that the robot allows. Each number is computed at its first use. `verdict` and
 `sections` present them in words and tables. A delay is "unknown" where the observer is fed with the command,
-"known" where it is fed with the torque that acts. In names of responses e is the tracking error, xi the total
-disturbance, xi^ its estimate, n the error of the measured angle and u the torque.
+"known" where it is fed with the torque that acts.
+
+    e, u, n        tracking error [rad], torque [N m], error of the measured angle [rad]
+    xi, xi^        total disturbance [rad/s^2] and its estimate; kappa is the input gain, q_b'' = kappa u + xi
+    x1^, x2^       estimates of angle and velocity
+    m              order: number of the observer's states for xi and its derivatives; it has m + 2 poles
+    K_p, K_d       gains of the feedback on angle and velocity, which works without an observer too
+    ripple         rms torque [N m] that the error of one encoder count causes
+    Table I        the poles that the paper uses
 """
 
 from __future__ import annotations
@@ -135,6 +142,7 @@ class ObserverReport(OnHardware):
         noise = (
             f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
         )
+        # sampled_margins: (unknown delay, known delay)
         margin = microseconds(self.sampled_margins[int(k.known)])
         bears = f"with the model's kappa its delay margin at this period is {margin}"
         facts = [noise] if math.isfinite(share) else []
@@ -214,7 +222,7 @@ class ObserverReport(OnHardware):
         for name, response in self.responses.items():
             level = np.abs(response(grid))
             top = int(np.argmax(level))
-            peak, edge = "0: no xi^", ""
+            peak, edge = "0: no xi^", ""  # for m = 0 the response xi^ / xi is zero
             if level[top] > 0.0:
                 peak = f"{level[top]:.4g} at {grid[top]:.4g} rad/s"
                 edge = f"{_falls(response, grid[0 if name == 'xi^ / xi' else top], grid[-1]):.4g} rad/s"

@@ -1,5 +1,7 @@
 """The compiled functions that are called from outside: by Python, and by the page that walks in a browser.
 
+r is the run in memory (`record.Run`), with its time t [s], its state x0 (nx,) and nodes, the instants that it
+stores; `step` is the number of the single support, t_start [s] its beginning, zeta (n,) [N m] the disturbance.
 An arc is the flow between two impacts. Codes are those of `hybrid.constants`: a place in `Status`, with 0 for
 COMPLETED, or STRUCK for an arc that ended at a touchdown.
 
@@ -35,6 +37,8 @@ def go_on(r: Run) -> int:
 
     An arc that ends before its first step leaves one node with the slope 0, so that no arc is empty.
     """
+    # count: nodes before; lost: no singular matrix or runaway so far; `lower` sets the drop of the ground at
+    # the end of this single support, `arm` the event functions at the start of an arc
     count, r.lost = r.count, 0
     lower(r)
     if r.armed == 0:
@@ -58,6 +62,7 @@ def land(r: Run) -> int:
     copy(r.x0, shift(r.inp, 2), r.nx)
     r.x_e[0] = math.nan  # what stays where Python is interrupted
     call(r.impact, r.K, r.inp, r.x_e)
+    # behind x+ stands the least pivot of the matrices that were inverted
     if r.x_e[r.nx] == 0.0:
         return SINGULAR
     if not finite(r.x_e, r.nx):
@@ -104,7 +109,7 @@ def sample(r: Run) -> int:
         r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
         if code == STRUCK:
-            code = land(r)
+            code = land(r)  # 0, the same number as COMPLETED, where the impact was made
         if code != COMPLETED:
             return code
         # with a clock that restarts at the impact this is true right after it
@@ -119,7 +124,7 @@ def look(r: Run, law: int, out: Array) -> None:
     that a sample instant there would get; law: address of the function.
     """
     lower(r)
-    r.limit = math.inf
+    r.limit = math.inf  # an input that switches now has its value after the switch
     measure(r, r.x0)
     call(law, r.K, r.inp, out)
 
@@ -137,6 +142,7 @@ def push(r: Run, x: float, z: float) -> None:
             node(r, r.t, r.x0, r.dx0)
         r.n_parts += int(x != 0.0 or z != 0.0) - int(F[0] != 0.0 or F[1] != 0.0)
         F[0], F[1] = x, z
+        # so that r.load is zero again where no term is left, of which nothing else takes care
         load_of(r)
 
 
@@ -154,9 +160,9 @@ def samples(
     support, by an impact or with the walk.
 
     walks (count,): addresses of their runs, 0 for none; inputs (count, p + 2): torque [N m] and force [N] of
-    each. The others are written: codes (count,), those of `sample`; states (count, width = 2 + nx), rows (t,
-    step, x) after it, unchanged for a walk that is not moved; impacts (count,), how many were made, -1 for a
-    walk that is not moved.
+    each. The others are written: codes (count,), COMPLETED or how the walk ended; states (count, width = 2 +
+    nx), rows (t, step, x) after it, unchanged for a walk that is not moved; impacts (count,), how many were
+    made, -1 for a walk that is not moved.
     """
     over = 0
     for i in range(count):
@@ -181,7 +187,7 @@ def looks(walks: Ints, count: int, width: int, laws: Ints, views: Array) -> None
     """Write the rows of views (count, width): the output of function laws[i] at the present state of walk i.
 
     walks (count,): addresses of runs, 0 for none, whose row is left as it is; laws (count,): addresses of
-    functions as in `look`.
+    functions (t, step, t_start, x, zeta, force) -> numbers, with the inputs of a sample instant.
     """
     for i in range(count):
         if walks[i] != 0:

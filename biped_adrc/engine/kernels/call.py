@@ -1,8 +1,9 @@
 """Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
 
-The loops work on pointers, written and read as arrays are; a vector is a pointer to its first
-number. A run r is a pointer to its cells, and r.name the field of that name (`record`). Generated functions are
-called by an address that is data of the run, so the loops are compiled once for all walkers.
+The loops (of a walk through time, `hybrid.march`) work on pointers, written and read as arrays are; a vector is
+a pointer to its first number. A run r is a pointer to its cells, and r.name the field of that name (`record`).
+Generated functions are called by an address that is data of the run, so the loops are compiled once for all
+walkers.
 
 Functions with the decorator `inner` are compiled into each of their callers; those with `unit` are compiled
 once and called by their name, which keeps the compile time down. The annotations of units are read as their
@@ -57,6 +58,8 @@ _TYPES = {
 
 def inner(function: _Function) -> _Function:
     """Decorator for a small function, which is compiled into the units that call it."""
+    # error_model: a division by zero gives infinity or NaN, as in NumPy, and no error; no wrappers for calls
+    # from Python, since nothing there calls it
     return njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
@@ -82,7 +85,7 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
         double = ir.DoubleType().as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [double] * 3).as_pointer()
         builder.call(builder.inttoptr(arguments[0], kind), arguments[1:])
-        return context.get_dummy_value()
+        return context.get_dummy_value()  # numba's value of a function that returns nothing
 
     return types.void(types.int64, K, inp, out), codegen
 

@@ -103,9 +103,10 @@ class CompiledRun:
         x, x'). Rows that are never written cost no memory, so their number is estimated from above.
         """
         # an arc has stretches between sample instants, switching times and its ends; the last step of each may
-        # be short, and a step longer than RESOLUTION has nodes inside; with `part` each period has two breaks
+        # be short, and a step longer than RESOLUTION has nodes inside. With `part`, the time after a sample
+        # instant at which a waiting torque acts, each period has two breaks
         h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
-        time = longest + T + h
+        time = longest + T + h  # longest arc [s], with room for a sample instant and a step more
         stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
         rows = 1 + (time / h + 2.0 * stretches) * math.ceil(h / RESOLUTION)
         self["look"] = look
@@ -119,8 +120,9 @@ class CompiledRun:
         self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
 
     def rows(self) -> Array:
-        """The nodes kept since the last call, rows as in `keep`: a view, to be copied before the run goes
-        on."""
+        """The nodes kept since the last call, rows (t, x, x'), or each a `NodeRow` where `keep` got a function:
+        a view, to be copied before the run goes on.
+        """
         count, self["count"] = int(self["count"]), 0
         return self.nodes[:count]
 
@@ -140,6 +142,7 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     # width: of all work vectors, as long as the longest list of inputs; slow: numbers in w of (w, E)
     n, nx, p, k = (int(fields[name]) for name in ("n", "nx", "p", "k"))
     width, slow = 3 + nx + max(n, 2) + OUTSIDE, nx - k * p
+    # guards: a walker has three event functions; nN: of N_E only row 1 is stored, since the others are zero
     values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
     values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
     parts = [np.zeros(len(KINDS)), *(np.ravel(tables[name]) for name in TABLES)]
@@ -151,6 +154,7 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     cells = np.concatenate(parts).view(np.int64)
     for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
+    # addresses as distances from the start of the block [bytes]
     for name, start in places.items():
         cells[PLACES[name]] = 8 * start
     return CompiledRun(cells, np.array([PLACES[name] for name in places]))

@@ -60,8 +60,9 @@ _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
 
 
 def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """Load the units of these modules, compiled if need be, as functions of ctypes; `arguments` as in
-    `compiled`."""
+    """Load the units of these modules, compiled if need be, as functions of ctypes; arguments: name of each
+    unit that Python calls -> how many arguments it takes.
+    """
     at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)

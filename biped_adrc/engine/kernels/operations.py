@@ -6,7 +6,9 @@ Its output ends with the least pivot of the matrices that the controller inverts
 (singular) or below zero (a torque beyond the bound), the status is noted in r.lost and the output made NaN,
 even where a torque limit has made a finite number of it.
 
-y = (w, E) are the coordinates of the exponential method, ETD-RK4: w the slow states, E (k, p) the stiff ones.
+Symbols: x (nx,) state, its first n numbers the angles q [rad], then their rates v [rad/s]; p motors; zeta (n,)
+disturbance [N m]; h integration step [s]. y = (w, E) are the coordinates of the exponential method, ETD-RK4: w
+the slow states, E (k, p) the stiff ones, E' = A E + N_E, w' = N_w; rows and indices count from 0.
 `values` are the event functions at the start of an integration step, `after` those at its end, `tried` those at
 a time in between; x0 and x1 the states at both ends, with the slopes dx0 and dx1. A guard is an event function.
 """
@@ -130,7 +132,7 @@ def load_of(r: Run) -> None:
     for k in range(r.n_parts):
         call(r.parts[PART * k], K, r.inp, r.one)
         add(r.load, 1.0, r.one, r.load, size)
-        K = shift(K, r.parts[PART * k + 1])
+        K = shift(K, r.parts[PART * k + 1])  # to the numbers of the next term
 
 
 @inner
@@ -189,6 +191,7 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
     inp = r.inp
     if r.n_parts > 0:
         call(r.back, r.K, y, r.out)
+        # for the disturbance alone: below y takes the place of x
         copy(r.out, shift(inp, 3), 2 * r.n)
     disturb(r, min(t, r.limit))
     copy(y, shift(inp, 3), r.nx)
@@ -265,6 +268,7 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
     A cheap first look at a long step, without evaluating the flow. `after` has the values at t1 already.
     """
+    # v, w: the three event functions at the beginning and at the end of a part
     v0, v1, v2 = r.values[0], r.values[1], r.values[2]
     for j in range(1, count + 1):
         w = r.after
@@ -284,7 +288,7 @@ def lower(r: Run) -> None:
     """Set r.drop, how much lower [m] the ground is where this single support ends, by the steps of the
     ground."""
     r.drop = 0.0
-    for i in range(r.n_drops):
+    for i in range(r.n_drops):  # rows (number of the single support, drop at its end)
         if r.drops[2 * i] == r.step:
             r.drop += r.drops[2 * i + 1]
 
@@ -300,6 +304,7 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
         copy(x, shift(row, 1), nx)
         copy(dx, shift(row, 1 + nx), nx)
     else:
+        # where no term but `force` pulls, the force in r.load is constant over the sample, and right as it is
         copy(x, shift(r.inp, 3), nx)
         if r.pulled != 0:
             disturb(r, min(t, r.limit))
@@ -366,7 +371,7 @@ def due(r: Run) -> int:
         measure(r, x)
         out[0] = math.nan  # what stays where Python is interrupted
         call(r.tick, r.K, r.inp, out)
-        note(r, out, out[nx])
+        note(r, out, out[nx])  # the least pivot; behind it stands q''
         if not finite(out, nx):
             return broken(r)
         copy(out, x, nx)

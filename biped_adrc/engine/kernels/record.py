@@ -1,10 +1,15 @@
-"""The memory of one compiled run: a block of cells of 8 bytes, which the compiled march reads and writes.
+"""The memory of one compiled run: a block of cells of 8 bytes, which the march, the compiled loop over time
+(`hybrid.march`), reads and writes.
 
 The block begins with one cell for each field of `Run`, in the order below. A field that is a vector holds the
 address of its first number, which stands further back in the same block: first the vectors of TABLES, then the
 work vectors of ROWS, which all have one length. `compiled_run.plan` writes the block before a run. The march
 changes the fields behind the comment "what changes"; of the others a run changes torque and push alone
 (`arc.samples`). Two runs never share a cell, so they may run in two threads.
+
+Symbols: t time and t_start the beginning of the single support with the number `step`, both [s]; x (nx,) state,
+q (n,) its angles [rad]; zeta (n,) disturbance [N m]; x+ the state after an impact; q'' acceleration [rad/s^2];
+tau time constant of lagging motors [s]. A node is a stored instant, a tick a sample instant.
 """
 
 from __future__ import annotations

@@ -7,8 +7,14 @@ an error of tracking, and all values from which they are computed, are in double
 as floats would lose the digits of a small difference.
 
 A function is a list of CasADi's operations (`Operation`); an operation is known by its place in the list, and
-so is its value. The text needs from the C file around it: `real`, F(f) for the C library's function f of that
-type, LEAST and GREATEST, which pass NaN on, and the table k of constants in double.
+so is its value. Its field `of` has
+
+    the places of its operands        of most operations
+    (0, index in K) or (1, index)     of an input: a parameter of the vector K, or one of the inputs
+    (place of its value, index)       of an output: where in the list its value is, and where it is written
+
+The text needs from the C file around it: `real`, F(f) for the C library's function f of that type, LEAST and
+GREATEST, which pass NaN on, and the table k of those parameters K that are read, as constants in double.
 """
 
 from __future__ import annotations
@@ -88,18 +94,18 @@ class Written:
 def read_by(function: SymbolicFunction, which: int) -> set[int]:
     """Indices of the parameters K (which = 0) or of the inputs (which = 1) that a function reads."""
     line = straight_line(function)
+    # of an input: (which, index)
     return {x.of[1] for x in line if x.code == ca.OP_INPUT and x.of[0] == which}
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
     """Write the body of a function in C. Its parameters K are read from the table k in C, whose entry i is
-    entry numbers[i] of K.
+    entry numbers[i] of K. each: the function, with the names in C of its inputs and outputs.
 
     Values in double are called w1, w2, .., others v1, v2, ..; values that nothing reads are left out. Raises
     InputError for an operation that has no line here.
     """
-    # of: places of an operation's operands; of an input (0, index in K) or (1, index among the inputs); of an
-    # output (place of its value, index among the outputs)
+    # line: the operations in order; places: index in K -> index in the table k
     line, places = straight_line(each.function), {k: i for i, k in enumerate(numbers)}
     doubles = in_double(line, [entry.double for entry in each.inputs])
     values, stores, texts = list[Entry](), list[str](), dict[int, str]()
@@ -120,6 +126,7 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
             value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)
             texts[i] = f"const {'double' if wide else 'real'} {value.name} = {text};"
         values.append(value)
+    # a value is written only if an output needs it
     needed = ancestors(line, {x.of[0] for x in line if x.code == ca.OP_OUTPUT}) & texts.keys()
     kept = (text for i, text in texts.items() if i in needed)
     return Written((*kept, *stores), len(needed), len(needed & doubles))
@@ -141,15 +148,17 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
     angles and times, and the other side depends on angles, times and constants alone. angles: for each input
     whether it is an angle or a time.
     """
-    degree, differences = list[int](), set[int]()
+    # kinds: degree of dependence of each value, CONSTANT to UNKNOWN (below); a parameter of K is a constant
+    kinds, differences = list[int](), set[int]()
     for i, (code, of, _) in enumerate(line):
         if code == ca.OP_INPUT:
-            degree.append((LINEAR if angles[of[1]] else UNKNOWN) if of[0] else CONSTANT)
+            kinds.append((LINEAR if angles[of[1]] else UNKNOWN) if of[0] else CONSTANT)
         elif code in (ca.OP_CONST, ca.OP_OUTPUT):
-            degree.append(CONSTANT)
+            # nothing reads an output, so its entry only keeps the places right
+            kinds.append(CONSTANT)
         else:
-            sides = [degree[k] for k in of]
-            degree.append(_degree(code, sides))
+            sides = [kinds[k] for k in of]
+            kinds.append(_degree(code, sides))
             if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
                 differences.add(i)
     return {
@@ -158,15 +167,18 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
-"""Dependence of a value: on constants alone; linear in angles and times; any function of these; on other inputs
-too. A value has at least the greatest one of its operands."""
+"""Degrees of dependence of a value: on constants alone; linear in angles and times; any function of these; on
+other inputs too. A value has at least the greatest one of its operands."""
 
 
 def _degree(code: int, of: list[int]) -> int:
-    """Dependence (CONSTANT to UNKNOWN) of an operation's value, from those of its operands, `of`."""
+    """Degree of dependence, CONSTANT to UNKNOWN, of an operation's value on angles and times, from those of its
+    operands, `of`; code: CasADi's code of the operation.
+    """
     most = max(of)
     if most != LINEAR:
         return most
+    # a sum of linear values is linear, and so is a product with a constant; any other function is KNOWN
     if code in (ca.OP_ADD, ca.OP_SUB, ca.OP_NEG, ca.OP_TWICE):
         return LINEAR
     return LINEAR if code == ca.OP_MUL and CONSTANT in of else KNOWN

@@ -4,7 +4,7 @@ computer.
 The computer reads the time, the angles and, where they are measured, the rates. It computes differences of
 angles and their filter, the nominal model's terms, the gait, the observer, the reset policy at impact, limits
 of the torque and of its rate, and the queue of torques where it knows the delay. Noise, encoder counts, lag of
-motors and the delay itself belong to the robot.
+motors and the delay itself belong to the robot. The nominal model is the robot as the controller knows it.
 """
 
 from __future__ import annotations
@@ -69,6 +69,7 @@ class Computer:
 
         Raises InputError for a sensor that has another part on the computer.
         """
+        # None: there is no sensor before this one, on whose part on the computer it could build
         sensor = self.walker.sensors
         result = None if sensor is None else sensor.on_computer(None)
         if result is not None and not isinstance(result, Sensors):
@@ -101,6 +102,7 @@ class Computer:
             timing=time,
             torque_limit=self.walker.torque_limit,
             sensors=self.sensors,
+            # of the motors only the limit of the torque's rate is the computer's; their lag is the robot's
             motors=Motors(motors.rate_limit) if motors is not None and limited else None,
             runaway_speed=self.walker.runaway_speed,
             runaway_torque=self.walker.runaway_torque,
@@ -122,6 +124,7 @@ class Computer:
         x = self.alone.initial_state(q, v)
         # J: derivative of the state after a sample instant by the state before
         _, J = tick_derivative(self.alone, self.layout)(0.0, x, Mode())
+        # held: of what the computer keeps; q and v, which stand first, are fixed
         held = J[2 * len(q) :, 2 * len(q) :]
         return math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0)) / self.timing.period
 
@@ -179,6 +182,7 @@ class Noticed(Sensor):
         return Landing(self.inner.start(q, v), 0.0)
 
     def sense(self, w: Landing, q: Array, v: Array) -> Landing:
+        # at the instant of the touchdown itself (landed = 1) `impact` has read this measurement already
         return Landing(chosen(w.landed, w.inner, self.inner.sense(w.inner, q, v)), 0.0)
 
     def impact(self, w: Landing, q: Array, v: Array, v_model: Array) -> Landing:
@@ -190,6 +194,7 @@ class Noticed(Sensor):
         # the measurement with the old names, as R is its own inverse
         q_old, v_old = R @ q + self.offset, R @ v
         before = self.inner.sense(w.inner, q_old, v_old)
+        # [1]: the rates of a reading (angles, rates)
         rates = self.inner.reading(before, q_old, v_old)[1]
         return Landing(self.inner.impact(before, q, v, R @ rates), 1.0)
 

@@ -84,6 +84,7 @@ class Fmu:
         with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
             for path, data in self.files.items():
                 entry = zipfile.ZipInfo(path)  # its date is 1980-01-01
+                # Unix permissions rw-r--r--, which zip keeps in the upper 16 bits
                 entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
                 archive.writestr(entry, data)
         return out.getvalue()
@@ -92,8 +93,10 @@ class Fmu:
 def fmu_of(source: Source) -> Fmu:
     """Make the FMU of an exported controller, with a binary where this machine can compile it.
 
-    Its identifier (GUID) is a hash of its text files. Raises InputError and OutputError as `build_c`.
+    Its identifier (GUID) is a hash of its text files. Raises InputError where the compiler reports an error,
+    and OutputError where there is no room for its files.
     """
+    # the hash is of the texts without an identifier; then they are made again with it
     texts = _texts(source, "")
     guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
     texts = _texts(source, f"{{{guid}}}")

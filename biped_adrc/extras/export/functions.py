@@ -56,6 +56,7 @@ class Inputs:
     @cached_property
     def at(self) -> SymbolicInstant:
         """An instant on symbols; its inputs are (t, last, step, start) as in _FIRST, then x = (q, v, x_c)."""
+        # `last` is read by `_released` alone; Mode is (step, start)
         inp = Vector("inp", _HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.nx)
@@ -68,7 +69,7 @@ class Inputs:
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
-        # symbols[0] are the parameters K as one vector
+        # equations.symbols: the parameters K as one vector of symbols, and the same symbols by name
         return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
@@ -77,9 +78,11 @@ def init(computer: Computer) -> SymbolicFunction:
     inputs = Inputs(computer)
     (q, v, _, tail), at = inputs.parts, inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
+    # symbols[1]: the numbers of the walker by name, as symbols
     controller = at.loop.trace.on_symbols(inputs.equations.symbols[1].controller)
     s = apply(at.loop.trace, controller.initial_state, m)
     held = at.loop.held
+    # w: state of the sensors; line: torques on their way, all zero; s: state of the controller
     w = None if held is None or held.sensors is None else held.sensors.start(q, v)
     line = np.zeros(computer.held.line.size)
     return inputs.function(flatten(s), flatten(tail._replace(sensors=w, line=line)))
@@ -90,7 +93,8 @@ def step(computer: Computer) -> SymbolicFunction:
     inputs = Inputs(computer)
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)  # the lines that a walk runs; no second text of the law for C
-    sent = semantics.parts(at.loop, x).tail.line.sent
+    sent = semantics.parts(at.loop, x).tail.line.sent  # u: the torque that goes to the motors now
+    # x_c follows q and v in x; lost is the number behind every function of the loop
     return inputs.function(x[2 * computer.robot.n :], sent, at.loop.lost)
 
 
@@ -100,6 +104,7 @@ def touchdown(computer: Computer) -> SymbolicFunction:
     """
     inputs = Inputs(computer)
     at, (q, v, _, _) = inputs.at, inputs.parts
+    # `after_contact`: new labels of torques and sensors, and the controller's jump, at q, v with the new names
     x = at.loop.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
     return inputs.function(x[2 * len(q) :])
 
@@ -112,9 +117,11 @@ def _released(inputs: Inputs) -> Array:
     # sample instants alone, so C does it at the next one. `over` is a symbol: both vectors are written, and C
     # chooses.
     computer, at = inputs.computer, inputs.at
+    # of the period, by which the delay is longer than whole periods
     fraction = computer.held.motors.fraction
     if fraction == 0.0:
         return at.x
+    # symbol[1]: `last`, the time of the sample instant before
     over = at.t - Scalar(at.inp.symbol[1]) >= fraction * computer.timing.period - SAME_INSTANT
     p, released = computer.robot.p, semantics.release(at.loop, at.x)
     return np.concatenate((at.x[:-p], wheres(over, released[-p:], at.x[-p:])))
@@ -166,6 +173,7 @@ def functions(computer: Computer) -> Functions:
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     # all three functions return x_c, and step u and lost behind it
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
+    # in the inputs of a function q begins at _HEAD, and v at _HEAD + n
     read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)
     rates = tuple(i for i in range(n) if _HEAD + n + i in read)
     return Functions(tuple(kept), tuple(functions), rates)
@@ -185,6 +193,7 @@ def fields_of(computer: Computer) -> tuple[Field, ...]:
             "1 between a touchdown and the step after it",
         ),
     )
+    # line: torques on their way, one after the other: queue, then waiting (p numbers or none), then acting (p)
     queue = line.place("queue").stop
     return (
         Field("s", s.size, "state of the controller, its observer included"),
@@ -205,9 +214,11 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
     live, outputs = set[int](), range(total, step.out.shape[0])
     while True:
         kept = sorted(live)
+        # inputs that `step` reads for these entries of x_c, for u and for lost
         read = read_by(step._replace(out=step.out[[*kept, *outputs]]), 1)
         if kept:
             read |= read_by(touchdown._replace(out=touchdown.out[kept]), 1)
+        # the inputs are _HEAD numbers, q (n,), v (n,), then x_c
         result = {i - _HEAD - 2 * n for i in read if i >= _HEAD + 2 * n}
         if result <= live:
             return live

@@ -117,8 +117,12 @@ class Loaded:
 
     @cached_property
     def state(self) -> np.dtype[np.void]:
-        """NumPy's type of the C struct of the state, x_c of `export.functions` with start, last, sent, step and
-        without.
+        """NumPy's type of the C struct of the state: x_c, the numbers that the computer keeps between sample
+        instants (`export.functions`), and around it
+
+            start, last    time at which this single support began, and of the last sample instant [s]
+            sent (p,)      torque that was sent last [N m]
+            step, without  number of the single support, and of samples in a row without a result
         """
         real, p = self.source.real, self.source.p
         own = [(f.name, "f8" if f.double else real, (f.size,)) for f in self.source.fields]
@@ -132,7 +136,7 @@ class Loaded:
         """init, step and touchdown as ctypes functions, compiled in a temporary folder at the first use."""
         P = self.source.prefix
         with build_c(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
-            library = ctypes.CDLL(str(out))
+            library = ctypes.CDLL(str(out))  # stays in memory when its file is deleted
         return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
 
     def measured(self, t: float, q: Array, v: Array) -> _Record:
@@ -151,6 +155,7 @@ class Loaded:
 
         x changes in place.
         """
+        # the C writes to u, before the tuple with u is returned
         u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
 
@@ -167,6 +172,8 @@ def _at(array: NDArray[Any]) -> ctypes.c_void_p:
 @dataclass(frozen=True)
 class ExportedController(Controller):
     """The exported controller, in place of the one that it was made from; source: the result of `export_c`.
+
+    m is the measurement at a sample instant: t [s], q (n,) [rad], v (n,) [rad/s].
 
     Its state s (size,) is the struct of the C, then the torque u (p,) [N m], all as floats. `initial_state`
     calls init of the C, `correct` step and `jump` touchdown; `output` reads u from s. A sample without a result

@@ -33,7 +33,8 @@ TAKEN = {
 }
 """Prefix that is refused, since it would clash with other names of C -> the reason."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
-"""Name of a function -> its arguments in C besides x, m and next."""
+"""Name of a function -> its arguments in C besides x, m and next, the state before it, the measurement, and the
+state after it: u is the torque for the motors, lost the least pivot of the matrices that are inverted."""
 ON_THE_LINE = ("queue", "waiting", "acting")
 """Fields of the state's struct that hold torques on their way to the motors."""
 
@@ -88,10 +89,11 @@ def source_of(
         functions_, k = functions(computer), computer.robot
     except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
-    # indices of the parameters K that a function reads: the C has these alone
+    # indices of the parameters K (masses, gains, ..) that a function reads (0: K, 1: inputs); the C has these
+    # alone
     used = sorted(set().union(*(read_by(f.function, 0) for f in functions_.all)))
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
-    bad = [names[i] for i in used if values[i] != values[i]]
+    bad = [names[i] for i in used if values[i] != values[i]]  # NaN alone differs from itself
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
     traced = zip(ARGUMENTS, functions_.all, strict=True)

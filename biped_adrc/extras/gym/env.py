@@ -6,8 +6,8 @@
     envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
 A step of the environment is one sample of the walk (not a walking step), from one sample instant to the next
-(1 ms by default); a sample in which the foot strikes ends at the impact, where the clock restarts. `stage`
-defines the observation, `task` the reward.
+(1 ms by default); a sample in which the foot strikes ends at the impact, where the clock restarts. The module
+`stage` defines observation and reward.
 
 The vector environment moves all walks by one call of machine code; each walk is that of `WalkEnv`, bit for bit.
 A walk that has ended begins anew at the next step (`AutoresetMode.NEXT_STEP`): its action of that step has no
@@ -70,7 +70,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     - action: "torques", where the action is the whole torque, or "added", where it is added to the torque of
       the scenario's controller. An action is a share of the torque limit [1] for each motor, the robot's limit
       or the scenario's if that is lower; the motors give no more than that.
-    - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
+    - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`stage.LearnerTask`).
     - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
     `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError
@@ -100,7 +100,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
 
         Raises InputError for options, and for a seed out of its range.
         """
-        super().reset(seed=seed)
+        super().reset(seed=seed)  # restarts Gymnasium's generator of random numbers, np_random
         check_options(options)
         self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
         return self.stage.observations()[0], self._info()
@@ -113,7 +113,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         the walk has already ended.
         """
         # codes: 0 for a walk that goes on
-        stage = self.stage
+        stage = self.stage  # of one walk, so [0] below is that walk
         if stage.stepper.walks.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
@@ -158,6 +158,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.generators = [np.random.default_rng() for _ in range(num_envs)]
+        # before the first `reset` no walk goes on
         self.over: Flags = np.ones(num_envs, dtype=bool)
         # Gymnasium's mask of the walks that have an entry of the infos: all
         self.there = frozen(np.ones(num_envs, dtype=bool))
@@ -244,6 +245,7 @@ class Picture:
         """Choose the scale for the walks of a stage that was made with `drawn`, so that it follows the feet."""
         self.stage, self.biped, self.bones = stage, stage.plant, bones(stage.plant)
         self.fall = math.tan(stage.scene.slope(stage.task.scenario))
+        # the robot just after an impact, in single support 1 with its stance foot at the origin
         lines = self._lines(stage.scene.on_orbit[0], 1, np.zeros(2))
         highest = max(float(z) for ends, _ in lines for z in ends[:, 1])
         self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)
@@ -264,7 +266,7 @@ class Picture:
         q, t, step = row[: self.biped.n], float(row[first]), int(row[first + 1])
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")
         pen = ImageDraw.Draw(image)
-        x_0 = float(foot[0] + self.biped.hip(q)[0])
+        x_0 = float(foot[0] + self.biped.hip(q)[0])  # of the hip, in the middle of the picture [m]
 
         def level(x: float) -> float:
             return float(foot[1] - self.fall * (x - foot[0]))

@@ -92,6 +92,7 @@ class LearnerTask(Checked, Shown):
             raise InputError(
                 f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"
             )
+        # mine: values of the controller that the scenario sets
         mine = flat({"controller": self.scenario.controller.record()})
         if self.action == TORQUES and mine:
             raise InputError(
@@ -108,7 +109,6 @@ class LearnerTask(Checked, Shown):
         and a condition together, and for values that a scenario does not take.
         """
         # how: fields of the task; record: those of the scenario
-
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
         how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
@@ -117,6 +117,7 @@ class LearnerTask(Checked, Shown):
             return cls(scenario.replace(record), **how)
         ground = record.get("ground", RIGID)
         plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
+        # there: the conditions that a walk on this plant can have
         there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
         name = condition or "nothing"
         if name not in there:
@@ -166,6 +167,7 @@ class Stage:
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
         self.cost = task.effort / (p * self.limits.torque**2)
+        # a run ends as RAN_AWAY above the rate v, so no observation can be higher
         v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
         # bounds of q, q', e and e'; e is a difference of two angles
         measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
@@ -173,7 +175,8 @@ class Stage:
         self.lowest, self.needs = -self.highest, np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
-        # a task that cannot be walked raises here; no walk goes on until `begin` is called for it
+        # a task that cannot be walked raises here; with the code -1 no walk goes on until `begin` is called for
+        # it
         self.begin(0, self.task.scenario.run.seed)
         self.stepper.walks.codes[:] = -1
 
@@ -182,6 +185,7 @@ class Stage:
         # an empty `_seen` lets `view` be computed anew
         self.stepper.reset(i, seed)
         self.seeds[i], self._seen = seed, np.zeros(0)
+        # neutral, as each single support can only make them worse
         self.needs[i] = 1.0, 0.0, np.inf, 0.0
         self.feet[i], self.steps[i] = 0.0, 0.0
 
@@ -230,7 +234,7 @@ class Stage:
 
     def rewards(self) -> Array:
         """Rewards (N,) [1] of the last sample; 0 for a walk that has fallen."""
-        # the last columns of the view: 1 at no tracking error and falling with it; the sum of squared torques
+        # `paid`, the last two columns of the view: 1 / (1 + |e|^2 / e_1^2), and |u|^2
         close, u = self.view[:, self.first + 2 :].T
         paid = self.task.alive + self.task.tracking * close - self.cost * u
         return np.where(self.stepper.walks.codes == 0, paid, 0.0)
@@ -295,6 +299,7 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     assert isinstance(tail, Tail)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
+        # state: the measurement; b: what the detector believes about the legs and the single support
         state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
         line = labelled(loop, b, tail.line)
     else:

@@ -2,9 +2,9 @@
 
     t [s], contact, q1 [rad] .. qN [rad], v1 [rad/s] .., u1 [N m] .. up [N m]
 
-There are N = n angles and rates and p torques. contact is 1 or 2, the number of the leg that stands. The
-columns are then of the robot's own joints, which keep their names while it walks. The package names joints by
-stance and swing leg: with contact 1 the names agree; with contact 2 the legs are exchanged when the file is
+N is the number n of coordinates, and p that of motors. contact is 1 or 2, the number of the leg that stands.
+The columns are then of the robot's own joints, which keep their names while it walks. The package names joints
+by stance and swing leg: with contact 1 the names agree; with contact 2 the legs are exchanged when the file is
 read. A file that has `step` in place of `contact`, the number of the single support, has the package's names
 already.
 
@@ -101,6 +101,7 @@ def relabel_legs(
     legs (K,): 1 or 2, the leg that stands. From the robot's own legs to stance and swing leg, and back: the
     function is its own inverse.
     """
+    # R (n, n): matrix of the exchange, q+ = R q- + offset, v+ = R v-; `swap` is that of the torques
     other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
     q, v = np.where(other, turned, q), np.where(other, v @ biped.R.T, v)
@@ -109,7 +110,7 @@ def relabel_legs(
 
 def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
     """Raise InputError where the rate of a joint is measured on one leg and not on the other; measured (n,)."""
-    # R has an entry i, j where v_j becomes v_i when the legs are exchanged
+    # R (n, n), q+ = R q-, exchanges the names of the legs: it has an entry i, j where v_j becomes v_i
     alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1
     if len(alone):
         raise InputError(
@@ -134,13 +135,14 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
     for at, text in enumerate(head):
         match = _COLUMN.fullmatch(text)
         if match is None or match[1] not in known:
-            continue
+            continue  # a column that the log does not use
         name, unit = match[1], match[2]
         if name in result:
             raise InputError(
                 f"two of its columns are called '{name}', in {head}; leave one of them out"
             )
         result[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
+    # t, q and u have to be there, and one of contact and step; rates may be missing
     missing = [x for x in known if x[0] in "tqu" and x not in result]
     if missing or (CONTACT in result) == (STEP in result):
         asked = [f"{x} [{_UNITS[x[0]]}]" for x in missing] or [f"one of {CONTACT}, {STEP}"]
@@ -168,8 +170,9 @@ def _factor(column: str, name: str, unit: str | None) -> float:
 
 
 def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:
-    """Sentences that name the columns which were converted or ignored, for the log's remarks; arguments as in
-    `_wanted`, and its result.
+    """Sentences that name the columns which were converted or ignored, for the log's remarks.
+
+    head: headings of the file. wanted: name of a column -> (its index in the file, factor to its SI unit).
     """
     used = {at for at, _ in wanted.values()}
     scaled = [head[at] for at, factor in wanted.values() if factor != 1.0]
@@ -186,7 +189,7 @@ def _log(
     names: what each row is called in messages. Raises InputError for rows that are no log of this robot.
     """
     rows = len(names)
-    none = np.zeros(rows)
+    none = np.zeros(rows)  # in place of a rate that was not measured
     q, v, u = (
         np.array([table.get(f"{x}{i}", none) for i in range(1, size + 1)]).reshape(size, rows).T
         for x, size in (("q", biped.n), ("v", biped.n), ("u", biped.p))
@@ -201,6 +204,7 @@ def _log(
             )
         # single supports are counted from 1; the stance leg changes at each touchdown
         step = 1.0 + np.cumsum(np.diff(legs, prepend=legs[:1]) != 0.0)
+    # checked before the legs are exchanged, so that messages name the columns of the file
     log = table["t"], step, q, u, v
     check_rows(*log, names)
     check_plausible(log, measured, biped, names)
@@ -216,12 +220,14 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
 
         r_i = sum over intervals of Delta q_i D_i / sum of D_i^2,     D_i = integral of v_i over the interval
 
-    is 1 where v_i is the rate of q_i, 1/57 where one of both is in degrees, -1 where it has the other
-    sign. log: t, step, q, u, v as in `RobotLog`, but with the joints named as in the file. has (n,): whether a
-    rate was measured; names (K,): what each row is called in messages.
+    is 1 where v_i is the rate of q_i, 1/57 where v_i is in degrees and q_i in radians, 57 the other way round,
+    -1 where one of them has the wrong sign.
+
+    log: t (K,), step (K,) the number of the single support, q (K, n), u (K, p), v (K, n), in SI units, with the
+    joints named as in the file. has (n,): whether a rate was measured; names (K,): what each row is called in
+    messages.
     """
     # `[:1]` in the loops below: the first wrong number is reported
-
     t, step, q, u, v = log
     for k, i in np.argwhere(np.abs(q) > MOST_ANGLE)[:1]:
         raise InputError(
@@ -255,6 +261,7 @@ def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]
     ways = np.diff(t)[:, np.newaxis]
     area = np.vstack((np.zeros_like(v[:1]), np.cumsum(0.5 * ways * (v[1:] + v[:-1]), axis=0)))
     rows = max(1, round(STRETCH / float(np.median(ways))))
+    # begins: first rows of intervals whose ends are in the same single support; every rows-th of them
     begins = np.flatnonzero(step[:-rows] == step[rows:])[::rows]
     return q[begins + rows] - q[begins], area[begins + rows] - area[begins]
 
@@ -265,7 +272,7 @@ def _check_rate(turned: Array, integral: Array, i: int) -> None:
     turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
     """
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
-        return
+        return  # too little motion for a verdict
     square = float(integral @ integral)
     ratio = float(turned @ integral) / square if square > 0.0 else math.inf
     if not RATIOS[0] <= ratio <= RATIOS[1]:

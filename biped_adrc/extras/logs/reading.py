@@ -6,6 +6,10 @@ by the impulses that act on it:
 
     a = Delta(D q') - integral of (C' q' - G) dt,   b = integral of B u dt,   r = |a - b| / sqrt(|a|^2 + |b|^2)
 
+    D, C        inertia matrix [kg m^2] and Coriolis matrix [kg m^2/s] of the nominal model; C' is the transpose
+    G, B        gravity's torque (n,) [N m]; B u (n,) is the motors' torque on the coordinates
+    a, b        impulses (n,) [N m s] by the motion and by the motors; Delta: change over the window
+
 with q' from differences of the angles and norms over all windows; on exact data a = b. r is about 0.1 for the
 right reading on exact sensors, 0.5 with encoders, friction and masses that are 30 % off, and 0.9 or more for a
 wrong one. The mirror image of a walk, angles and torques with the other sign, fits as well, but its swing foot
@@ -44,6 +48,7 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
     if not fits:
         return ()
     behind, r, _ = fits[0]
+    # r of two digits: of equal fits `min` takes the first, so the log as it stands goes before the others
     ahead, least, words = min(fits, key=lambda fit: (fit[0], round(fit[1], 2)))
     lands = ", and the swing foot lands behind the stance foot" if behind else ""
     off = f"the log is {r:.0%} off the model's balance of momentum{lands}"
@@ -61,7 +66,6 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     touchdown in the log it is taken to land in front, so that a walk and its mirror image look alike.
     """
     # `half` rows on each side of a window are needed for differences; all lie in one single support
-
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
     begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]
@@ -75,8 +79,10 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
         "all angles are in radians ('q1 [rad]')": (np.degrees(log.q), log.u),
     }
     for words, (q, u) in readings.items() if len(begins) else ():
+        # ahead: x of the swing foot from the stance foot [m] in the last row before each touchdown
         ahead = [biped.swing_foot(q[k])[0] for k in np.flatnonzero(np.diff(log.step))] or [0.0]
         free, driven = _impulses(log.t, q, u, biped, begins, half, rows)
+        # 1 where both are zero, for r = 0 and not 0/0
         whole = float(np.sum(free**2 + driven**2)) or 1.0
         for sign, also in ((1.0, ""), (-1.0, "all torques have the other sign")):
             r = float(np.sum((free - sign * driven) ** 2) / whole) ** 0.5
@@ -94,10 +100,12 @@ def _impulses(
     """
     free, driven = np.zeros((2, len(begins), biped.n))
     for i, k in enumerate(begins):
+        # at: five rows of the window, from its first one to its end, for the integral by trapezoids
         at = np.linspace(k, k + rows, 5).round().astype(int)
         v = (q[at + half] - q[at - half]) / (t[at + half] - t[at - half])[:, np.newaxis]
         own = [biped.coriolis(x, w).T @ w - biped.gravity(x) for x, w in zip(q[at], v, strict=True)]
         change = biped.inertia(q[at[-1]]) @ v[-1] - biped.inertia(q[k]) @ v[0]
         free[i] = change - np.trapezoid(own, t[at], axis=0)
+        # the first p coordinates are those of the joints with motors
         driven[i, : biped.p] = np.mean(u[k : k + rows], axis=0) * (t[k + rows] - t[k])
     return free, driven

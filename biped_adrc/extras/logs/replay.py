@@ -9,12 +9,17 @@ paper.
     result.plot()      the signals as a figure
 
 Of the scenario these values are used: robot, gait, controller, observer, period, torque limit, filter_time.
-Pushes, errors of the model and ground are ignored, as the log was measured on the real robot. xi^ is the
-estimate of the total disturbance xi = q_b'' - kappa u, and kappa the input matrix of the nominal model.
+Pushes, errors of the model and ground are ignored, as the log was measured on the real robot.
+
+    q_b, u                  angles (p,) [rad] of the actuated joints, and their torques (p,) [N m]
+    kappa                   input matrix (p, p) of the nominal model [1/(kg m^2)]: q_b'' = xi + kappa u
+    xi, xi^                 total disturbance (p,) [rad/s^2], and its estimate by the observer
+    xi_nominal              the part of xi that the nominal model explains (14) [rad/s^2]
+    y = q_b, y^ = x1^       measured angles, and the observer's estimate of them [rad]
+    s, m                    the controller's state, observer included; a measurement, with the model's terms
 
 At row k, with measurement m_k, the steps are those of every sample instant (`closed_loop.semantics.tick`), but
-the log's torque u_k [N m] acts in place of the controller's own. s is the controller's state, observer
-included:
+the log's torque u_k [N m] acts in place of the controller's own:
 
     a touchdown:   s <- jump(s, m+), m+ with the angles of row k and the rates just after the nominal impact (7)
     y_k - y^_k     the observer's error [rad], before s is corrected by row k
@@ -116,7 +121,7 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
     that counts as contact. Raises NotFiniteError for a controller or an observer that diverges on the log.
     """
     # law: the controller; calls: its methods for sample instants, with checks; estimate gives None without an
-    # observer
+    # observer; after: the measurement just after a touchdown, None at other rows
     law, calls, rows = walker.law, walker.calls, []
     s = np.zeros(0)
     for k, (m, after) in enumerate(measurements(walker, log, filter_time)):
@@ -124,9 +129,11 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
             s = law.initial_state(m)
         elif after is not None:
             s = calls.jump(s, after, walker.swap)
+        # expected: position x1^ and disturbance xi^ of the observer before the correction by this row
         expected = calls.estimate(s, m)
         s = calls.correct(s, m)
         u = walker.saturate(calls.output(s, m))
+        # terms: kappa and xi of the nominal model; xi: the estimate xi^
         result, terms = calls.estimate(s, m), m.terms
         xi = np.full(len(terms.xi), np.nan) if result is None else result.disturbance
         beyond = terms.kappa_inverse @ (xi - terms.xi)
@@ -160,6 +167,8 @@ def measurements(
         after = None
         if log.step[i] != mode.step:
             mode = Mode(int(log.step[i]), t)
+            # expected: rates just after the nominal impact from the row before, which the sensors still hold;
+            # they count where the log has no rates. after: the measurement with them
             expected = walker.nominal.impact(*sensors.reading(w, q[i], v[i])).v
             w = sensors.impact(w, q[i], v[i], expected)
             after = walker.measure(t, *sensors.reading(w, q[i], v[i]), mode)

@@ -4,10 +4,11 @@ instants.
     row k      q_k, and where there are rates v_k, as the sensors measured them at t_k
                u_k, the mean torque of the motors from t_k until t_(k+1)
 
-The joints have the names (labels) of the package, by stance and swing leg, which exchange at a touchdown. Rows
-of one single support are one period apart; the first row of the next may come earlier. `log_file` reads and
-writes logs, also with names by the robot's own legs; `logged` makes the log that the computer of a simulated
-robot would have written, so that estimates can be compared with the true values.
+The q (n,) [rad] are the coordinates, v (n,) [rad/s] their rates, u (p,) [N m] the torques of the p motors. The
+joints have the names (labels) of the package, by stance and swing leg, which exchange at a touchdown. Rows of
+one single support are one period apart; the first row of the next may come earlier. `log_file` reads and writes
+logs, also with names by the robot's own legs; `logged` makes the log that the computer of a simulated robot
+would have written, so that estimates can be compared with the true values.
 """
 
 from __future__ import annotations
@@ -145,7 +146,8 @@ def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[
     """Raise InputError for arrays of different length, numbers that are not finite, and numbers of single
     supports or times that are not those of a sampled walk.
 
-    Shapes as in `RobotLog`; names (K,): what each row is called in messages, such as "line 7".
+    t, step (K,), q, v (K, n), u (K, p): as a `RobotLog` has them. names (K,): what each row is called in
+    messages, such as "line 7".
     """
     K = (len(names),)
     fits = t.shape == step.shape == q.shape[:1] == u.shape[:1] == K and q.ndim == u.ndim == 2
@@ -233,6 +235,7 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
     """
     t, period = arc.t, time.period
     since = t - (t[0] if time.restart else start)
+    # due: nodes at a sample instant; of two nodes of equal time the later one is followed by a longer time
     due = np.abs(since - period * np.round(since / period)) < SAME_INSTANT
     after = np.flatnonzero(due[:-1] & (np.diff(t) > 0.0))
     before = [*(int(np.searchsorted(t, t[k])) for k in after[1:]), len(t) - 1]

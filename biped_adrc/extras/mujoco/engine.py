@@ -45,6 +45,7 @@ def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None
 
     move: function that takes the steps in place of MuJoCo's mj_step; None for that.
     """
+    # q and v are MuJoCo's own arrays, which change in place
     half, q, v = 0.5 * model.opt.timestep, data.qpos, data.qvel
     q += half * v
     (mujoco().mj_step if move is None else move)(model, data, steps)
@@ -73,6 +74,8 @@ class MuJoCoEngine:
         d, n = biped.description, biped.n
         self.angles, self.base = self._places(d.joints), self._places(d.base)
         # own begins at 2 n with the time of the touchdown; the base and its velocity follow
+        # order: the coordinates (q, base) as MuJoCo has them in qpos and qvel, in the order of the model's
+        # joints
         order = np.argsort(np.concatenate((self.angles, self.base)))
         self.positions = np.array([*range(n), 2 * n + 1, 2 * n + 2])[order]
         self.rates = np.array([*range(n, 2 * n), 2 * n + 3, 2 * n + 4])[order]
@@ -96,6 +99,7 @@ class MuJoCoEngine:
         row.take(self.rates, out=self.qvel, mode="clip")
         self.warnings[:] = 0
         if self.planes:
+            # own[6:8], the heights of the ground, in the row (q, q', own)
             first = 2 * self.biped.n + 6
             self.model.geom_pos[self.planes, 2] = self.depth + row[first : first + 2]
 
@@ -111,6 +115,7 @@ class MuJoCoEngine:
             return
         self.applied[self.angles] = load.zeta
         if any(load.force.tolist()):
+            # J (2, n): the base's velocity from q' with the stance foot fixed
             f = self.biped.floating
             J = f.velocity_map(q)[f.base, : self.biped.n]
             self.applied[self.angles] -= J.T @ load.force
@@ -123,7 +128,7 @@ class MuJoCoEngine:
         Of own only base, its velocity and u_m change. Raises StepFailed where MuJoCo warns of a state that is
         not finite or huge.
         """
-        steps = max(1, math.ceil((until - t) / self.h - 1e-6))
+        steps = max(1, math.ceil((until - t) / self.h - 1e-6))  # 1e-6: round-off adds no step
         self.options.timestep = (until - t) / steps
         self.place(row)
         self.push(u, row[: self.biped.n], load)
@@ -131,6 +136,7 @@ class MuJoCoEngine:
             row = np.concatenate((row[: -len(u)], self.followed(u, row[-len(u) :], steps)))
         else:
             self.step(self.model, self.data, steps)
+        # MuJoCo counts warnings; after a reset the data serve the next run
         if any(self.warnings.tolist()):
             mujoco().mj_resetData(self.model, self.data)
             raise StepFailed(f"MuJoCo lost the motion before t = {until:.6g} s: not finite or huge")
@@ -144,6 +150,7 @@ class MuJoCoEngine:
         the step.
         """
         ratio = self.options.timestep / self.lag
+        # of the distance u_m - u: the share left after a step, and its mean over the step
         left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio
         step, missing = mujoco().mj_step, u_m - u
 

@@ -6,7 +6,7 @@ Its state is row = (q, q', own), with q and q' of stance and swing leg as on the
     own[1:5]    base (x, z) [m], and its velocity [m/s]
     own[5]      number of the single support             } only on ground with steps
     own[6:8]    levels under stance and swing foot [m]   } up and down
-    own[-p:]    torques u_m [N m]                          only of motors with lag
+    own[-p:]    torques u_m of the motors [N m]            only of motors with lag
 
 At a touchdown the row is relabelled as on the rigid plant: stance and swing leg exchange their names. The legs
 of the robot are alike, so MuJoCo's first leg then stands again; a model error of one link follows the leg that
@@ -15,7 +15,8 @@ carries more than `touchdown_force`.
 
 Between sample instants and switching times of a push MuJoCo integrates alone, under constant torque and the
 external load that acts in the middle of this time. A load has generalised forces zeta of the coordinates q with
-the stance foot fixed, and their resultant F (2,). In MuJoCo, where the base floats, it becomes
+the stance foot fixed, and their resultant F (2,) [N]. In MuJoCo, where the base floats, the load's generalised
+forces f are
 
     f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot fixed
 
@@ -93,6 +94,7 @@ class MuJoCoPlant(Checked, Shown):
 
     def __post_init__(self) -> None:
         """Check the fields and make MuJoCo's model; see the class."""
+        # infinite: bounds on rates and torques are not the plant's but the control loop's
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
@@ -199,6 +201,7 @@ class MuJoCoPlant(Checked, Shown):
 
         Raises InputError for a swing foot that is more than DEEPEST inside the ground.
         """
+        # place and velocity (x, z) of the base that follow from the angles, with the stance foot at the origin
         f = self.biped.floating
         base, speed = f.configuration(q)[f.base], (f.velocity_map(q)[:, : self.n] @ v)[f.base]
         depth = -float(np.dot(self.out, self.biped.swing_foot(q)))
@@ -226,6 +229,7 @@ class MuJoCoPlant(Checked, Shown):
         result = self.contacts(until, own, points)
         if self.ground_steps and not result:
             self.look_ahead(own, points)
+        # a contact without an end of the run is a touchdown
         lands = result and result[0].ends is None
         return Moved(until, after, result, self.landed(until, after) if lands else None)
 
@@ -237,6 +241,7 @@ class MuJoCoPlant(Checked, Shown):
         places of stance foot, swing foot and hip.
         """
         (x, z), (stance, swing, _) = self.out, points
+        # height of the next foothold: the stance foot's level less the drop after this single support, own[5]
         foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
         if swing[0] > stance[0] and x * swing[0] + z * (swing[2] - foothold) > 0.0:
             own[7] = foothold
@@ -252,6 +257,7 @@ class MuJoCoPlant(Checked, Shown):
         model, data, force = self.engine.model, self.engine.data, self.forces()
         place, speed = np.zeros((2, 2)), np.zeros((2, 2))
         for i, name in enumerate(self.biped.description.feet):
+            # `xpos` of the foot's frame: the centre of its sphere
             moves, body = np.zeros(6), data.body(name)
             # moves: angular velocity, then velocity, in the axes of the world
             mj.mj_objectVelocity(model, data, mj.mjtObj.mjOBJ_XBODY, body.id, moves, 0)
@@ -270,6 +276,7 @@ class MuJoCoPlant(Checked, Shown):
         if self.lag > 0.0:
             own[-self.p :] = relabelled(own[-self.p :], self.swap)
         if self.ground_steps:
+            # next single support; the levels of the two feet exchange
             own[5:8] = own[5] + 1.0, own[7], own[6]
         return np.concatenate((self.biped.relabel(row[:n]), self.biped.R @ row[n : 2 * n], own))
 
@@ -283,6 +290,8 @@ class MuJoCoPlant(Checked, Shown):
         ground.
         """
         (x, z), (stance, swing, hip) = self.out, points
+        # below, ahead: levels of the ground under stance and swing foot; x p_x + z p_z is the height of a point
+        # p over ground of the slope, for the unit vector (x, z) out of it
         below, ahead = self.levels(own).tolist() if self.ground_steps else (0.0, 0.0)
         if x * hip[0] + z * (hip[2] - below) < self.lowest_hip:
             return (Contact("hip_too_low", ends=Status.FELL),)

@@ -134,12 +134,14 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
         xx, xy, xz, yy, yz, zz = inertial.inertia
         full = {"mass": text(inertial.mass), "fullinertia": text((xx, yy, zz, xy, xz, yz))}
         ET.SubElement(body, "inertial", {"pos": text(inertial.com)} | full)
+    # [N m s/rad] and [N m] by coordinate; zero for a robot without friction (biped.friction False)
     viscous, static = np.array(biped.friction_coefficients) * biped.friction
     for joint in joints:
         if joint.type == "fixed":
             continue
         own = {"name": joint.name, "type": _KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:
+            # inertia of the motors' rotors, seen at the joints [kg m^2]
             rotors = np.broadcast_to(biped.armature, biped.p)
             own["armature"] = text(float(rotors[d.actuated.index(joint.name)]))
         if joint.name in d.joints:

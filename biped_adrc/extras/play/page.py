@@ -5,11 +5,12 @@
 The page has controllers, robot and integration as WebAssembly (`extras.play.webassembly`). Its scripts move the
 walk sample by sample (from one sample instant to the next), compute the push of the user, which is called the
 hand, go back in time, and show a ghost, which is a second walk for comparison. The user can choose among the
-scenarios with which the page was made, on the rigid plant: the scenario of `play`, OTHERS, and the stations of
-the tour, each a text with values of a scenario. A walk that is chosen begins anew.
+scenarios with which the page was made, on the rigid plant: that of `play`, the same one with other controllers
+or observers (OTHERS, if the caller names none), and the stations of a tour, each a text with values of a
+scenario. A walk that is chosen begins anew.
 
-The walk has no end and its ground is not known beforehand: the page moves the ground and a
-few footprints along with it.
+The walk has no end and its ground is not known beforehand: the page moves the ground and a few footprints along
+with it.
 """
 
 from __future__ import annotations
@@ -95,7 +96,7 @@ def page(
     that the slider reaches [sampling periods], 0 for no such slider. Raises InputError for a walk that a page
     cannot compute.
     """
-    # first: name of the walk of `scenario` itself, that of an equal one of the others if there is one
+    # first: name of the walk of `scenario` itself; that of an equal one of the others if there is one
     scenarios = {name: revised(scenario, x) for name, x in others.items()}
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
@@ -114,6 +115,7 @@ def page(
         "numbers": page_numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
     }
     title = f"{scenario.robot.name}, live"
+    # without the line that names the walk, which a user may change
     legend = captions({"walk": scene})[1:]
     if scenario.hardware.torque_limit is None:
         legend.append(("", "motors without a torque limit: set hardware.torque_limit for one"))
@@ -188,7 +190,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     given = scene_settings({"walk": scene, "ghost": scene}, Clip())
     commands = given["commands"]
     assert isinstance(commands, list)
-    robot = "meshcat/robots/0"
+    robot = "meshcat/robots/0"  # the walk; its ghost is robots/1
     links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
     return given | {
         "commands": [*commands, *hand_commands()],
@@ -208,6 +210,7 @@ def hand_commands() -> list[str]:
     """Commands of the viewer Meshcat that draw the arrow of the hand's force and the line of its spring."""
     window = draw.MemoryWindow("hand")
     window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
+    # in the colour of torques from outside, and opaque; the line has two points
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)
     draw.add_trace(window.viewer["hand/line"], 2, draw.DARK, 1.0)
     return window.packed

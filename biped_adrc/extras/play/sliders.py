@@ -104,7 +104,8 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
 
     order: m of the observer, None for none; it is kept when the bandwidth changes.
     """
-    # without poles of a list, which would override the bandwidth; gains that s leaves out are those of Table II
+    # also: set with the observer's sliders; poles of a list would override the bandwidth, so they are dropped.
+    # Gains that s leaves out are those of Table II of the paper
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
     c = s.controller
@@ -115,6 +116,7 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     for name, parameter in takes(find("controller", c.name).load()).items():
         x = c.own.get(name, parameter.default)
         if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
+            # a tenth to ten times the value; sorted, since it may be negative
             low, high = sorted((0.1 * x, 10.0 * x)) if x else (-1.0, 1.0)
             yield Slider(f"controller.{name}", low, high, x > 0.0, value=x)
 
@@ -164,6 +166,7 @@ def end(one: Slider, x: float, numbers: _Numbers) -> float:
 
     It is rounded to two digits. A slider without a present value keeps its end.
     """
+    # x becomes the value tried last: the first one that the walk accepts, or else the present value
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
@@ -188,7 +191,7 @@ def changing(base: Array, rows: Array) -> list[int]:
     Empty where `base` (N,) differs from the rows in any other number: then the slider alone cannot reach the
     walk as it begins.
     """
-    change = np.any(rows != rows[0], axis=0)
+    change = np.any(rows != rows[0], axis=0)  # (N,), whether a number depends on the slider
     return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
 
 
@@ -208,6 +211,7 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
     """
     with np.errstate(all="ignore"):
         for k in POWERS if np.all(s > 0.0) else ():
+            # b follows from the last value, the other two have to agree
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < _EXACT):
                 yield 0.0, float(y[2] / s[2] ** k), k
         for k, f in ((1, s), (0, np.tan(s))):

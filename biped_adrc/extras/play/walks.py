@@ -1,17 +1,18 @@
 """The walks of the page on which a user pushes the robot, as numbers that the script machine.js reads.
 
-The block is the memory of a compiled run, cells of 8 bytes (`engine.kernels.record`); among them are the
-numbers (parameters) of the walker, which sliders of the page change. The structure of a walker is all of it but
-the values of these numbers: it decides the machine code. A delay of the torque changes the structure, so a walk
-has several variants, one for each range of delays.
+The block is the memory of a compiled run, cells of 8 bytes (`engine.kernels.record`); a plan is the block of a
+run that has not begun. Some of the cells are the numbers (parameters) of the walker, which sliders of the page
+change. The structure of a walker is all of it but the values of these numbers: it decides the machine code. A
+delay of the torque changes the structure, so a walk has several variants, one for each range of delays.
 
 The hand is the push of the user: two terms of the disturbance, a torque on the coordinates and a force on a
 link. The page writes their numbers into the block before each sample.
 
 The force acts on a point of a link, whose place from the stance foot is the real and the imaginary part of
-the sum over k of (re_k + i im_k) exp(i a_k), a = A q. re and im (n,) [m] are affine in the place (x, z) on the
-link: for each link that is drawn, the page gets their values at (0, 0) and their slopes along x and z. turn
-(n,) is the derivative of the link's angle by q.
+the sum over k of (re_k + i im_k) exp(i a_k), where a = A q (n,) [rad] are the absolute angles of the links that
+follow from the coordinates q (n,). re and im (n,) [m] are affine in the place (x, z) on the link: for each link
+that is drawn, the page gets their values at (0, 0) and their slopes along x and z. turn (n,) is the derivative
+of the link's angle by q.
 """
 
 from __future__ import annotations
@@ -84,7 +85,8 @@ class PageWalk:
 
         Raises InputError, with the name, for a walk that a page cannot compute.
         """
-        # rubbed: the scenario with joint friction, taken if the robot has coefficients of friction
+        # rubbed: the scenario with joint friction, taken if the robot has coefficients of friction; these are
+        # without error, since the slider scales them
         plant, fine = s.ground.plant, s.run.fine
         if plant != RIGID or fine is not None:
             raise InputError(
@@ -127,6 +129,7 @@ class PageWalk:
     @cached_property
     def names(self) -> dict[str, int]:
         """Name of each number (parameter) of the walker -> the index of its cell in the block."""
+        # cell of the first parameter; `paths` names them in their order
         first = self.code.plan.place("K")
         return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
@@ -146,8 +149,10 @@ class PageWalk:
         Raises InputError for values that give the machine code another structure.
         """
         s = self.rubbed.replace(values)
+        # with the hand of the present walker
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = walk_code(s, self.scene, walker, self.x)
+        # key: the structure that decides the machine code
         if code.program.key != self.code.program.key:
             raise InputError("another structure")
         return self._block(code)
@@ -157,6 +162,7 @@ class PageWalk:
 
         Blocks are compared to find the numbers that a slider changes.
         """
+        # from x at 0 s in the single support (number, start); the page itself sets the end, here 0 s
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in FUNCTIONS:
             result[PLACES[name]] = 0.0  # an address, which differs from process to process
@@ -183,6 +189,7 @@ class PageWalk:
         if rubbing:
             s = self.scenario
             share = 1.0 + s.errors.friction if s.hardware.friction else 0.0
+            # from 0 to 3 times the robot's friction; share: that of the scenario, with which the walk begins
             one = Slider(FRICTION, 0.0, 3.0, False, "×", 1.0, share, True)
             result[FRICTION] = one, cast(dict[str, Form], rubbing)
         return result
@@ -194,6 +201,7 @@ class PageWalk:
         low, high = self.delays
         if low == high:
             return {}
+        # away from both ends, at which the machine code has another structure
         inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
         return forms_of(inside, self.numbers, numbers_at(inside, self.at))
 
@@ -237,6 +245,7 @@ def with_hand(walker: Walker) -> Walker:
     """The walker with the hand as its disturbance: a torque on the coordinates and a force on the trunk, both
     zero; the page changes values and link.
     """
+    # amplitudes: (F_x, F_z, moment) of the force, n torques of the other term
     force = OnLink(walker.plant, walker.plant.description.trunk, TorqueStep(np.zeros(3)))
     return replace(walker, disturbance=Sum() + TorqueStep(np.zeros(walker.plant.n)) + force)
 
@@ -299,6 +308,7 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
     shown = [one._asdict() for one, _ in result.values()]
     if len(walk) > 1:
         high, delay = max(one.delays[1] for one in walk), first.timing.delay
+        # from 0 to the longest delay of a variant [s], linear, displayed in ms, for both walks of the page
         shown.append(Slider(DELAY, 0.0, high, False, "ms", 1e3, delay, True)._asdict())
     return {
         "lines": scenario_lines(first.scenario),
@@ -349,6 +359,7 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
     """Indices in the block of the hand's torque (n,) and force (2,), and the first ones of re, im and turn (n,)
     of its point.
     """
+    # the hand has the terms of `with_hand`: [0] a torque on the coordinates, [1] a force on a link
     n, hand = code.walker.plant.n, code.walker.disturbance
     assert hand is not None
 
@@ -360,7 +371,7 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
 
     return {
         "torque": places("[0].amplitude", n),
-        "force": places("[1].wave.amplitude", 2),
+        "force": places("[1].wave.amplitude", 2),  # (F_x, F_z); the moment behind them stays zero
         **{name: places(f"[1].point.{name}", 1)[0] for name in ("re", "im", "turn")},
     }
 
@@ -372,6 +383,7 @@ def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
     """
     result: dict[str, Any] = {}
     for link in dict.fromkeys(links):
+        # affine in (x, z): the values at the origin, and the differences to 1 m along x and along z
         corner, *others = (
             link_point(plant, link, at) for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
         )
@@ -390,6 +402,7 @@ def trunk_of(plant: Biped) -> str:
     """
     # at a posture without symmetry, the link's origin and the base agree only if they are the same point
     q = np.random.default_rng(0).standard_normal(plant.n)
+    # k: the link's origin from the stance foot; base: place (x, z) of the floating base
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])

@@ -4,11 +4,12 @@ The module is made from the same text as the machine code: the loops of `engine.
 the functions of each walker (flow, tick, impact, ..; together its laws) as `engine.ir` writes them. LLVM makes
 an object file of it, which a browser loads without a linker.
 
-A run is one block of memory (`engine.kernels.record`), which has the addresses of the walker's functions.
-WebAssembly has no addresses of functions: they are called by their number in a table, from 1 on. So the block
-has such a number wherever it has an address in machine code. `WebWalkers.functions` lists the names in the
-order of these numbers, and the constant `called` puts the functions into the table in the same order. Walkers
-of the same structure (equal but for the values of their parameters) share their functions.
+A run is one block of memory (`engine.kernels.record`), which has the addresses of the walker's functions; a
+plan is the block of a run that has not begun. WebAssembly has no addresses of functions: they are called by
+their number in a table, from 1 on. So the block has such a number wherever it has an address in machine code.
+`WebWalkers.functions` lists the names in the order of these numbers, and the constant `called` of the module
+puts the functions into the table in the same order. Walkers of the same structure (equal but for the values of
+their parameters) share their functions.
 
 The page has to pass to the module, by the name `env`: its memory, the table, the end of the stack, and
 functions of mathematics such as `sin` and `pow`. `web_walkers` makes the module, and the block of each walker.
@@ -86,21 +87,25 @@ def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
 
     Raises InputError for the exponential method.
     """
-    # cells of the block with an address get the function's number; 0 stays for a function that it does not have
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
+    # names of two texts: flow, tick, impact, .. of the walker; and the function "reading" that computes all its
+    # signals at one instant, which the page calls to show them
     own = laws.of(program.machine)
-    seen = laws.of(program.reading(signals_at))
+    signals = laws.of(program.reading(signals_at))
+    # a copy, in which vectors have distances from the start in place of addresses
     cells = one.plan.block
+    # the address of a function becomes its number; 0 stays for a function that this walker does not have
     for name in FUNCTIONS:
         at = PLACES[name]
         cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
+    # each term of the disturbance has PART cells in the table `parts`: its function, then a size that stays
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
         push = laws.of(push_code(term, one.walker.plant.n))
         cells[one.plan.place("parts") + PART * k] = laws.number(f"{push}.push")
-    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.reading"))
+    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{signals}.reading"))
 
 
 TARGET = "wasm32-unknown-unknown"
@@ -127,8 +132,10 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = _LOOPS) -> bytes
 
 
 def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
-    """Link the loops and the laws, arguments as in `web_module`, into one module of WebAssembly; returns its
-    bytes.
+    """Link the loops and the laws into one module of WebAssembly; returns its bytes.
+
+    laws: name -> text in LLVM's language, of whose functions `f` becomes `name.f`. called: names of the
+    functions with numbers, in their order.
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
@@ -142,6 +149,7 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     for function in _defined(module):
         if function.name not in called:  # then LLVM may inline it, or leave it out
             function.linkage = "internal"
+    # the constant `called`: the table of functions by number, as the page needs it
     names = ", ".join(f'ptr @"{name}"' for name in called)
     table = f"@called = constant [{len(called)} x ptr] [{names}]"
     heads = (f'declare void @"{name}"()' for name in called)

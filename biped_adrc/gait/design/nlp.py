@@ -12,12 +12,27 @@ alpha, the phases Theta+ and Theta-, the state and impulse after an impact at Th
 Everything else (torque, ground reaction, foot height) is an explicit function of the unknowns, so that CasADi's
 derivatives are exact and nothing is integrated in time. All rows (constraints of the programme) are
 dimensionless: lengths over the leg, forces over the weight, speeds over sqrt(g leg), torques over their limit;
-angles are in rad. In the functions below k is the `SymbolicStep`, and x its `Unknowns`.
+angles are in rad. Symbols: sigma angular momentum about the stance foot, I inertia, G_N gravity's torque, W the
+integral of -G_N I over Theta in the step; + just after an impact, - just before it. In the functions below k is
+the `SymbolicStep` of module `step`, and x its unknowns:
 
-`transcribe` writes it. `solve_nlp` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same
-programme with a slack variable s >= 0 in each limit and sum s minimised (an elastic, or l1, relaxation): a
-slack that stays above zero names a limit that cannot be kept, and an end without slack is a feasible point to
-start from again. `optimise` calls all three.
+    k.node           model at the nodes: I, G_N, u, joint rates v_b, force of the ground, swing foot, q
+    k.everywhere     the same at the nodes and both ends, k.places in [0, 1] of the step
+    k.span, dt       Theta- - Theta+, and the time that belongs to each node; k.duration is the sum of dt
+    k.until, work    integral of -G_N I dTheta from Theta+ to each node, and W
+    k.along, out     unit vectors along the ground and out of it; k.length: distance of the feet along it
+    k.dq             dq/dTheta before impact; q_plus, v_plus: state after an impact at Theta'- = 1, relabelled
+    k.J_2, foot      Jacobian and place of the swing foot before impact
+    k.direction      sign of Theta'; k.phase: row c of Theta = c q
+    k.sigma(q, v)    sigma over its unit k.sigma_scale; k.leg, k.mass: length of the leg, mass of the robot
+    x.q, x.slope     q-, and dq_b/dTheta before impact; x.alpha: coefficients; x.theta: (Theta+, Theta-)
+    x.after          rates after an impact at Theta'- = 1, then the old foot's velocity; x.impulse: its impulse
+    x.rate, rates    |Theta'| before impact, and at the nodes; x.peak: largest torque over its limit
+
+`transcribe` writes the programme. `solve_nlp` runs IPOPT once. Where IPOPT finds no feasible point, `relaxed`
+solves the same programme with a slack variable s >= 0 in each limit and sum s minimised (an elastic, or l1,
+relaxation): a slack that stays above zero names a limit that cannot be kept, and an end without slack is a
+feasible point to start from again. `optimise` calls all three.
 """
 
 from __future__ import annotations
@@ -163,12 +178,12 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     ranges and rates of the joints.
 
     Friction, torque, rates and ranges keep the share `limits.reserve` back for the phases between the nodes;
-    of the torque `x.peak` has it. The clearance required is a hump 16 h (s (1 - s))^2 over the normalised
-    phase, which is h in the middle of the step and 0, with slope 0, at its ends.
+    the torque does by the bound of the unknown `x.peak`. The clearance required is a hump 16 h (s (1 - s))^2
+    over the normalised phase, which is h in the middle of the step and 0, with slope 0, at its ends.
     """
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
-    speed = np.sqrt(k.gravity * k.leg)
+    speed = np.sqrt(k.gravity * k.leg)  # unit of speeds
     node, s = k.everywhere, k.places
     F_T, F_N = k.along @ node.force / weight, k.out @ node.force / weight
     # the impulse at Theta'- = 1 has the sign of Theta'
@@ -192,7 +207,8 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
         Bounded("the torque limit", torque + x.peak, 0.0, infinite, "of the limit"),
         Bounded("the swing foot coming down", before / speed, -infinite, -lift, speeds),
         Bounded("the old foot lifting off", after / speed, lift, infinite, speeds),
-        # Theta goes one way all along and goes on so after impact, some way off a span or a rate of zero
+        # Theta goes one way all along and goes on so after impact; 0.05 rad and 0.02 keep the solver away from
+        # a span and a rate of zero
         Bounded("one way of Theta", k.direction * k.span, 0.05, infinite, "rad"),
         Bounded("one way of Theta after impact", k.phase @ k.v_plus, 0.02, infinite),
         Bounded(
@@ -206,7 +222,8 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             Bounded("the impulse cone", mu_i * P_N - P_T, 0.0, infinite, "of m sqrt(g leg)"),
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
-    # nodes at which the foot has to be above the ground: without a clearance those after PASSED alone
+    # nodes at which the foot has to be above the ground: without a clearance those in the later half of the
+    # step alone, s > PASSED = 0.5, since a leg without a knee scuffs before
     above = [
         i for i, x in enumerate(s) if x > (PASSED if limits.clearance is None else 0.0) and x < 1.0
     ]
@@ -216,6 +233,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     rows.append(Bounded(name, height, 0.0, infinite, legs))
     for joint, (low, high) in limits.ranges.items():
         j = k.biped.description.joint_index(joint)
+        # the reserve at either end is a share of 0.25 rad, or of half the range where that is less
         kept_back = limits.reserve * min(0.25, 0.5 * (high - low))
         ends = low + kept_back, high - kept_back
         rows.append(Bounded(f"the range of {joint}", node.q[j, :], *ends, "rad"))
@@ -228,8 +246,9 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
 def _objective(k: SymbolicStep) -> ca.MX:
     """The cost (1, 1) of the request's objective, made dimensionless so that it is about 1 in size.
 
-    Objectives other than torque have a little torque squared (`calm`) added, CALM times, since they leave the
-    torque undetermined where it costs nothing.
+    Torque: the integral of u'u over time and step length. Transport: that of sum |u_i q_i'| over weight and
+    step length. Peak: the largest |u_i|. The last two have a little torque squared (`calm`) added, CALM times,
+    since they leave the torque undetermined where it costs nothing.
     """
     u = k.node.u / k.limits.torque
     calm = ca.sum2(ca.sum1(u**2) * k.dt) / k.length * np.sqrt(k.leg * k.gravity)
@@ -287,7 +306,7 @@ def solve_nlp(
     result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
     status, count = stats["return_status"], stats["iter_count"]
-    if status in INTERRUPTED:
+    if status in INTERRUPTED:  # how CasADi reports Ctrl-C
         raise KeyboardInterrupt
     return IpoptResult(np.array(result["x"]).ravel(), status, stats["success"], count)
 
@@ -306,6 +325,7 @@ def relaxed(
     bounds: of x. request, status: the request in words, and the status with which IPOPT failed before, for the
     message. Raises GaitError naming the limits whose slack stays above _MISSED.
     """
+    # ASKED: names of the rows of the requested speed and step length
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]
     names = list(dict.fromkeys(row.name for row in soft))
@@ -324,6 +344,7 @@ def relaxed(
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
+    # a slack above _MISSED = 1e-5 is a limit that cannot be kept
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
     if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"

@@ -4,9 +4,9 @@
 
     cold start -> least torque, level ground -> least torque, slope -> the objective asked for
 
-IPOPT meets the equations to about 1e-9. The Gait handed back is therefore built anew from q-, the slopes and
-the free coefficients alone (`exact_gait`): impact and zero dynamics are Pinocchio's, so that the constraint is
-hybrid-invariant and the orbit periodic to round-off.
+IPOPT meets the equations to about 1e-9. The Gait that is returned is therefore built anew from q-, the slopes
+and the free coefficients alone (`exact_gait`): impact and zero dynamics are Pinocchio's, so that the constraint
+is hybrid-invariant and the orbit periodic to round-off.
 
 The programme keeps its limits at its Gauss nodes (phases of the step) only. `audit` evaluates the same rows
 for the exact gait at many more; if one is missed there, the programme is solved once more with twice the
@@ -17,13 +17,15 @@ other. `analysis.gait_design` calls `optimise` and then walks the gait in simula
 
 1. `standing`: legs stretched, every other link upwards. 2. `apart`: least squares moves the feet apart by the
 step length, the hip half way between, joints inside their ranges. 3. `cold_start`: rates that lead evenly from
-the relabelled pose to this one, the impact at its end, and Bezier curves through both ends with their slopes.
+the start of the step, the relabelled pose, to its end, the pose of 2.; the impact there; and Bezier curves
+through both ends with their slopes.
 
-A request through a given state takes steps 1 and 2 from that state. Speeds and steps out of reach of the legs
-are refused here, before IPOPT runs.
+A request through a given state takes the pose and the rates of that state in place of 1. and 2. Speeds and
+steps out of reach of the legs are refused here, before IPOPT runs.
 
 IPOPT finds a local optimum near its guess, so the guess decides which gait is found: knees bent the usual way,
-feet on the ground, the hip between them, and no leg wound round. It need not be periodic or keep any limit.
+feet on the ground, the hip between them, and no leg wound round by 2 pi. The guess need not be periodic or keep
+any limit.
 """
 
 from __future__ import annotations
@@ -74,7 +76,7 @@ def standing(robot: PlanarRobot) -> Array:
     absolute angles a = A q of the links and vectors d_i that `robot.K` has for the swing foot and the hip. So
     each link is turned until its vector points upwards. Angles are kept in (-pi, pi].
     """
-    K = robot.K
+    K = robot.K  # foot, hip: vectors d of the two points; w: mass moments of the links [kg m]
     foot, hip, w = K.foot_re + 1j * K.foot_im, K.hip_re + 1j * K.hip_im, K.w_re + 1j * K.w_im
     leg = foot - hip
     # d of a link of the stance leg (towards the hip), of the swing leg (from foot to hip), else its mass moment
@@ -95,7 +97,7 @@ def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -
     q = q.copy()
     for joint, (low, high) in ranges.items():
         k = biped.description.joint_index(joint)
-        off = min(BEND, 0.25 * (high - low))
+        off = min(BEND, 0.25 * (high - low))  # BEND = 0.2 rad
         q[k] = np.clip(q[k], low + off, high - off)
     return q
 
@@ -111,7 +113,7 @@ def apart(
     """
     robot = robot_of(biped)
     near, K = _inside(standing(robot), biped, ranges), robot.K
-    target = step * ground_axes(slope)[0]
+    target = step * ground_axes(slope)[0]  # place of the swing foot (x, z) [m], along the ground
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
     for joint, ends in ranges.items():
         bounds[:, biped.description.joint_index(joint)] = ends
@@ -157,7 +159,8 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     c = biped.phase
     if request.through is None:
         leg = robot_of(biped).leg
-        step = request.step or _STEP * leg
+        step = request.step or _STEP * leg  # half the leg, where no step length is asked for
+        # FROUDE = 1.5 and LONGEST_STEP = 1.2: what is searched at most
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
         if step > LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
@@ -166,13 +169,15 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
                 "for less"
             )
         q = apart(biped, step, request.slope, limits.ranges)
-        q_plus = biped.relabel(q)
+        q_plus = biped.relabel(q)  # the start of a periodic step
+        # a straight line from q_plus to q: dq/dTheta
         dq = (q - q_plus) / float(c @ (q - q_plus))
+        # a walk at half of sqrt(g leg), where no speed is asked for
         duration = step / (request.speed or _STEP * math.sqrt(biped.description.gravity * leg))
         rate = abs(float(c @ (q - q_plus))) / duration
     else:
         q, v = _given_state(biped, np.array(request.through), request.slope)
-        dq, rate = v / float(c @ v), abs(float(c @ v))
+        dq, rate = v / float(c @ v), abs(float(c @ v))  # dq/dTheta and |Theta'|
     h = invariant_constraint(request.kind, biped, q, dq, request.degree)
     # 0.5: a guess of the largest torque over its limit
     return at_gait(biped, h, q, dq, rate, np.full(request.nodes, rate), 0.5)
@@ -198,6 +203,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     limits by the reserve's share. The requested speed and step length may be missed by SPEED.
     """
     limits, c = request.limits.of(biped), gait.constraint
+    # loose: limits without a reserve at the upper ends, and less by the reserve's share at these lower ends
     names = ("normal_force", "clearance", "lift_off", "slowest")
     whole = {name: x for name in names if (x := getattr(limits, name)) is not None}
     left = {name: (1.0 - limits.reserve) * x for name, x in whole.items()}
@@ -206,6 +212,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     rates = np.abs(orbit.v @ c.phase)
     # 1.0: the largest torque allowed is the limit itself
     x = at_gait(biped, c, gait.q_minus, gait.v_minus / rate, abs(rate), rates, 1.0)
+    # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
     programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
     allowed = dict.fromkeys(ASKED, SPEED)
@@ -217,7 +224,9 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
 
 
 def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamicsOrbit) -> float:
-    """Value of an objective over the periodic step o of a gait, in the units of `Objective`."""
+    """Value of an objective over the periodic step o of a gait, with L the step length: the integral of u'u
+    over time, over L [N^2 m s]; that of sum |u_i q_i'| over weight and L [1]; or the largest |u_i| [N m].
+    """
     length = gait.step_length(biped)
     match objective:
         case Objective.TORQUE:
@@ -335,17 +344,21 @@ def exact_gait(
 ) -> tuple[Gait, ZeroDynamicsOrbit]:
     """The gait of a solution x, hybrid-invariant and periodic to round-off, and its step at _NODES nodes.
 
-    Of x only q- (n,), the slopes (p,) and the inner coefficients (p, M - 3) are used; the outer coefficients
-    follow from Pinocchio's impact, the orbit from the quadrature of the zero dynamics. Raises GaitError
-    where these have no periodic orbit.
+    Of x only q- (n,), the slopes dq_b/dTheta (p,) and the inner coefficients (p, M - 3) are used, with M the
+    degree of the curves; the outer coefficients follow from Pinocchio's impact, the orbit from the quadrature
+    of the zero dynamics. Raises GaitError where these have no periodic orbit.
     """
     p, c = biped.p, biped.phase
-    q, slope = onto_section(biped, x.q.ravel(), request.slope), x.slope.ravel()
-    dq = np.append(slope, (1.0 - c[:p] @ slope) / c[p])
+    # request.slope is that of the ground, x.slope is dq_b/dTheta
+    q, dq_b = onto_section(biped, x.q.ravel(), request.slope), x.slope.ravel()
+    # dq/dTheta of all coordinates: the last one follows from Theta = c q, so c dq = 1
+    dq = np.append(dq_b, (1.0 - c[:p] @ dq_b) / c[p])
     h = invariant_constraint(request.kind, biped, q, dq, request.degree)
+    # the two outer coefficients at either end follow from the impact, those between are the solution's
     alpha = np.array(h.curve.coefficients)
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
     zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), _NODES)
+    # {}: the provenance is added below, as it has the step length
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = gait.step_length(biped)
     limits = vars(request.limits.of(biped))

@@ -46,6 +46,7 @@ class Objective(Enum):
 
     @classmethod
     def _missing_(cls, value: object) -> Objective:
+        # Enum calls this for a value that is none of its own
         names = [o.value for o in cls]
         raise GaitError(f"objective '{value}' is unknown; choose one of {names}")
 
@@ -105,7 +106,8 @@ class StepLimits(Checked, Shown):
         # a clearance of None is a value: no clearance is required
         given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
         ranges, rates = {**d.ranges, **self.ranges}, dict[str, float]()
-        # a coordinate is the angle of either leg's joint in turn
+        # a coordinate is the angle of a joint of one leg, and in the next step of its twin in the other leg, so
+        # both of its URDF joints (`sides`) limit it; FREELY is the range from -inf to inf
         for joint, *sides in zip(d.actuated, *biped.motor_joints, strict=True):
             own_range = ranges.get(joint, FREELY)
             lows, highs = zip(own_range, *(side.range for side in sides), strict=True)
@@ -159,7 +161,7 @@ class GaitRequest(Checked, Shown):
         return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
-        # exactly one of the two: speed or step, or a state
+        # targets (speed, step length or both) or a state, not both; and a curve between its outer coefficients
         targets = self.speed is not None or self.step is not None
         for fits, expected in (
             (targets != bool(self.through), "a speed, a step length or both, or a state"),
@@ -193,5 +195,6 @@ class GaitRequest(Checked, Shown):
         """Texts of speed, step length and slope, each by its format in `forms`; a number that is free, and a
         slope of zero, are left out.
         """
+        # a slope of 0.0 becomes None
         numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
         return [form.format(x) for form, x in numbers if x is not None]

@@ -4,9 +4,10 @@ On the constraint q_b = h(Theta), with c = [c_b c_N] the phase row, the configur
 
     q = (h, (Theta - c_b h) / c_N),   q' = dq/dTheta Theta',   q'' = dq/dTheta Theta'' + d2q/dTheta2 Theta'^2
 
-and the unactuated row of D q'' + Omega = (u, 0) gives Theta''. So torque and ground reaction at a node are
-explicit functions of the Bezier coefficients, the phases Theta+ and Theta-, and the rate |Theta'| there:
-nothing is integrated in time, and CasADi's derivatives are exact.
+and the unactuated row of D q'' + Omega = (u, 0), with inertia matrix D, Coriolis and gravity terms Omega and
+torques u, gives Theta''. A *node* is a phase of the step at which the model is evaluated. So torque and
+ground reaction at a node are explicit functions of the Bezier coefficients, the phases Theta+ and Theta-, and
+the rate |Theta'| there: nothing is integrated in time, and CasADi's derivatives are exact.
 
 The planar model (`model.planar_robot`) is written for NumPy arrays; with arrays of CasADi scalars the same code
 gives expressions. `nlp` builds cost and constraints from a `SymbolicStep`; `optimise` reads the solution by the
@@ -80,7 +81,7 @@ def at_gait(
 
     rate, rates (K,): |Theta'| before impact and at the nodes [rad/s]. peak [1]: largest torque over its limit.
     """
-    # dq is q' at Theta' = 1 rad/s
+    # dq is q' at Theta' = 1 rad/s; `about`: dq_b/dTheta, alpha, phases, rates and impulse of that impact
     impact, ends = biped.impact(q, dq), np.array([h.theta_plus, h.theta_minus])
     about = dq[: biped.p], h.curve.coefficients, ends, impact.v_e, impact.impulse
     return Unknowns(q, *about, np.array(rate), rates, np.array(peak))
@@ -133,6 +134,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     rate2 = -(Omega[p] + D[p, :] @ ddq * rate**2) / inertia
     a = dq * rate2 + ddq * rate**2
     u = (D @ a + Omega)[:p]
+    # t: cos and sin of the links' absolute angles; G: gravity's torques (n,)
     t, force = turned(robot.A, x), robot.ground_reaction(x, v, entries(a))
     foot, (G, _) = point(t, K.foot_re, K.foot_im), robot.gravity_and_turning(t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
@@ -175,8 +177,10 @@ class SymbolicStep:
         self.mass, self.gravity = robot.K.mass, robot.K.gravity
         self.sigma_scale = biped.weight * self.leg * np.sqrt(self.leg / self.gravity)
         x = self.x = unknowns(self.n, request.degree, request.nodes)
+        # phases in [0, 1], weights of an integral over it, and matrix of the integrals from 0 to each node
         s, w, C = gauss_nodes(request.nodes)
         self.function = node_function(robot, biped.phase, request.degree, direction)
+        # relabelling q+ = R q- + r; relabel(0) is r
         R, self.phase = ca.DM(biped.R), ca.DM(biped.phase[np.newaxis])
         self.q_plus = R @ x.q + biped.relabel(np.zeros(self.n))
         self.v_plus = R @ x.after[: self.n]
@@ -203,6 +207,7 @@ class SymbolicStep:
         """The model at any normalised phases s (K,), where |Theta'| is `rates` (1, K) [rad/s]."""
         count, p, x = len(s), self.p, self.x
         columns = ca.repmat(ca.vec(x.alpha), 1, count), ca.repmat(x.theta, 1, count)
+        # basis functions of the curves and two derivatives by s, one column for each phase
         basis = [x.T for x in basis_at(self.request.kind, self.request.degree, s)]
         stacked = self.function.map(count)(*columns, s[np.newaxis], *basis, rates)
         sizes = (1, 1, p, p, 2, 2, self.n)  # rows of each field of `Node`
@@ -210,6 +215,7 @@ class SymbolicStep:
 
     def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
         """Angular momentum about the stance foot at (q, v), each (n,) [rad, rad/s], over `sigma_scale` [1]."""
+        # the last row of D q', of the coordinate without a motor; pose: q -> (D, J_m, J_2, foot)
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> ca.MX:
@@ -217,5 +223,6 @@ class SymbolicStep:
         length; zero where `after` and `impulse` of the unknowns are the impact of q-.
         """
         x, m = self.x, self.mass
+        # of the momenta of the joints (n,) and of the whole robot (2,), and of the new foot's velocity (2,)
         upper, lower, foot = impact_rows(self.D, self.J_m, self.J_2, m, self.dq, x.after, x.impulse)
         return ca.vertcat(upper / (m * self.leg**2), lower / (m * self.leg), foot / self.leg)

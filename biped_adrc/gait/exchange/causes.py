@@ -1,7 +1,7 @@
-"""Which one change of a robot explains samples of a step that its dynamics do not give.
+"""For samples of a step that a robot's dynamics do not give: which one change of the robot would explain them.
 
-From angles over time alone, gravity and a scale of all lengths are the same (q(t) depends on g / L), so the
-candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
+From angles over time alone, gravity and a scale of all lengths cannot be told apart (q(t) depends on g / L), so
+the candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
 body. For each candidate the factor k is solved for with which the step lasts as long as the samples do. Then
 the candidates are compared by what k leaves: the largest distance of the samples q(t) from the orbit of that
 robot [rad]. A *cause* is one such change of the robot, with its k.
@@ -41,6 +41,7 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
     samples: in the convention `layout`. degree: of the curves that are fitted. slope [rad]: of the ground,
     positive downhill. Raises InputError and GaitError where already the poses do not fit the robot.
     """
+    # in the robot's coordinates; [1] are remarks
     s = poses(samples, biped, layout, degree, slope)[0]
 
     def orbit(make: Callable[[float], Biped], k: float) -> ZeroDynamics:
@@ -49,7 +50,7 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
 
     def late(log_k: float, make: Callable[[float], Biped]) -> float:
         """log(period of that robot / duration of the samples); 0 at the factor that is searched."""
-        k = math.exp(min(max(log_k, -_WIDE), _WIDE))
+        k = math.exp(min(max(log_k, -_WIDE), _WIDE))  # factors from 1/10 to 10
         return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
 
     # makes: name of a change -> the robot by its factor k; found: name -> distance [rad] and k
@@ -62,12 +63,14 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
     } | {f"masses and inertias of {x}": partial(_heavier, biped, x) for x in d.links}
     for name, make in makes.items():
         with suppress(BipedError, RuntimeError):  # no factor gives the duration
-            # log k: with gravity alone the logarithm of the period is a straight line
+            # secant method on log k, from factors of 1 and exp(0.05); over log k the logarithm of the period is
+            # a straight line with gravity, which makes it fast
             k = math.exp(newton(late, 0.0, x1=0.05, tol=1e-6, args=(make,)))
             found[name] = _distance(s, orbit(make, k)), k
     best = min((gap for gap, _ in found.values()), default=math.inf)
     if best > EXPLAINS:
         return "; no other gravity, length of the legs or mass of one body alone explains them"
+    # CLEARLY = 3: also those that fit not much worse than the best one
     causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= CLEARLY * best]
     return f"; they would fit with {' or '.join(causes)}"
 
@@ -79,6 +82,7 @@ def with_legs(biped: Biped, k: float) -> Biped:
     tree, d = biped.tree, biped.description
     legs = {j.child for foot in d.feet for j in tree.path_below(foot, d.trunk) or ()}
     com = {link: k for link in legs if tree.links[link].inertial is not None}
+    # com: factor of the place of the COM by link; a link without masses has none
     # the origin of a joint lies in the frame of its parent link, so the hips, on the trunk, stay
     joints = tuple(
         replace(j, origin=vector(k * np.array(j.origin))) if j.parent in legs else j

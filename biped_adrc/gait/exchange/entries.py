@@ -1,4 +1,4 @@
-"""What a file holds by name: structs, arrays of structs, cells, elements of arrays, and the steps of FROST.
+"""Entries of a file by name: structs, arrays of structs, cells, elements of arrays, and the steps of FROST.
 
     R.alpha                an entry of a struct, or of an object of JSON
     gait(3).states.x       an entry of one struct of an array, {} of a cell
@@ -7,16 +7,17 @@
 `read_mat` drops dimensions of length 1, but a name may state them: gait(1).x is also the x of a single struct,
 and p(1,2) the second number of a row.
 
-FROST (ayonga/frost-dev) hands out a step as `exportSolution` makes it, and users save it as an array of structs
-or as cells, at any depth of a file:
+FROST (ayonga/frost-dev), a MATLAB program that designs gaits, returns a step from its `exportSolution`, and
+users save it as an array of structs or as cells, at any depth of a file:
 
     gait(1).tspan           t (1, K) [s]
     gait(1).states.x, .dx   q', v' (n + 2, K), the base's position first [m, rad]
     gait(1).params.a..., p  Bezier coefficients, column below column [rad], and their phase at end and start
 
 An impact in such a file has no course over time, so it is not counted as a step. FROST's parameters may run
-over a phase that the file does not state, so the gait is taken from the states; only with `names` are the
-parameters taken, as curves over the phase of convention `frost`.
+over a phase that the file does not state, so the gait is taken from the states; only if the user names the
+parameters as the gait's coefficients (`names` of `import_gait`) are they taken, over the phase of convention
+`frost`.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ def all_entries(x: Any, name: str = "") -> dict[str, Any]:
     inner = dict[str, Any]()
     if isinstance(x, Mapping) and name not in ("units", "provenance"):
         inner = {f"{name}.{key}" if name else key: y for key, y in x.items()}
+    # of a list the first element shows whether it holds numbers or other things (dtype object)
     elif np.asarray(x[:1] if isinstance(x, list) else x).dtype == object:
         # a cell or an array of structs, counted from 1
         cells = np.ndenumerate(np.array(x, dtype=object))

@@ -7,14 +7,12 @@ Degrees, a sign, an order of joints, another convention: all violate it, so each
 the same numbers would be a gait in another convention, the error names it. `check_slopes` checks hybrid
 invariance besides.
 
-On disk a gait is a record, a JSON or MATLAB file with a `units` struct; a walk ("run") is a MATLAB file.
+On disk a gait is a record: a JSON or MATLAB file with the fields of `GaitFile` by name, whose names are those
+of `docs/notation.md`. A gait that this package stored is read too, in the robot's own coordinates. `export_run`
+writes a walk ("run") as a MATLAB file with a column for each signal, over time.
 
-The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
-record in this paper's convention.
-
-MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A
-run is columns over time. Every array has a unit in the struct `units`, which is written last, so
-that a truncated file is detected.
+MATLAB files are of version 5, read by MATLAB and Octave. Every array has a unit in the struct `units`, which is
+written last, so that a file that was cut off is detected.
 
 `read_record` checks that the entries exist, `record.GaitFile` shapes and numbers, and `import_gait`
 whether it is a gait.
@@ -25,7 +23,8 @@ A gait file of another program needs three entries, and one more unless the call
     theta_plus, theta_minus  range of the phase [rad]
     convention               a name of `conventions.CONVENTIONS`
 
-All other fields of `GaitFile` may be added under their names. `names` maps them where the file has others.
+All other fields of `GaitFile` may be added under their names. Where the file has other names, the argument
+`names` of `import_gait` gives them.
 """
 
 from __future__ import annotations
@@ -183,6 +182,7 @@ def read_record(
                 'are called there with names={"coefficients": "..."}, or --name coefficients=...'
             )
         own = entries.get("convention")
+        # without a statement these two are in the robot's own coordinates: gaits of this package, and samples
         stored = result.get("format") == STORED or samples
         convention_ = own or convention or (OWN if stored else usual)
         # no convention, or two different ones
@@ -279,11 +279,12 @@ def import_gait(
     if isinstance(gait, str | Path):
         title, usual = Path(gait).stem, None if of_the_paper(biped) else OWN
         gait, convention, source = read_record(gait, convention, names, usual)
+    # the convention in which the numbers are to be read; OWN: the robot's own coordinates
     own = gait.convention if isinstance(gait, GaitFile) else convention or OWN
 
     def attempt(convention: str, robot: Biped, slopes: bool) -> Gait:
-        """The gait, read in this convention for this robot, and checked; slopes: whether those at the ends are
-        checked too.
+        """The gait, read in this convention for this robot, and checked; slopes: whether it is also checked
+        that dq/dTheta after the impact is that at the start of the curve.
         """
         if isinstance(gait, Samples):
             layout = layout_of(convention, robot)
@@ -294,17 +295,20 @@ def import_gait(
         return result
 
     def closes(convention: str, robot: Biped, slopes: bool) -> bool:
-        """Whether `attempt` with these arguments is a gait."""
+        """Whether the numbers are a gait in this convention for this robot; slopes: whether they also have to
+        close through its impact in dq/dTheta.
+        """
         with suppress(
             GaitError, InputError
-        ):  # another number of joints, or a phase that says nothing
-            return bool(attempt(convention, robot, slopes))
+        ):  # `attempt` raises one of these where they are no gait
+            return bool(attempt(convention, robot, slopes))  # a Gait counts as True
         return False
 
     try:
         return attempt(own, biped, slopes)
     except GaitError as error:
         d, hint = biped.description, ""
+        # would the same numbers be a gait with another set of masses, or in another convention?
         presets = [x for x in d.presets if closes(own, _with_preset(biped, x), slopes)]
         # right: the poses fit in this convention, so only the masses differ, and no other one is proposed
         right = closes(own, biped, False)
@@ -374,6 +378,7 @@ def check_slopes(gait: Gait, biped: Biped) -> None:
 
     It depends on the masses, so this is the one check that tells robots of equal link lengths apart.
     """
+    # how far the rates after impact are from those along the constraint, (p,) [rad/s]
     _, jump = impact_jump(biped, gait.constraint, gait.q_minus, gait.v_minus)
     # rates over Theta'+ are slopes [rad/rad]
     jump = np.abs(jump / (gait.constraint.phase @ gait.start(biped)[1]))

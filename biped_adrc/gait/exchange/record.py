@@ -2,9 +2,10 @@
 
     y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
 
-The rows of `coefficients` are y: the outputs of the convention, all of its coordinates, or those of `outputs`.
-Curves are linear in their coefficients and their basis adds up to 1, so A h(s) + b has the coefficients A
-alpha_k + b, and s is the same under every affine map of the phase. With y and the phase
+q' are the angles and theta the phase in that convention; ' is no derivative here. y has one row of
+`coefficients` for each output: the usual outputs of the convention, all of its coordinates, or H0 q' with the
+record's own H0. Curves are linear in their coefficients and their basis adds up to 1, so A h(s) + b has the
+coefficients A alpha_k + b, and s is the same under every affine map of the phase. With y and the phase
 
     q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
 
@@ -109,6 +110,7 @@ class GaitFile(Shown):
             a = np.asarray(value)
         except ValueError:  # rows of different lengths
             a = np.array(None)
+        # "fiu": floats, integers, unsigned integers
         if a.dtype.kind not in "fiu" or a.ndim != dimensions or not np.all(np.isfinite(a)):
             kind = ("one number", "one row of numbers", "rows of numbers")[dimensions]
             raise self.error(f"{key} is {value}, expected {kind}, all finite")
@@ -194,6 +196,7 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
     rows do not determine the coordinates.
     """
+    # c, plus, minus: row and range of the phase in the record's own coordinates q'
     c = layout.phase if record.phase is None else record.phase
     plus, minus = record.theta_plus, record.theta_minus
     curve = _of_all(record, layout, c)
@@ -206,6 +209,7 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
     if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
+    # by the pose in the middle of the step, s = 0.5
     turns = np.zeros(layout.n) if layout.name == OWN else whole_turns(curve(0.5)[0])
     curve = mapped(curve, np.eye(layout.n), _TURN * turns)
     ends = ends + row @ (_TURN * turns)
@@ -255,7 +259,7 @@ def whole_turns(middle: Array) -> Array:
     pose, but not the same phase c q.
     """
     centre = np.zeros(len(middle))
-    centre[:2] = np.pi
+    centre[:2] = np.pi  # the hips: a leg that hangs down has the angle pi
     return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)  # + 0.0 makes -0.0 to 0.0
 
 
@@ -267,7 +271,9 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
     """
     constraint, other = gait.constraint, layout_of(to, biped)
     ends = constraint.theta_plus, constraint.theta_minus
+    # curves of all n coordinates: those of the p joints, and the last one from the phase
     curve = all_coordinates(constraint.curve, np.eye(biped.p, biped.n), constraint.phase, ends)
+    # back: q' = A^-1 (q - b); `other.outputs` is H0, whose rows give the outputs
     back = other.to_paper.inverse
     # Theta = c q = c A q' + c b
     plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
@@ -276,7 +282,7 @@ def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitFile:
         other.outputs @ mapped(curve, back.A, back.b).coefficients,
         float(plus),
         float(minus),
-        phase=other.sense * (constraint.phase @ other.to_paper.A) + 0.0,
+        phase=other.sense * (constraint.phase @ other.to_paper.A) + 0.0,  # no -0.0
         curve=type(constraint.curve).__name__.lower(),
         q_minus=back.angles(gait.q_minus),
         v_minus=back.rates(gait.v_minus),

@@ -3,7 +3,7 @@
 The first sample is just after an impact, the last one just before the next. For each actuated joint a Bezier
 curve q_b = h(Theta), Theta = c q, is fitted by least squares. Value and slope at both ends of the step, Theta+
 at its start and Theta- at its end, are prescribed and not fitted, so that the gait closes and is
-hybrid-invariant; R q + r are the angles after relabelling:
+hybrid-invariant. R q + r are the angles after relabelling, q(K) is the last sample, and _b its actuated joints:
 
     h(Theta-) = q_b(K),  h(Theta+) = (R q(K) + r)_b,  h'(Theta-): of the samples,  h'(Theta+): after the impact
 
@@ -74,8 +74,9 @@ def gait_of_samples(
     the samples. Raises InputError for arrays that are no samples of a step, and GaitError where the fit is bad,
     or where impact or zero dynamics of this robot do not fit the samples.
     """
-    s, remarks = poses(samples, biped, layout, degree, slope)
+    s, remarks = poses(samples, biped, layout, degree, slope)  # in the robot's coordinates
     fitted = fit(s, biped, degree)
+    # distance of each sample (row) of each joint (column) from its curve, and the largest one
     gaps = np.abs([fitted.h(x)[0] for x in s.q @ fitted.phase] - s.q[:, : biped.p])
     k, joint = np.unravel_index(int(np.argmax(gaps)), gaps.shape)
     said = f"{gaps[k, joint]:.2g} rad, {biped.description.joints[joint]} at {s.t[k]:.4g} s"
@@ -113,9 +114,10 @@ def poses(
     no step of legs of these lengths, whatever their masses.
     """
     s, remarks = _in_robot(_checked(samples, layout.n, degree), layout, biped)
-    if layout.n + 2 in np.shape(samples.q):
+    if layout.n + 2 in np.shape(samples.q):  # two coordinates more: the position of the base
         remarks["left out"] = "position of the base"
     c, q, joints = biped.phase, s.q, biped.description.joints
+    # the last pose, with the legs exchanged, has to be the first, and its swing foot on the ground
     gaps = np.abs(biped.relabel(q[-1]) - q[0])
     joint, height = int(np.argmax(gaps)), float(ground_axes(slope)[1] @ biped.swing_foot(q[-1]))
     if gaps[joint] > FITS:
@@ -170,8 +172,9 @@ def _in_robot(s: Samples, layout: Convention, biped: Biped) -> tuple[Samples, di
     """
     q, v = layout.to_paper.angles(s.q), None if s.v is None else layout.to_paper.rates(s.v)
     if layout.name != OWN:
-        q = q + 2.0 * np.pi * whole_turns(q[len(q) // 2])
+        q = q + 2.0 * np.pi * whole_turns(q[len(q) // 2])  # by the pose in the middle of the step
     theta, remark = q @ layout.paper_phase, dict[str, str]()
+    # with the paper's stance leg Theta falls in a walk to +x; it grows where the left leg stands
     if layout.name == "frost" and theta[-1] > theta[0]:
         q, v, remark = q @ biped.R.T, None if v is None else v @ biped.R.T, {"stance leg": "left"}
         theta = q @ layout.paper_phase
@@ -207,6 +210,7 @@ def fit(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
         # dq/ds = span q' / Theta'
         slopes = span * s.v / (s.v @ c)[:, np.newaxis]
         rows, goal, last = np.vstack((H, dH)), np.vstack((s.q, slopes)), slopes[-1]
+    # the constraint with the prescribed ends and slopes; last / span is dq/dTheta before impact
     h = invariant_constraint(Bezier, biped, minus, last / span, degree)
     a = np.array(h.curve.coefficients.T)
     inner = slice(2, degree - 1)  # the two outer coefficients at either end are prescribed

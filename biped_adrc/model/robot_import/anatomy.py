@@ -6,8 +6,9 @@ links of the stance leg and l_k the lengths of the leg in them,
 
     Theta = sum_k l_k a_k / sum_k l_k = c q + const
 
-which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the angle itself (an isosceles
-triangle), for others its first-order part about the straight leg; a virtual constraint needs a constant row c.
+with the coordinates q (n,) [rad] and a constant row c (n,), which a virtual constraint needs: q5 + q1 + q3/2
+for RABBIT, whose legs have two links. For two links of equal length this is the angle itself (an isosceles
+triangle), for others its first-order part about the straight leg.
 
 The trunk is the link that the planar base carries, the torso. Feet are a pair (stance foot, swing foot); which
 leg stands is a convention, as the legs are alike. All positions are those at zero angles, where all frames are
@@ -94,7 +95,8 @@ def _chain(body: PlanarBase, link: str) -> list[Joint]:
 def on_feet(
     body: PlanarBase, feet: tuple[str, ...] | None, actuated: tuple[str, ...]
 ) -> tuple[PlanarBase, tuple[str, str]]:
-    """The robot on two points, and these, its feet (stance, swing), which are guessed where `feet` is None.
+    """Make the robot stand on two points; returns it and these points, its feet (stance, swing), which are
+    guessed where `feet` is None.
 
     A joint between shin and foot is welded at its zero unless it is one of `actuated`. A tree that hangs from
     one of its legs is turned round, so that the trunk carries both. Raises ModelError.
@@ -160,6 +162,7 @@ def _on_point(
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
         return body
+    # len > 1: a single joint between both feet is no ankle
     if last.name not in actuated and FOOT_NAMES.search(foot) and len(leg) > 1:
         welded = (replace(j, type="fixed") if j == last else j for j in tree.joints)
         text = f"joint '{last.name}': welded at its zero, as '{foot}' is a point here, at the axis; its sole"
@@ -228,6 +231,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
             f"'{tree.source}': the swing foot '{feet[1]}' is fixed to the stance leg; give the feet the "
             f"other way round, feet=('{feet[1]}', '{feet[0]}')"
         )
+    # swing[-1]: of the joints of the swing leg alone the one nearest to the trunk
     here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
     link = meet if here and _keeps_its_origin(tree, meet, feet[0]) else swing[-1].child
     return link, f"hip: the origin of '{link}', where '{swing[-1].name}' joins the legs"
@@ -249,8 +253,8 @@ def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
 def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
     """Whether turning the tree round at `foot` leaves the origin of `link` where it is.
 
-    `pinned.reroot` moves the frame of a link between root and foot to the joint below it, so that one must lie
-    at the origin. Other links keep their frames.
+    `pinned.reroot` moves the frame of a link between root and foot to the joint below it, so this joint must
+    lie at the link's origin. Other links keep their frames.
     """
     outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
     return all(math.hypot(*joint.origin[::2]) < _AWAY for joint in outwards)
@@ -261,7 +265,8 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
 
     joints: those of q in order, the pitch last. c weights the absolute angles of the links by their lengths.
     """
-    # from the foot upwards, until a link that the hip is on or hangs on
+    # from the foot upwards, until a link that the hip is on or hangs on; points: places (x, z) of the foot, the
+    # joints and the hip; links: those between two points in a row
     carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
     points, links = [position(tree, foot)], []
     for joint in tree.path_to_root(foot):

@@ -1,16 +1,22 @@
 """The planar base of a robot: two slides along x and z, then the pitch of the trunk, q_N.
 
-The planar base (x, z, pitch) is found in a file, or added above its root. It is two prismatic joints in the
-plane x-z and one revolute joint about y, in this order from the root. A mass above the pitch does not turn with
-it, and one on the first slide moves in one direction only; the matrix D_s of a robot pinned at its foot has no
-such masses: light ones are left out, and a note names them, others are refused. Slides that the file turns, as
-on a ramp, are put along x and z, and the zero of the pitch turns with them. The stance contact determines the
-place of the base, so only its pitch remains as a coordinate. A robot without a base floats on its root link,
-and gets a base there, whose pitch turns in the sense of the robot's other joints. So does the base in place of
-a `floating` or a `planar` joint, whatever the axis of that joint. A robot that the file pins to the ground by a
-revolute joint gets slides below the pin. Places along y do not enter planar motion, and stay as they are. The
-trunk is the link that the base carries, the torso of a biped. A slide is a prismatic joint.
-`import_robot.derive` calls `on_planar_base` first.
+The planar base leaves a robot free in the plane of motion x-z. It is two slides, which are prismatic joints,
+and one revolute joint about y, in this order from the root. The trunk is the link that it carries, the torso of
+a biped. The contact of the stance foot determines the place of the base, so only its pitch remains as a
+coordinate. `on_planar_base`, the first stage of `import_robot.derive`, makes the base of what a file has:
+
+    a planar base           kept; slides that the file turns, as on a ramp, are put along x and z, and the zero
+                            of the pitch turns with them
+    no base                 a new one above the root link; its pitch turns in the sense of the first joint
+    a `floating` joint, or  a new base in its place, as for no base
+    a fixed one to "world"
+    a `planar` joint        a new base in its place; its pitch keeps the axis of that joint
+    a revolute joint to     slides below it; the joint itself becomes the pitch
+    the ground, a pin
+
+A mass above the pitch does not turn with it, and one on the first slide moves in one direction only. The
+inertia matrix of a robot pinned at its foot has no such masses: light ones are left out, and a note names them,
+others are refused. Places along y do not enter planar motion, and stay as they are.
 """
 
 from __future__ import annotations
@@ -98,6 +104,7 @@ def _top(tree: Tree, root: str) -> Joint | None:
     """
     below = tree.joints_below(root)
     floats = [joint for joint in tree.joints if joint.type in ("planar", "floating")]
+    # allowed: a single one, on the root; [:1] is empty where none of them is on the root
     if floats and floats != [joint for joint in below if joint in floats][:1]:
         raise ModelError(
             f"'{tree.source}', joint '{floats[-1].name}': type '{floats[-1].type}', expected one joint of "
@@ -138,8 +145,8 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     masses = {x: body.mass for x, link in tree.links.items() if (body := link.inertial)}
     still = {x: masses.pop(x) for x in list(masses) if x not in carried}
     heavy = {x: m for x, m in still.items() if set(slides) & set(tree.path_to_root(x))}
-    robot = sum(masses.values())
-    # the slide nearer to x first; two slides are parallel where the determinant of their axes is 0
+    robot = sum(masses.values())  # what the pitch carries, as the other masses were popped
+    # the slide nearer to x first; two slides are parallel where the determinant of their axes (x, z) is 0
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
     plane = plane and set(slides) <= set(carriers) and len(tops) == 1
@@ -175,6 +182,7 @@ def added(
     # `links_from` is empty for the root of the tree: then all links are carried
     carried = {link: tree.links[link] for link in tree.links_from(root) or tree.links}
     tree = replace(tree, links=carried, joints=tuple(j for j in tree.joints if j.parent in carried))
+    # without any revolute joint about -y, which is counter-clockwise with x to the right and z up
     axis = axis or next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
     every = (*names, "world", "base_x_carriage", "base_z_carriage")
     x, z, pitch, world, cart, lift = (free_name(tree, name) for name in every)

@@ -16,7 +16,7 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
     on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
     on_feet               feet that are points, legs that hang from a trunk
     evened                the mean of legs that differ by less than 1 %
-    anatomy               hip, order of the joints, phase variable
+    anatomy               hip, order of the joints, phase variable (the angle that times a gait)
     drawable              shapes to draw, balls where there are none
     _motors, _torque      joints with a motor, and their torque limit
     record_of             the robot.toml, from which the Biped is made
@@ -77,7 +77,7 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     legs = [{joint.child for joint in tree.path_to_root(foot)} for foot in feet]
     links = {}
     for name, link in tree.links.items():
-        # a link above both feet, or above none, belongs to the trunk
+        # a link that carries both feet, or none, belongs to the trunk
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
@@ -90,6 +90,7 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
 
     A rod is a cylinder along z, and in another direction a row of balls, since cylinders stand upright here.
     """
+    # where rods end [m]; a joint at the link's own origin needs none
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     balls: list[Visual] = []
     if link.inertial is not None:
@@ -103,6 +104,7 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
         if z and not x and not y:
             balls.append(Visual("cylinder", (radius, abs(z)), (0.0, 0.0, 0.5 * z), rgba))
             continue
+        # the radius is 0 where the COM, the end of the rod, is the origin
         balls += [
             Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares if radius
         ]
@@ -187,10 +189,11 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     leg.
     """
     twins = dict(urdf.pairs(tree, feet))
+    # links with mass; of twins the second one is in the body of the first
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
     for link in heavy:
-        if link in twins.values():
+        if link in twins.values():  # of the swing leg
             continue
         group = [link, twins[link]] if link in twins else [link]
         name = _SIDES.sub("", link).strip("_-") if link in twins else link
@@ -278,6 +281,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     actuated, of_motors = _motors(contents, parts.moving, hints)
     torque, of_torque = _torque(contents, actuated, hints)
     rotors, of_rotors = _armature(contents, actuated, hints)
+    # known: the hints, with motors and torque limit filled in
     path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
     record = _record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
@@ -292,7 +296,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...] | None]:
     """Read the file; also returns the names of the feet, (stance, swing): those of the hints (None to guess
-    them), or if the hints have a `tip` new links without mass there. Raises ModelError.
+    them), or where the hints have a `tip` new links without mass at this place. Raises ModelError.
     """
     contents, feet = _contents(Path(path)), hints.feet
     if hints.tip is None:
@@ -315,7 +319,7 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[Contents, tuple[str, ...
 
 
 def _contents(path: Path) -> Contents:
-    """Read a URDF or an MJCF, whichever its first <robot> or <mujoco> says. Raises ModelError."""
+    """Read a file as an MJCF if <mujoco> comes first in it, else as a URDF. Raises ModelError."""
     with reading("file of a robot", path, ModelError):
         first = re.search(rb"<(robot|mujoco)\b", path.read_bytes())
     return read_mjcf(path) if first and first[1] == b"mujoco" else read(path)

@@ -2,8 +2,8 @@
 
 The compiled model is placed at its reference posture qpos0. There every body gets a frame parallel to the
 world's, at the anchor of its last joint, so that it is a link of `urdf.Tree`; joints of one body are a chain of
-links without mass. A shape or site that is called a foot, on a body that is not, is the point of a foot. Angles
-count from the reference posture.
+links without mass. Where the name of a shape or site says foot, and that of its body does not, the place of
+this shape becomes the point of a foot. Angles count from the reference posture.
 
 Read are masses and inertias, joints and their ranges, armature, damping, friction loss, and the torque that the
 motors reach. Shapes with their contacts, springs and the gains of servos are left out; constraints between
@@ -45,7 +45,7 @@ def read_mjcf(path: Path) -> Contents:
         "mujoco", f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
     ):
         import mujoco
-    mujoco.set_mju_user_warning(lambda _: None)  # it would write a file
+    mujoco.set_mju_user_warning(lambda _: None)  # MuJoCo's own handler writes a file MUJOCO_LOG.TXT
     try:
         m = _compiled(mujoco.MjModel, path)
     except (ValueError, ET.ParseError) as error:
@@ -57,7 +57,7 @@ def read_mjcf(path: Path) -> Contents:
             f"'{path}': it has {m.neq} constraints in <equality>, expected none; closed chains and coupled "
             "joints are not supported"
         )
-    d = mujoco.MjData(m)
+    d = mujoco.MjData(m)  # at the reference posture qpos0
     mujoco.mj_kinematics(m, d)  # places of all bodies at the reference posture
     names = [one_line(m.body(b).name) or f"body{b}" for b in range(m.nbody)]
     hinges = {_name(m, j): j for j in range(m.njnt) if _KINDS[m.jnt_type[j]] == "revolute"}
@@ -66,6 +66,7 @@ def read_mjcf(path: Path) -> Contents:
         """The entries for hinges of an array over MuJoCo's velocities, by name of the joint."""
         return {name: float(values[m.jnt_dofadr[j]]) for name, j in hinges.items()}
 
+    # a joint whose motors have no limit is left out
     torques = {name: e for name, j in hinges.items() if (e := _torque(m, j)) < math.inf}
     viscous, static, rotor = map(by_joint, (m.dof_damping, m.dof_frictionloss, m.dof_armature))
     turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
@@ -164,7 +165,7 @@ def _torque(m: Any, j: int) -> float:
     gain; both times its gear. 0 without an actuator, infinite without a limit.
     """
     total = 0.0
-    # transmission types 0 and 1 act on a joint; bias type 0 is a motor, others are servos
+    # transmission types 0 and 1 of an actuator a act on a joint; bias type 0 is a motor, others are servos
     for a in np.flatnonzero((m.actuator_trnid[:, 0] == j) & (m.actuator_trntype < 2)):
         gear, gain = abs(m.actuator_gear[a, 0]), abs(m.actuator_gainprm[a, 0])
         if m.actuator_forcelimited[a]:
@@ -184,6 +185,7 @@ def _notes(m: Any, hinges: dict[str, int]) -> Notes:
     springs = {n: float(m.jnt_stiffness[j]) for n, j in hinges.items() if m.jnt_stiffness[j]}
     zeros = {n: z for n, j in hinges.items() if (z := float(m.qpos0[m.jnt_qposadr[j]]))}
     g = m.opt.gravity.tolist()
+    # (what was found, text): no note where it is 0, empty or False
     notes = (
         (m.ngeom, f"{m.ngeom} shapes with their contacts, such as soles: the feet are points"),
         (springs, f"springs at joints [N m/rad]: {springs}"),

@@ -1,15 +1,18 @@
 """Limits of ground, motors and joints within which a walk is feasible.
 
+F_T, F_N [N] are the tangential and the normal force of the ground on the stance foot, mu is the coefficient of
+dry friction. A push is an external force or torque on the robot for a limited time.
+
 A single support is feasible if
 
 - the force of the ground, as a mean over the time `window` (5 ms), lies in the friction cone (F_N > 0 and
   |F_T| <= mu F_N), wherever in the single support this window lies;
 - every torque is within the motors' limit, and every joint with a motor within the rate and the range that its
   URDF states; a rate or a range that it does not state is not judged;
-- the swing foot does not scuff, but near the ends of the walking step (`ENDS`);
+- the swing foot does not touch the ground, but in the first and last 3 % (`ENDS`) of the walking step's time;
 - the impulse of the impact lies in the friction cone too.
 
-The mean and not the force at an instant is judged: when a push switches, the force leaves the cone for a
+The mean and not the force at an instant is judged: when a push begins or ends, the force leaves the cone for a
 millisecond, in which a foot does not move, while torques that chatter leave it in the mean as well. On soft
 ground, in place of the cone, no foot may slip by more than `SLIP` in a single support. `analysis.certificate`
 applies the limits; those that are left open come from the robot's record.

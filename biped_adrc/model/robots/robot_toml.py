@@ -9,7 +9,7 @@ cannot, here for RABBIT, abbreviated:
     stance_foot = "left_foot"
     swing_foot = "right_foot"
     hip = "torso"
-    phase = [1.0, 0.0, 0.5, 0.0, 1.0]                                   # Theta = q5 + q1 + q3/2
+    phase = [1.0, 0.0, 0.5, 0.0, 1.0]                                   # Theta = q5 + q1 + q3/2 [rad]
     peak_torque = 150.0                                                 # [N m]
     friction_coefficient = 0.6
 
@@ -19,7 +19,8 @@ cannot, here for RABBIT, abbreviated:
     armature = 0.83                                                     # [kg m^2]
     thigh = { mass = 6.8, com = 0.11, inertia = 0.47 }                  # [kg], [m], [kg m^2]
 
-A body, such as thigh, is one link, or the two links that change over when the legs exchange their roles.
+q1, ..., qN are the coordinates; Theta is the phase variable, the angle by which a gait is timed. A body, such
+as thigh, is one link, or the two links that change over when the legs exchange their roles.
 
 The keys are the fields of `RobotDescription`, with joint friction in a table [friction] of `viscous` and
 `static`. May be missing: `passive` (none), `trunk` (the hip's link), `offset` (zero), `gravity` (9.81),
@@ -201,6 +202,7 @@ class RobotDescription(Shown):
                 # xx, xy, xz, yy, yz, zz
                 moments = (p.inertia, 0.0, 0.0, p.inertia, 0.0, 0.05 * p.inertia)
                 inertials[link] = Inertial(p.mass, (0.0, 0.0, p.com), moments)
+        # names of links in the record that the URDF does not have
         if unknown := sorted(set(inertials) - set(tree.links)):
             raise ModelError(
                 f"robot '{self.name}' has {unknown} in its links, the URDF has {list(tree.links)}"
@@ -323,6 +325,7 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
         kind = "revolute" if axis == y else "prismatic"
         joint = joints.get(name)
         along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
+        # a revolute joint may turn about -y, a slide must not be turned round
         off = 1.0 - (abs(along) if kind == "revolute" else along)
         if joint is None or joint.type != kind or not abs(off) <= ALONG:
             text = f"missing in {list(joints)}"

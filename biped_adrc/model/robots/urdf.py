@@ -1,16 +1,17 @@
 """A robot as a small tree of links and joints: changes of it, checks of its bodies, and its text as URDF.
 
 Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So a file is
-read by `urdf_reader`, which checks it; parameters are changed on this tree (presets, model errors, re-rooting
-at a foot), and Pinocchio gets the text that `to_xml` writes. All records are frozen: a change makes a new
-tree.
+read by `urdf_reader`, which checks it; a parameter set or a model error changes this tree, `pinned.reroot`
+turns it round, so that it hangs from a foot, and Pinocchio gets the text that `to_xml` writes. All records are
+frozen: a change makes a new tree.
 
 The legs exchange their roles at impact: the same configuration gets the coordinates of the next walking step.
 
     q+ = R q- + r,   v+ = R v-
 
-Links of one leg have twins in the other; the trunk, which is the torso and carries the legs, and any other link
-are their own twins. With a = A q the absolute angles of the links, and P the matrix that exchanges twins in a,
+q (n,) [rad] are the coordinates, v = q' [rad/s], - and + stand for just before and just after the impact. Links
+of one leg have twins in the other; the trunk, which is the torso and carries the legs, and any other link are
+their own twins. With a = A q the absolute angles of the links, and P the matrix that exchanges twins in a,
 R solves A R = P A. So R is a permutation for hips that count from a torso, and a combination for a hip that
 counts from the other leg. r is not zero for robots with spokes; it comes from the record.
 
@@ -273,6 +274,7 @@ def check_inertial(inertial: Inertial, where: str) -> None:
     J = np.array(inertial.inertia)[SYMMETRIC]
     size = float(np.sum(np.abs(J)))
     fits = 0.0 < inertial.mass < math.inf and size < math.inf
+    # `or 1.0`: a point mass has the size 0; -1 fails the test below
     principal = np.linalg.eigvalsh(J / (size or 1.0)) if fits else np.array([-1.0, 0.0, 0.0])
     # least principal moment, and least gap of the triangle inequality, relative to the sum of the moments
     least = min(float(principal[0]), float(np.sum(principal) - 2.0 * principal[2]))
@@ -319,6 +321,7 @@ def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
     the links, each counted from its foot.
     """
     bodies, paired = bodies_between(tree, feet), dict[str, str]()
+    # near: a body counted from feet[0], far: from feet[1]; of an odd number the middle one has no partner
     for near, far in zip(bodies[: len(bodies) // 2], reversed(bodies), strict=False):
         for one, other in zip(near, reversed(far), strict=False):
             paired |= {one: other, other: one}
@@ -336,6 +339,7 @@ def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Ar
     for row, link in zip(rows, links, strict=True):
         for joint in tree.path_to_root(link):
             if joint.name in joints:
+                # product of two unit vectors along y or -y: 1 or -1
                 sign = sum(a * b for a, b in zip(joint.axis, axis, strict=True))
                 row[joints.index(joint.name)] = sign
     return rows
@@ -359,6 +363,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
     R = np.where(np.abs(R) < _EXACT, 0.0, R)
+    # + 0.0 turns -0.0 into 0.0
     R = np.where(np.abs(R - np.round(R)) < _EXACT, np.round(R), R) + 0.0
     if np.max(np.abs(A @ R - PA)) > _EXACT or np.max(np.abs(R @ R - np.eye(len(R)))) > _EXACT:
         raise ModelError(
@@ -401,13 +406,15 @@ def _in_plane(tree: Tree, link: str) -> Array:
 def evened(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, Notes]:
     """The tree in which both legs have the mean of their masses, moments, COMs and lengths, and a note on it.
 
-    So only where they differ by at most ALIKE, as exports of CAD do; otherwise the tree itself without a note.
+    This is done only where they differ by at most ALIKE, as in exports of CAD; else the result is the tree
+    itself without a note.
     """
     gaps = unlike(tree, feet)
     if not gaps or max(gaps.values()) > ALIKE:
         return tree, ()
     links, joints = dict(tree.links), {joint.child: joint for joint in tree.joints}
     for pair in gaps:
+        # means over both links: mass, moment about y, COM (x, z) and place (x, z) on the parent
         m, yy, x, z, px, pz = np.mean([_in_plane(tree, link) for link in pair], axis=0).tolist()
         for name in pair:
             link, joint = links[name], joints[name]

@@ -131,6 +131,7 @@ def _contents(robot: ET.Element, source: str) -> Contents:
     moved = {child for _, child in ends}
     links = {link.get("name", ""): _link(link, turns, moved) for link in bodies}
     joints = tuple(_joint(j, turns, *pair) for j, pair in zip(movers, ends, strict=True))
+    # those with an angle; of these limit and friction are kept, by (element, attribute)
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
     tree = Tree(_name(robot), links, joints, source)
     keys = ("limit", "effort"), ("dynamics", "damping"), ("dynamics", "friction")
@@ -140,7 +141,10 @@ def _contents(robot: ET.Element, source: str) -> Contents:
 
 
 def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[Note, ...]:
-    """Notes on what the reader assumed about a URDF and what it leaves out; yaw [rad]: of `_yaw`."""
+    """Notes on what the reader assumed about a URDF and what it leaves out.
+
+    links: those that were read from `robot`. yaw [rad]: angle by which it was turned about z; 0 for none.
+    """
     bodies = robot.findall("link")
     heavy = {link.get("name"): e for link in bodies if (e := link.find("inertial")) is not None}
     points = [name for name, e in heavy.items() if e.find("inertia") is None]
@@ -149,6 +153,7 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
     other = Counter(tag for tag in parts if not _USED.fullmatch(tag))
+    # (kind, what was found, text): no note where it is 0 or empty
     notes = (
         ("assumed", yaw, f"direction: turned about z by {yaw:g} rad, so that axes are y"),
         ("assumed", points, f"masses of {points}: points, as they have no <inertia>"),
@@ -261,6 +266,7 @@ def _turns(
     # from the root outwards: joints whose parent has its turn and whose child has none yet
     while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
         for joint, parent, child in below:
+            # [1]: of (place, rotation) the rotation
             turns[child] = _origin(joint, _place_of(joint), turns[parent])[1]
     twice = [link for link, count in parents.items() if count > 1]
     circle = [link for link in links if link not in turns]
@@ -284,6 +290,7 @@ def _yaw(
     """
     for joint, pair in zip(joints, ends, strict=True):
         if joint.get("type") in _CIRCULAR:
+            # sin(yaw) is 0 for an axis along y; the turn is modulo pi, as y and -y will both do
             x, y, z = _joint(joint, turns, *pair).axis
             yaw = (math.atan2(x, y) + 0.5 * math.pi) % math.pi - 0.5 * math.pi
             return yaw if abs(z) < PLANAR and abs(math.sin(yaw)) > PLANAR else 0.0
@@ -329,7 +336,9 @@ def _link(element: ET.Element, turns: Mapping[str, Array], moved: set[str]) -> L
 
 
 def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
-    """Mass properties of an element <inertial>, in the axes of the world; R (3, 3): turn of its link.
+    """Mass properties of an element <inertial>, in the axes of the world.
+
+    where: its link, for messages. R (3, 3): turn of its link.
 
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion. Without <inertia> it is a point.
@@ -348,7 +357,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     """The shape of an element <visual> in the axes of the world; None if it is no box, sphere or cylinder, or
-    stands oblique to these axes. R (3, 3): turn of its link.
+    stands oblique to these axes. where: its link, for messages. R (3, 3): turn of its link.
     """
     shape = next((g for g in element.iterfind("geometry/*") if g.tag in urdf.GEOMETRY_SIZES), None)
     if shape is None:
@@ -361,6 +370,7 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"
     count, keys = 3 if box else 1, urdf.GEOMETRY_SIZES[shape.tag]
+    # the tuples of numbers of its attributes, joined to one
     size = sum((_numbers(shape, key, "", count, where, _SMALLEST) for key in keys), ())
     rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
     size = vector(axes @ size) if box else size
@@ -390,7 +400,8 @@ def _joint(element: ET.Element, turns: Mapping[str, Array], parent: str, child: 
         _numbers(limit, key, "0", 1, f"{where} <limit>")[0]
         for key in ("velocity", "lower", "upper")
     )
-    place = _origin(element, where, turns[parent])[0]
+    place = _origin(element, where, turns[parent])[0]  # [0]: of (place, rotation) the place
+    # FREE or more, or 0: no limit
     speed = speed if 0.0 < speed < urdf.FREE else math.inf
     stated = limit is not None and {"lower", "upper"} <= limit.attrib.keys() and kind == "revolute"
     ends = (low, high) if stated and 0.0 < high - low < 2.0 * math.pi else urdf.FREELY
