@@ -1,4 +1,4 @@
-; sources 6c84b53242ac99fa127423c7b265ce3c, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources 0a2edc293720bdb4fc1b657162f56d77, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
