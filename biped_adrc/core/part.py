@@ -17,8 +17,9 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
-from functools import cached_property, lru_cache
+from functools import cached_property, wraps
 from typing import Any, TypeVar
+from weakref import WeakKeyDictionary
 
 from biped_adrc.core.checks import Checked, hints_of
 from biped_adrc.core.shown import Shown
@@ -79,6 +80,19 @@ def setup(default: Any) -> Any:
     return field(default=default, metadata=SETUP)
 
 
+def per_class(make: Callable[[type], _T]) -> Callable[[type], _T]:
+    """Decorator: make(cls) is computed once for each class, and forgotten with it; the engine makes many."""
+    known = WeakKeyDictionary[type, _T]()
+
+    @wraps(make)
+    def found(cls: type) -> _T:
+        if cls not in known:
+            known[cls] = make(cls)
+        return known[cls]
+
+    return found
+
+
 def is_part(x: object) -> bool:
     """Whether x is an object of a dataclass."""
     return hasattr(type(x), "__dataclass_fields__")
@@ -86,10 +100,10 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """Name -> value of the fields and derived numbers of a part, as the engine replaces them by symbols."""
-    return {name: value(getattr(part, name)) for name, value in _values(type(part))}  # type: ignore[arg-type]
+    return {name: value(getattr(part, name)) for name, value in _values(type(part))}
 
 
-@lru_cache(maxsize=1024)
+@per_class
 def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     """Names in `content` for a class of parts, each with the function that converts its value.
 
@@ -133,7 +147,7 @@ def with_fields(part: _T, **values: Any) -> _T:
     return with_content(part, {k: x for k, x in vars(part).items() if k != MEMORY} | values)
 
 
-@lru_cache(maxsize=512)
+@per_class
 def derived_names(cls: type) -> tuple[str, ...]:
     """Names of the derived numbers of a class, those of its bases first."""
     members = (item for base in reversed(cls.__mro__) for item in vars(base).items())
