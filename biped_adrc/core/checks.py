@@ -16,18 +16,21 @@ import traceback
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
-from functools import lru_cache, wraps
+from functools import wraps
 from inspect import unwrap
 from numbers import Integral, Real
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.errors import BipedError, InputError, NotFiniteError, RaisedError
 from biped_adrc.core.types import Array
+
+_T = TypeVar("_T")
 
 
 class Range(NamedTuple):
@@ -323,6 +326,19 @@ def is_users(file: str) -> bool:
     return not file.startswith((PACKAGE, *LIBRARIES, "<frozen"))
 
 
+def per_class(make: Callable[[type], _T]) -> Callable[[type], _T]:
+    """Decorator: make(cls) is computed once for each class, and forgotten with it; the engine makes many."""
+    known = WeakKeyDictionary[type, _T]()
+
+    @wraps(make)
+    def found(cls: type) -> _T:
+        if cls not in known:
+            known[cls] = make(cls)
+        return known[cls]
+
+    return found
+
+
 def hints_of(cls: type) -> dict[str, Any]:
     """Field -> annotation of a class, with all names in them resolved; empty where one cannot be."""
     try:
@@ -331,7 +347,7 @@ def hints_of(cls: type) -> dict[str, Any]:
         return {}
 
 
-@lru_cache(maxsize=256)
+@per_class
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None], ...]:
     """The fields of a class to check: (name, allowed types, whether these are checked, range or None) of each.
 

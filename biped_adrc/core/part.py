@@ -17,11 +17,10 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
-from functools import cached_property, wraps
+from functools import cached_property
 from typing import Any, TypeVar
-from weakref import WeakKeyDictionary
 
-from biped_adrc.core.checks import Checked, hints_of
+from biped_adrc.core.checks import Checked, hints_of, per_class
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import frozen
 
@@ -78,19 +77,6 @@ def setup(default: Any) -> Any:
     new values compile nothing.
     """
     return field(default=default, metadata=SETUP)
-
-
-def per_class(make: Callable[[type], _T]) -> Callable[[type], _T]:
-    """Decorator: make(cls) is computed once for each class, and forgotten with it; the engine makes many."""
-    known = WeakKeyDictionary[type, _T]()
-
-    @wraps(make)
-    def found(cls: type) -> _T:
-        if cls not in known:
-            known[cls] = make(cls)
-        return known[cls]
-
-    return found
 
 
 def is_part(x: object) -> bool:

@@ -111,11 +111,7 @@ class Program:
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
-        code = generated(self.key, {name: partial(self._traced, name) for name in self.names})
-        vars(self).pop(
-            "equations", None
-        )  # they take megabytes; a reading to be traced makes its own
-        return code
+        return generated(self.key, {name: partial(self._traced, name) for name in self.names})
 
     def reading(self, read: Reading) -> LoadedCode:
         """Machine code of `read`, with the address "reading"; its inputs are those of `tick`, its output all

@@ -203,16 +203,15 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
     """
     robot, preset = biped.description.name, biped.preset
     path = Path(family)
-    folder = data_file("gaits", robot, "families")
     if path.suffix.lower() != ".json":
         path = data_file("gaits", robot, "families", f"{family}-{preset}.json")
-        known = sorted(x.stem.removesuffix(f"-{preset}") for x in folder.glob(f"*-{preset}.json"))
-    # a missing file elsewhere was named by its path: `reading` reports it
-    if path.parent == folder and not path.is_file():
-        raise GaitError(
-            f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, and "
-            "biped-adrc gait design --speeds --steps makes one"
-        )
+        if not path.is_file():  # a missing file that was named by its path is reported by `reading`
+            stored = data_file("gaits", robot, "families").glob(f"*-{preset}.json")
+            known = sorted(x.stem.removesuffix(f"-{preset}") for x in stored)
+            raise GaitError(
+                f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, "
+                "and biped-adrc gait design --speeds --steps makes one"
+            )
     with reading("family file", path, GaitError):
         result = _from_record(json.loads(path.read_text(encoding="utf-8")))
     if (result.robot, result.preset) != (robot, preset):

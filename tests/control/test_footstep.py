@@ -20,6 +20,7 @@ import biped_adrc as ba
 from biped_adrc.analysis import gait_design
 from biped_adrc.analysis.gait_design import OF_LIBRARY, library, step_integrals
 from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import data_file
 from biped_adrc.gait.family import DECISION, load_family
 from biped_adrc.model.ground import Stones
 
@@ -87,6 +88,9 @@ def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_pat
     load_family("flat", biped).save(path)
     with pytest.raises(GaitError, match=r"no family 'steep'.*stored are \['flat'\]"):
         load_family("steep", biped)
+    stored = data_file("gaits", "rabbit", "families", "steep.json")
+    with pytest.raises(GaitError, match=r"families/steep.json' not found"):
+        load_family(stored, biped)
     with pytest.raises(GaitError, match="preset 'identified', and this is 'rabbit', 'tac2003'"):
         load_family(path, ba.Biped.load("rabbit", "tac2003"))
     with pytest.raises(GaitError, match=r"no member of 2 m/s.*the nearest has 1.1 m/s"):

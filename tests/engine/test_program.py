@@ -4,8 +4,10 @@ Python's are Pinocchio's. Machine code is compiled from a closed form in absolut
 `close` allows 1e-11 of the largest number.
 """
 
+import gc
 import math
 from dataclasses import replace
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.calls import compiled_biped
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program
+from biped_adrc.engine.tracer import Tracer
 from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
@@ -147,3 +150,21 @@ def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
     off = replace(robot, K=robot.K._replace(foot_re=robot.K.foot_re + wrong))
     with pytest.raises(ModelError, match="the swing foot in absolute angles differs"):
         off.check(biped)
+
+
+def test_what_was_traced_is_forgotten_where_it_is_machine_code(biped, gait, monkeypatch):
+    """Expressions of a walker take megabytes, and each tracing makes classes of its own. None of its tracers
+    may live on in the walker, in the program or in a cache by class. Nothing is found in memory or on disk, so
+    all is traced here.
+    """
+    monkeypatch.setattr("biped_adrc.engine.generated.fetch", lambda key: None)
+    monkeypatch.setattr("biped_adrc.engine.generated._IN_MEMORY", {})
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=SampledTime(1.1e-3))
+    traced = []
+    init = Tracer.__init__
+    monkeypatch.setattr(Tracer, "__init__", lambda self: (init(self), traced.append(ref(self)))[0])
+    walk = ba.walk(walker, gait, impacts=1, method=ba.RK4(1.1e-3))
+    assert walk.signals.t.size
+    gc.collect()
+    assert traced
+    assert not any(tracer() for tracer in traced)
