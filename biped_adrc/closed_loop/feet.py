@@ -2,12 +2,11 @@
 
     footing(row, u, load) -> Feet     a method of the plant, for instance of `MuJoCoPlant`
 
-Such a plant has an integration and contacts of its own. row (2 n + k,) is the plant's whole state, (q, q', and
-k numbers of its own), u (p,) [N m] the torque asked of the p motors, load what acts from outside: the
-disturbance zeta (n,) [N m] and its resultant force [N]. Forces of the ground follow from state, torque and
-load, so a run does not compute them: `with_readings` asks the plant at every node of a finished run and adds
-the answers to the arcs (`Arc.read`), with which they are stored. An arc is the motion of one single support, a
-node an instant whose state x (nx,) is stored.
+Such a plant has an integration and contacts of its own. row (2 n + k,) is its whole state, (q, q', and k
+numbers of its own), u (p,) [N m] the torque asked of the p motors, load what acts from outside: the disturbance
+zeta (n,) [N m] and its resultant force [N]. Forces of the ground follow from these, so a run does not compute
+them: `with_readings` asks the plant at every node of a finished run and adds the answers to the arcs
+(`Arc.read`). An arc is the motion of one single support, a node an instant whose state x (nx,) is stored.
 """
 
 from __future__ import annotations
@@ -30,10 +29,8 @@ FEET = ("foot_force", "foot_place", "foot_speed", "foot_level")
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
     """A copy of a run of this loop whose arcs have, in `Arc.read`, the readings FEET at their K nodes; also "u"
-    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet.
-
-    Raises InputError for a plant without feet.
-    """
+    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet. Raises InputError
+    for a plant without feet."""
     plant, arcs = loop.plant, []
     if not isinstance(plant, OnFeet):
         raise InputError(

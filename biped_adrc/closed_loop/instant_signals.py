@@ -9,8 +9,7 @@ mode the single support, its number and the time at which it began. Symbols:
     u, zeta       torque of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
     kappa, xi     q_b'' = kappa u + xi: input gain (p, p) [1/(kg m^2)], total disturbance (p,) [rad/s^2]
     xi~           generalised force that the nominal model (the controller's) does not know (n,) [N m]
-    ^             an estimate by the controller's observer
-    m v_com       momentum of the whole robot
+    ^, m v_com    an estimate by the controller's observer; momentum of the whole robot (2,) [N s]
 """
 
 from __future__ import annotations
@@ -76,11 +75,8 @@ class InstantSignals(NamedTuple):
 
 
 def signals_at(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> InstantSignals:
-    """The signals at t [s] in the state x (nx,).
-
-    reference(s, m) gives q_d and dq_d, usually of the reference that the controller tracks; a run may also be
-    compared with another one. Runs on numbers and on symbols.
-    """
+    """The signals at t [s] in the state x (nx,), as numbers or symbols. reference(s, m) gives q_d and dq_d,
+    usually of the reference that the controller tracks; a run may also be compared with another one."""
     i = instant(loop, t, x, mode)
     # terms: of the nominal model; they have kappa, its inverse, and xi with xi~ = 0
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
@@ -113,9 +109,8 @@ def controller_inputs(
     loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked | None
 ) -> tuple[Array, ...]:
     """What a controller needs at the sample instant t [s] in the state x (nx,), for sensors that are exact: q
-    (n,) and v (n,), the terms of the nominal model there (the arrays of a `Reduction`), and the point of the
-    reference (the arrays of a `ReferencePoint`), which is left out for reference None.
-    """
+    and v (n,), the nominal model's terms there (arrays of a `Reduction`), and the reference's point (arrays of
+    a `ReferencePoint`), which is left out for reference None."""
     q, v, s, _ = parts(loop, x)
     m = loop.measure(t, q, v, mode)
     return (q, v, *m.terms, *(reference(s, m) if reference else ()))
@@ -142,8 +137,7 @@ class StepReading(NamedTuple):
 
 
 class NodeRow(NamedTuple):
-    """The numbers that a compiled walk keeps at one node, a stored instant; or at K nodes with a leading axis
-    of K."""
+    """Numbers that a compiled walk keeps at one node, a stored instant; at K nodes with a leading axis of K."""
 
     t: Array
     """Time [s]."""
@@ -164,8 +158,7 @@ def node_layout(n: int, p: int) -> Layout:
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """Compute the `StepReading` at t [s] in the state x (nx,); errors are those from the point reference(s,
-    m)."""
+    """The `StepReading` at t [s] in the state x (nx,), with errors from the point reference(s, m)."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p
     return StepReading(

@@ -68,11 +68,8 @@ def stepping_loop(
 
 
 def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
-    """A copy of the plant with the lag of the walker's motors, and on the steps of the walker's ground.
-
-    Raises InputError for a plant that has another slope, lag or steps of its own, or that cannot have any where
-    the walker has them.
-    """
+    """A copy of the plant with the lag of the walker's motors, and on the steps of the walker's ground. Raises
+    InputError for a plant that has another slope, lag or steps of its own, or cannot have the walker's."""
     name, steps = type(plant).__name__, walker.ground_steps
     # a walker without a slope (None) walks on the plant's, and a plant that has none takes any
     if walker.slope not in (None, slope := getattr(plant, "slope", walker.slope)):
@@ -132,16 +129,14 @@ def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
 
 
 def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
-    """An arc of a run of `loop` with its states, slopes and event in the layout of a walker on the rigid
-    plant."""
+    """An arc of a run of `loop`, its states, slopes and event in the layout of a walker on the rigid plant."""
     layout, p = loop.layout_of(arc.x[0]), loop.plant.p
     # own: slice of the plant's own numbers; at: end of the queue, the torques that wait whole sampling periods
     own, at = layout.place("tail", "own"), layout.place("tail", "line", "queue").stop
 
     def without(x: Array) -> Array:
         """States (.., nx) without the plant's own numbers; where its motors lag, their torque u_m (.., p) is
-        inserted behind the queue, where a walker keeps it. Also of slopes, where all but q' and q'' is 0.
-        """
+        inserted behind the queue, where a walker keeps it. Also of slopes, where all but q' and q'' is 0."""
         # empty, [.., :0], without lag
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
         # only x[.., :at] has `own` in it
@@ -156,8 +151,7 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
 
 def _values(thing: Any) -> Any:
     """A plant as plain values for the settings of a run: a record of its class and its fields, which are
-    numbers, texts, tuples or such records; of a robot, and of anything else, the name of its class.
-    """
+    numbers, texts, tuples or such records; of a robot, and of anything else, the name of its class."""
     if isinstance(thing, tuple):
         return tuple(map(_values, thing))
     if not is_dataclass(thing) or isinstance(thing, Biped):

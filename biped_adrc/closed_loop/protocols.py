@@ -57,12 +57,11 @@ class Mode(NamedTuple):
 
 
 class Plant(Protocol):
-    """A robot: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
-    [N m] are (n,).
+    """A robot: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces [N m] are (n,).
 
     This is enough for the controller's model of a plant that moves by itself. A walker on the rigid plant
-    stands on the ground with one foot (pinned) and strikes it with the other: its plant also needs the methods
-    that `model.biped.Biped` and `model.planar_robot.PlanarRobot` have in common.
+    stands on one pinned foot and strikes the ground with the other: its plant also needs the methods that
+    `model.biped.Biped` and `model.planar_robot.PlanarRobot` have in common.
     """
 
     @property
@@ -75,8 +74,7 @@ class Plant(Protocol):
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms D_s, Omega, kappa, xi and more, of (11)-(15) of the paper, at q (n,) [rad], v (n,) [rad/s].
-        The motors' rows are q_b'' = kappa u + xi.
-        """
+        The motors' rows are q_b'' = kappa u + xi."""
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + zeta (n,) [N m]; joint friction included."""
@@ -108,8 +106,7 @@ class Loop(Protocol):
 
     @property
     def plant(self) -> Any:
-        """The robot that moves: a `Plant`, or a `SteppingPlant`; a `Biped` or `PlanarRobot` where there are
-        impacts."""
+        """The robot that moves: a `Plant` or `SteppingPlant`; with impacts, a `Biped` or `PlanarRobot`."""
 
     @property
     def nominal(self) -> Any:
@@ -117,10 +114,8 @@ class Loop(Protocol):
 
     @property
     def exact(self) -> bool:
-        """Whether the nominal model is the whole plant: no other model and no friction that it ignores.
-
-        Then D_s and Omega are computed once for controller and motion.
-        """
+        """Whether the nominal model is the whole plant: no other model and no friction that it ignores. Then
+        D_s and Omega are computed once for controller and motion."""
 
     @property
     def calls(self) -> ControlLaw:
@@ -133,8 +128,7 @@ class Loop(Protocol):
     @property
     def swap(self) -> Indices:
         """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y) (`types.relabelled`).
-        """
+        gets entry swap[i] of (y, -y) (`types.relabelled`)."""
 
     @property
     def gain(self) -> Array:
@@ -145,27 +139,23 @@ class Loop(Protocol):
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """The measurement that the controller gets at t [s] of q (n,) [rad], v (n,) [rad/s], as they are: the
-        caller has applied the sensors.
-        """
+        caller has applied the sensors."""
 
     def saturate(self, u: Array) -> Array:
         """u (p,) [N m] within the torque limit."""
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
         """s after the controller's jump to the measurement m where `fires` is 1 (its detector has noticed a
-        touchdown), else s as it is.
-        """
+        touchdown), else s as it is."""
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N] at t [s], q (n,) [rad], v (n,) [rad/s],
-        under the torque in `tail`, the held part of the state.
-        """
+        under the torque in `tail`, the held part of the state."""
 
     def bounded(self, u: Array) -> Array:
-        """Return u (p,) [N m] unchanged; the run ends as run away where it is beyond all that motors can
-        give."""
+        """Return u (p,) [N m] unchanged; the run ends as run away where it is beyond what motors can give."""
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The disturbance zeta (n,) [N m] at t [s]."""
@@ -221,10 +211,8 @@ class Feet(NamedTuple):
 
 @runtime_checkable
 class SteppingPlant(Protocol):
-    """A plant that moves by itself: n coordinates, the first p of them with motors.
-
-    A row (2 n + k,) is its whole state (q, q', own); see the module. Arrays that it gets are read-only.
-    """
+    """A plant that moves by itself: n coordinates, the first p of them with motors. A row (2 n + k,) is its
+    whole state (q, q', own); see the module. Arrays that it gets are read-only."""
 
     @property
     def n(self) -> int:
@@ -237,21 +225,16 @@ class SteppingPlant(Protocol):
     @property
     def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,): motor i gets entry swap[i] of (u, -u); `arange(p)` for
-        none.
-        """
+        none."""
 
     def start(self, t: float, q: Array, v: Array) -> Array:
         """The row at t [s] that begins with q (n,) [rad] and v (n,) [rad/s]; its own numbers, such as motor
-        torques, are those of a plant that has not been moved yet.
-        """
+        torques, are those of a plant that has not been moved yet."""
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """Move from a row at t [s] to `until` [s] or to the next contact, under constant u (p,) [N m] and load;
-        None for no load. The result is a `Moved`.
-
-        Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with the status
-        STEP_FAILED.
-        """
+        None for no load. Raises `hybrid.integrators.StepFailed` where it cannot go on, which ends the run with
+        the status STEP_FAILED."""
 
 
 @runtime_checkable
@@ -260,8 +243,7 @@ class OnFeet(Protocol):
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
         """The `Feet` in the state `row` (2 n + k,), under the torques u (p,) [N m] asked of the motors and the
-        load from outside.
-        """
+        load from outside."""
 
 
 @runtime_checkable
@@ -277,8 +259,7 @@ class LaggingPlant(SteppingPlant, Protocol):
 
     def motor_torque(self, own: Array, u: Array) -> Array:
         """Torque on the joints (.., p) [N m] that the motors produce, in states in which the plant's own
-        numbers are `own` (.., k) and u (.., p) [N m] is asked of the motors.
-        """
+        numbers are `own` (.., k) and u (.., p) [N m] is asked of the motors."""
 
 
 @runtime_checkable

@@ -7,11 +7,10 @@ Symbols (shapes and units in brackets):
 
     q, v = q'       coordinates (n,) [rad] and rates (n,) [rad/s]; - and + mean just before and after an impact
     q_b             the first p coordinates, those of the joints with motors
-    u, zeta         torques of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
+    u, B_s          torques of the motors (p,) [N m]; (n, p), the identity over zeros: u acts on q_b
+    zeta, xi~       disturbance, and what the nominal model does not know: generalised forces (n,) [N m]
     D_s, Omega      mass matrix (n, n) [kg m^2]; Coriolis and gravity terms (n,) [N m]; f = -D_s^-1 Omega
-    B_s             (n, p), the identity over zeros: u acts on the first p coordinates
     kappa, xi       q_b'' = kappa u + xi: input gain (p, p) [1/(kg m^2)], total disturbance (p,) [rad/s^2]
-    xi~             generalised force that the nominal model does not know (n,) [N m]
     Delta           impact map, (7) and (8) of the paper, before the legs exchange their names
     R, r            relabelling, which exchanges the legs: q becomes R q + r, q' becomes R q'
     m               the measurement that the controller gets, with the nominal model's terms at (q, q')
@@ -42,13 +41,10 @@ beginning, d the memory of the detector.
                       where the detector fires: other <- 1 - other, step + 1, start <- t, the controller jumps
                       the torque [N m] is computed by these names, then exchanged for the plant's
 
-These pure functions are the only place where the closed loop is defined. On NumPy arrays
-`closed_loop.system.ClosedLoop` calls them (`Walker`, `SteppingLoop`); on symbols
-`engine.equations` calls the same lines to generate code. For that reason nothing here branches on a
-real number: only integers of the structure (sizes, whether a part exists) decide, because a branch
-on a symbol cannot be traced.
-
-What a loop and its plant must offer is in `closed_loop.protocols`.
+These pure functions are the only place where the closed loop is defined. `closed_loop.system.ClosedLoop` calls
+them on NumPy arrays (`Walker`, `SteppingLoop`), `engine.equations` on symbols, to generate code. A branch on a
+symbol cannot be traced, so nothing here branches on a real number: only integers of the structure (sizes,
+whether a part exists) decide. What a loop and its plant must offer is in `closed_loop.protocols`.
 """
 
 from __future__ import annotations
@@ -114,10 +110,9 @@ def measurement(
 ) -> Measurement:
     """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
 
-    The nominal model's `terms` (inertia, Omega, kappa, xi) are computed here, unless the caller has them at q
-    and v; with `body` also the model's `BodyTerms` (gravity, force of the ground), for a controller that asks
-    for them (`Controller.needs_body`). All of it is read-only: a controller that writes into it would change
-    the motion.
+    The nominal model's `terms` (inertia, Omega, kappa, xi) are computed here, unless the caller has them at q,
+    v; with `body` also its `BodyTerms` (gravity, force of the ground), for a controller that asks for them
+    (`Controller.needs_body`). All of it is read-only: a controller that writes into it would change the motion.
     """
     q, v = frozen(q), frozen(v)
     terms = frozen(loop.nominal.reduction(q, v) if terms is None else terms)
@@ -131,20 +126,16 @@ def measurement(
 
 
 def applied(u: Array, zeta: Array) -> Array:
-    """The generalised force B_s u + zeta (n,) [N m], for u (p,) and zeta (n,) [N m]: B_s = (1; 0) adds u to the
-    first p entries.
-    """
+    """Generalised force B_s u + zeta (n,) [N m]: zeta (n,) with u (p,) [N m] added to its first p entries."""
     force = zeta.copy()
     force[: len(u)] = force[: len(u)] + u
     return force
 
 
 def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array) -> Array:
-    """q'' of the plant (n,) [rad/s^2] under `force` (n,) [N m], at q (n,) [rad], v (n,) [rad/s].
-
-    `terms`: those of the nominal model there. Where the nominal model is the plant, D_s and Omega are in them
-    and are not computed a second time. Raises SingularError for a singular D_s.
-    """
+    """q'' of the plant (n,) [rad/s^2] under `force` (n,) [N m], at q (n,) [rad], v (n,) [rad/s]. terms: the
+    nominal model's there; where that model is the plant, their D_s and Omega are not computed a second time.
+    Raises SingularError for a singular D_s."""
     # whether the model is the plant is structure: the `if` is decided when the code is made. On symbols
     # `solve_positive` is `engine.symbols.solve_positive`, as LAPACK takes no symbols
     if loop.exact:
@@ -153,11 +144,8 @@ def acceleration(loop: Loop, terms: Reduction, q: Array, v: Array, force: Array)
 
 
 def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
-    """Measurement, torque, disturbance and acceleration at t [s] in the state x (nx,).
-
-    In sampled time u is the torque that acts since the last sample instant; in continuous time the saturated
-    output of the controller.
-    """
+    """Measurement, torque, disturbance and acceleration at t [s] in the state x (nx,). In sampled time u is the
+    torque that acts since the last sample instant; in continuous time the controller's saturated output."""
     q, v, s, tail = parts(loop, x)
     # in sampled time m is at the true (q, q'), since this is for readers of the walk, not for the controller
     m = loop.measure(t, q, v, mode)
@@ -169,11 +157,8 @@ def instant(loop: Loop, t: float, x: Array, mode: Mode) -> Instant:
 
 
 def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x' (nx,) between events, at t [s].
-
-    Continuous time: (q', q'', s'). Sampled time: the state of the controller does not change between sample
-    instants, the torque is held, and of the held numbers only the torques of lagging motors move.
-    """
+    """x' (nx,) between events, at t [s]. Continuous time: (q', q'', s'). Sampled time: the controller's state
+    and the torque are held, and of the tail only the torques of lagging motors move."""
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
@@ -190,12 +175,11 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x (nx,) after one sample instant at t [s]: sensors, controller and motors act in this order; q and
-    q' do not change.
+    """x (nx,) after one sample instant at t [s]: sensors, controller and motors act, in this order; q, q' stay.
 
-    With sensors the controller gets the measured (q, q') of the sensors' state w in place of the
-    true ones. A controller that has to notice touchdowns acts by its own names of the legs (`noticed`), and so
-    the torques on their way are exchanged between the legs before it acts, and back after it.
+    With sensors the controller gets the measured (q, q') of the sensors' state w in place of the true ones. A
+    controller that has to notice touchdowns acts by its own names of the legs (`noticed`), and so the torques
+    on their way are exchanged between the legs before it acts, and back after it.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None  # only sampled time has ticks
@@ -225,15 +209,13 @@ def on_stance_foot(
 
 def command(loop: Loop, s: Any, m: Measurement) -> tuple[Any, Array]:
     """The controller's state s corrected by the measurement m, and the torque (p,) [N m] that the controller
-    asks for then, saturated.
-    """
+    asks for then, saturated."""
     s = loop.calls.correct(s, m)
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 
 
 def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tuple[Any, Line]:
-    """The controller's state s and the torques on their way (`line`, (p,) [N m] each) after the controller has
-    acted on the measurement m.
+    """State s and torques on their way (`line`, (p,) [N m] each) after the controller has acted on m.
 
     Order: correct, output, saturation (all in `command`), rate limit, queue, predict. The observer predicts its
     state at the next tick with the torque just sent; if it knows the computation delay (k.known), with the mean
@@ -246,32 +228,24 @@ def decided(loop: Loop, k: HeldParts, s: Any, m: Measurement, line: Line) -> tup
 
 
 def release(loop: Loop, x: Array) -> Array:
-    """x (nx,) just after a torque that waited for a fraction of the period has begun to act.
-
-    `line.waiting` replaces `line.u`, both (p,) [N m]. For a computation delay that is no whole number of
-    periods.
-    """
+    """x (nx,) just after a torque that waited for a fraction of the period has begun to act: `line.waiting`
+    replaces `line.u`, both (p,) [N m]. For a computation delay that is no whole number of periods."""
     state = parts(loop, x)
     line = state.tail.line
     return flatten(state._replace(tail=state.tail._replace(line=line._replace(u=line.waiting))))
 
 
 def xi_unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Array:
-    """xi~ of (11) (n,) [N m], the generalised force that the nominal model does not know.
-
-    It is the disturbance zeta (n,) [N m] where the model is the plant; otherwise D a + Omega - B_s u with the
-    model's terms, the plant's q'' = a (n,) [rad/s^2] and the torque u (p,) [N m], so that errors of the model
-    count too.
-    """
+    """xi~ of (11) (n,) [N m], the generalised force that the nominal model does not know. It is the disturbance
+    zeta (n,) [N m] where the model is the plant; otherwise D a + Omega - B_s u with the model's terms, the
+    plant's q'' = a (n,) [rad/s^2] and the torque u (p,) [N m], so that errors of the model count too."""
     return zeta if loop.exact else unknown_force(terms, a, u)
 
 
 def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
-    """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s].
-
-    after: the single support that begins. loop.gain (n,) [1], empty for none, is the relative error of the
-    impact map: v+ becomes (1 + gain) v+.
-    """
+    """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s]. after: the
+    single support that begins. loop.gain (n,) [1], empty for none: error of the impact map,
+    v+ becomes (1 + gain) v+."""
     q, v, _, _ = parts(loop, x)
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
@@ -319,15 +293,13 @@ def clearance(tan_slope: float, drop: float, foot: Array) -> float:
 
 def hip_margin(lowest: float, hip: Array) -> float:
     """Height [m] of the hip (x, z) (2,) [m] above the height `lowest` [m], both from the stance foot; the run
-    ends as a fall where it falls through 0.
-    """
+    ends as a fall where it falls through 0."""
     return hip[1] - lowest
 
 
 def time_left(longest: float, start: float, t: float) -> float:
     """Time [s] until a single support that began at `start` [s] is as long as `longest` [s]; the run ends as
-    STALLED where it falls through 0.
-    """
+    STALLED where it falls through 0."""
     return start + longest - t
 
 
@@ -377,10 +349,8 @@ def in_other_names(loop: Loop, other: float, q: Array, v: Array) -> tuple[Array,
 
 def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
     """The torques on their way (`line`), with the legs exchanged where the controller's names are not the
-    plant's (b.other is 1); b is None for a controller that knows touchdowns at once.
-
-    One exchange serves both ways: from the plant's names to the controller's, and back.
-    """
+    plant's (b.other is 1): from the plant's to the controller's, or back. b is None for a controller that knows
+    touchdowns at once."""
     # both are computed and one is chosen: on symbols b.other has no value that an `if` could ask
     return line if b is None else chosen(b.other, line.relabelled(loop.swap), line)
 
@@ -388,9 +358,8 @@ def labelled(loop: Loop, b: Belief | None, line: Line) -> Line:
 def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Array | None:
     """The observer's estimate of xi (p,) [rad/s^2] for the plant's joints; None without an observer.
 
-    s: the controller's state. tail: the held part of the state, empty in continuous time. m: the measurement by
-    the plant's names of the legs. A controller with a belief gets it by its own names, and its estimate is
-    exchanged back.
+    tail: empty in continuous time. m: the measurement by the plant's names of the legs; a controller with a
+    belief gets it by its own names, and its estimate is exchanged back.
     """
     b = tail.belief if tail else None
     if b is not None:
@@ -405,7 +374,6 @@ def estimated(loop: Loop, s: Any, tail: Any, m: Measurement, mode: Mode) -> Arra
 
 def unnoticed(touchdown: Touchdown, b: Belief, t: float) -> Belief:
     """The belief b just after a true touchdown at t [s], at which the plant's legs exchange their names and the
-    controller keeps its own: `other` changes, and the detector's memory d may.
-    """
+    controller keeps its own: `other` changes, and the detector's memory d may."""
     other = 1.0 - b.other
     return b._replace(other=other, d=touchdown.touchdown(b.d, other, t))

@@ -3,10 +3,9 @@
     x = (q, q', s, own, ..)       state (nx,); .. are sensors and torques, held between sample instants
 
     q, v = q'     coordinates (n,) [rad] and rates (n,) [rad/s]; the first p coordinates have motors
-    s             the controller's state
+    s, u          the controller's state; torques asked of the motors (p,) [N m], the last p numbers of x
     own           k numbers that the plant needs besides q and q' to go on, such as torques of lagging motors
     row           (q, q', own) (2 n + k,), the plant's whole state
-    u             torques that are asked of the motors (p,) [N m], the last p numbers of x
     zeta          disturbance, a generalised force (n,) [N m]
     load          all that acts from outside, a `Load`: zeta, and the resultant force [N]; None for nothing
     mode          the single support: its number from 1 (step), and the time [s] at which it began (start)
@@ -60,8 +59,7 @@ class SteppingLoop(ClosedLoop[Any]):
     - plant: the plant that moves. model: the controller's model of it, a `protocols.Plant`.
     - timing: sampled, since the plant gets one torque for the time between two sample instants.
 
-    Raises InputError for what does not fit: continuous time, no model, or a motor's lag, which belongs into
-    the plant.
+    Raises InputError for continuous time, no model, or a lag of the motors, which belongs into the plant.
     """
 
     plant: SteppingPlant
@@ -96,8 +94,7 @@ class SteppingLoop(ClosedLoop[Any]):
     def squares(self) -> tuple[float, float]:
         """Two numbers for a quick test, which is sufficient and not necessary: all angles are within their
         bounds where the sum of their squares is below the first [rad^2], and all rates where the sum of squares
-        of the plant's whole row (q, q', own) is below the second.
-        """
+        of the plant's whole row (q, q', own) is below the second."""
         return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
 
     @property
@@ -113,16 +110,14 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of the single support `mode` (by default the first one, at 0 s) in q (n,) [rad],
-        v (n,) [rad/s], with the row of the plant that was started there.
-        """
+        v (n,) [rad/s], with the row of the plant that was started there."""
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
         n = self.plant.n
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
 
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
         """Run the loop from x0 (nx,) in the single support `mode`, by default the first one, at 0 s; the status
-        of the result says how it ended. Raises InputError for an x0 that does not fit the loop.
-        """
+        of the result says how it ended. Raises InputError for an x0 that does not fit the loop."""
         mode, n, x = (
             Mode() if mode is None else mode,
             self.plant.n,
@@ -150,11 +145,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return self, {"engine": "pinocchio", "why": "the plant moves by itself"}
 
     def with_plant(self, x: Array, row: Array) -> Array:
-        """A copy of x (nx,) in which the plant has the state `row` = (q, q', own) (2 n + k,).
-
-        own are the k numbers that the plant keeps besides q and q'; controller, sensors and torques stay as in
-        x.
-        """
+        """A copy of x (nx,) in which the plant has the state `row` = (q, q', own) (2 n + k,); controller,
+        sensors and torques stay as in x."""
         x, n = x.copy(), self.plant.n
         x[: 2 * n], x[self.own_places(x)] = row[: 2 * n], row[2 * n :]
         return x
@@ -164,9 +156,7 @@ class SteppingLoop(ClosedLoop[Any]):
         return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places(x)])))
 
     def mover(self, fired: str | None) -> Mover:
-        """The function that moves the loop, always `move`: the event `fired` that ended the arc before does not
-        matter to it.
-        """
+        """The function that moves the loop: always `move`, whichever event `fired` ended the arc before."""
         return self.move
 
     def record(self, every: int) -> Stretches:
@@ -216,17 +206,13 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.disturbance is not None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, 2 n + k): zero.
-
-        Called where `pushed_in_python` is false, here without a disturbance; a loop with a compiled disturbance
-        overrides it.
-        """
+        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, 2 n + k): zero. Called where
+        `pushed_in_python` is false, here without a disturbance; a loop with a compiled one overrides it."""
         return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:
         """Torque on the joints (.., p) [N m] in states x (.., nx): the torque that is asked of the motors, or
-        for motors with a lag the one that the plant keeps.
-        """
+        for motors with a lag the one that the plant keeps."""
         plant, u = self.plant, x[..., -self.plant.p :]
         if not isinstance(plant, LaggingPlant):
             return u
@@ -236,8 +222,7 @@ class SteppingLoop(ClosedLoop[Any]):
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N], by the plant's own `footing`, at t [s], q
-        (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
-        """
+        (n,) [rad], v (n,) [rad/s], under the torque in `tail`."""
         # tail: the part of x behind the controller's state, with the plant's own numbers and the torques (line)
         plant, row = cast("Any", self.plant), np.concatenate((q, v, tail.own))
         # (2, 2): rows of the stance and the swing foot, columns of x and z
@@ -273,8 +258,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
 def check_swap(plant: SteppingPlant) -> None:
     """Raise InputError where `swap` of a plant is no relabelling of its p motors: joint i gets entry swap[i] of
-    (y, -y), so each joint is named once, by its number from 0, or by that plus p for a change of sign.
-    """
+    (y, -y), so each joint is named once, by its number from 0, or by that plus p for a change of sign."""
     swap = np.asarray(plant.swap)
     if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
@@ -284,11 +268,9 @@ def check_swap(plant: SteppingPlant) -> None:
 
 
 def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> Array:
-    """The row (2 n + k,) that `plant.start` returns at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
-
-    own: the expected number k of the plant's own numbers; None accepts any. Raises InputError where the
-    row does not begin with q and v.
-    """
+    """The row (2 n + k,) that `plant.start` returns at t [s] for q (n,) [rad], v (n,) [rad/s], checked. own:
+    how many numbers of its own (k) it must have; None accepts any. Raises InputError where the row does not
+    begin with q and v."""
     found = plant.start(t, read_only(q), read_only(v))
     shape = None if own is None else (2 * len(q) + own,)
     row = returned(found, shape, plant, "start", finite=False).copy()
@@ -303,8 +285,7 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
 def advanced(
     plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
 ) -> tuple[float, Array, tuple[Contact, ...], Array | None]:
-    """Call `plant.advance` from `row` at t [s] under the torques u (p,) [N m] and the load, and check the
-    result.
+    """Call `plant.advance` from `row` at t [s] under torques u (p,) [N m] and load, and check the result.
 
     Returns the time [s], a copy of the row there, the contacts, and the row after them (None without). A time
     within round-off of `until` [s] becomes `until`. Raises InputError for what breaks the contract of
@@ -328,8 +309,7 @@ def advanced(
 
 def _together(contacts: tuple[Contact, ...]) -> Contact:
     """Contacts at one time as one: names joined by +, impulses added; where some of them end the run, those
-    alone count, with the status of the first.
-    """
+    alone count, with the status of the first."""
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
     # dict.fromkeys: each name once, in order
@@ -338,8 +318,7 @@ def _together(contacts: tuple[Contact, ...]) -> Contact:
 
 @dataclass
 class Stretches(Recorder):
-    """The record of one arc, stretch after stretch: from a sample instant or a switching time of a disturbance
-    to the next.
+    """The record of one arc, stretch after stretch: each from a sample instant or switching time to the next.
 
     Lists grow with every stretch and become arrays once per arc, in `arc`, since a stretch costs microseconds.
     `t` has the times [s] of `rows`.
@@ -354,18 +333,15 @@ class Stretches(Recorder):
     """The loop's state x (nx,) at the start of every stretch; all but its row is held until the next one."""
 
     def begin(self, t: float, row: Array, x: Array, mode: Mode) -> None:
-        """Record that a stretch begins at t [s], in the plant's row (2 n + k,) and the state x (nx,).
-
-        Its row is recorded only for the first stretch: any other begins where the one before has ended.
-        """
+        """Record that a stretch begins at t [s], in the plant's row (2 n + k,) and the state x (nx,). Its row
+        is recorded only for the first stretch: any other begins where the one before has ended."""
         if not self.rows:
             self.point(t, row, mode)
         self.held.append(x)
 
     def point(self, t: float, row: Array, mode: Mode) -> None:
         """Record that the plant is in the row (2 n + k,) at t [s], an end of a stretch, and zeta there where
-        Python computes it.
-        """
+        Python computes it."""
         if self.loop.pushed_in_python:
             self.zeta.append(self.loop.load(t, row, mode).zeta)
         self.t.append(t)
@@ -373,11 +349,9 @@ class Stretches(Recorder):
 
     def arc(self, mode: Mode, event: Event | None) -> Arc:
         """Join all stretches into one arc, whose nodes are both ends of each stretch; a stretch that failed has
-        its start alone.
-
-        The arc also has the motors' torque "u" (p,) and "zeta" (n,) [N m] at its nodes. q'' is constant over a
-        stretch, the difference of the rates by its duration, as the plant does not compute it.
-        """
+        its start alone. The arc also has the motors' torque "u" (p,) and "zeta" (n,) [N m] at its nodes. q'' is
+        constant over a stretch, the difference of the rates by its duration, as the plant does not compute
+        it."""
         if not self.rows:  # no stretch has begun: what the base class has recorded
             return super().arc(mode, event)
         n, t, rows = self.loop.plant.n, np.array(self.t), np.array(self.rows)

@@ -1,16 +1,15 @@
 """A closed loop on NumPy arrays, as a hybrid system that a simulator can run.
 
-`ClosedLoop` has what `Walker` and `SteppingLoop` share: a plant, a controller in its
-time base (continuous or sampled), the model that the controller knows, and the methods of
-`hybrid.system.HybridSystem`, each of which calls the function of `closed_loop.semantics` with the
-same name. It adds what pure functions cannot do: checks of what a user's controller returns, with
-sentences that name the culprit. A tick is a sample instant. In all methods
+`ClosedLoop` has what `Walker` and `SteppingLoop` share: a plant, a controller in its time base (continuous or
+sampled), the model that the controller knows, and the methods of `hybrid.system.HybridSystem`, each of which
+calls the function of `closed_loop.semantics` with the same name. It adds what pure functions cannot do: checks
+of what a user's controller returns, with sentences that name the culprit. A tick is a sample instant. In all
+methods
 
     x (nx,)         state: (q, q', s), and in sampled time behind it the tail, what is held between ticks
     q, v = q'       coordinates (n,) [rad] and rates (n,) [rad/s]; the first p coordinates have motors
-    s               the controller's state, with that of an observer
+    s, m            the controller's state, with that of an observer; a measurement, as the controller gets it
     u, zeta         torques of the motors (p,) [N m]; disturbance, a generalised force (n,) [N m]
-    m               a measurement, as the controller gets it
     mode            the single support: its number from 1 (step), and the time [s] at which it began (start)
     t               time since the start of the run [s]
 
@@ -69,8 +68,7 @@ class _Bounds(NamedTuple):
 
     def check(self, t: float, q: Array, v: Array) -> None:
         """Raise RanAwayError for an angle in q (n,) [rad] or a rate in v (n,) [rad/s] beyond its bound; t [s]
-        is for the text.
-        """
+        is for the text."""
         if np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest)):
             return
         # the largest angle, and the rate that is the largest share of its bound
@@ -91,21 +89,18 @@ MADE_AGAIN = ("held", "calls", "layout", "undisturbed", "_once")
 
 @dataclass(frozen=True)
 class ClosedLoop(HybridSystem, Generic[_P]):
-    """`semantics` on NumPy arrays: a plant, a controller with its timing, and the model that the controller
-    knows.
+    """`semantics` on NumPy arrays: a plant, a controller with its timing, and its model of the plant.
 
     - plant: the robot that moves. model: the robot as the controller knows it; None: the plant itself.
-    - controller, timing: in continuous time, or sampled with a period, a delay and restart at
-      impacts.
+    - controller, timing: in continuous time, or sampled with a period, a delay and restart at impacts.
     - disturbance: zeta (n,) [N m] and forces from outside; None for none.
-    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
-      asked for.
+    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one asked for.
     - sensors, motors: between controller and plant; in sampled time only.
     - touchdown: the detector by which the controller notices one, in sampled time with restart=False; None: it
       knows each one at once.
-    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s,
-      or the peak torque of the robot's record; infinite for no end. A joint
-      that turns by more than a whole turn ends it, too.
+    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times 50 rad/s, or the peak
+      torque of the robot's record; infinite for no end. A joint that turns by more than a whole turn ends it,
+      too.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
@@ -166,11 +161,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     @cached_property
     def calls(self) -> ControlLaw:
         """The methods of `law`, wrapped so that the states which they return are checked for class, shape and
-        finite numbers.
-
-        `output` is not wrapped, since `saturate` checks the torque, and the s' that `flow` returns may be
-        infinite, since the integrator checks the state.
-        """
+        finite numbers. `output` is not wrapped, since `saturate` checks the torque, and the s' that `flow`
+        returns may be infinite, since the integrator checks the state."""
         law = self.law
 
         def kept(name: str, finite: bool = True) -> Callable[..., Any]:
@@ -200,8 +192,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     @cached_property
     def held(self) -> HeldParts | None:
         """Sensors, motors and detector at sample instants, which hold numbers between these
-        (`hardware.sample_hold`); None in continuous time.
-        """
+        (`hardware.sample_hold`); None in continuous time."""
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
@@ -218,10 +209,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     @cached_property
     def bounds(self) -> _Bounds:
-        """Angles, rates and torque beyond which the run ends as run away.
-
-        They are infinite where neither plant nor model is a Biped; that of the torque also without motors.
-        """
+        """Angles, rates and torque beyond which the run ends as run away. They are infinite where neither plant
+        nor model is a Biped; that of the torque also without motors."""
         robot: Any = self.plant if isinstance(self.plant, Biped) else self.nominal
         if not isinstance(robot, Biped):
             return _Bounds(math.inf, read_only(np.full(self.plant.n, math.inf)), math.inf)
@@ -237,15 +226,12 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     @property
     def swap(self) -> Indices:
         """Relabelling of the actuated joints at an impact (p,), dtype int: of numbers y of the joints, joint i
-        gets entry swap[i] of (y, -y).
-        """
+        gets entry swap[i] of (y, -y)."""
         return self.plant.swap  # type: ignore[attr-defined]
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
-        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one.
-
-        Raises InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN.
-        """
+        """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one. Raises
+        InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN."""
         if self.disturbance is None:
             return np.zeros(self.plant.n)
         return self.disturbance.zeta(t, mode.step, mode.start, q, v)
@@ -259,18 +245,15 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
         """Times of the run [s] at which the disturbance is not smooth in the single support `mode`; no
-        integration step goes across one.
-        """
+        integration step goes across one."""
         if self.disturbance is None:
             return ()
         return self.disturbance.switching_times(mode.step, mode.start)
 
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
-        """The layout of a state x (nx,) as a `semantics.State`, the same for all states of the loop.
-
-        Found once, by starting the controller at the (q, v) in x, then remembered as an attribute.
-        """
+        """The layout of a state x (nx,) as a `semantics.State`, the same for all states of the loop. Found
+        once, by starting the controller at the (q, v) in x, then remembered as an attribute."""
         # by vars(), as fields of a frozen dataclass cannot be set
         if "layout" not in vars(self):
             n, mode = self.plant.n, Mode()
@@ -279,8 +262,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return vars(self)["layout"]
 
     def _begun(self, m: Measurement, s: Any, mode: Mode) -> State:
-        """The state at the start of a run with the measurement m and the controller's state s; no torque acts
-        yet."""
+        """The state at the start of a run with measurement m and controller's state s; no torque acts yet."""
         # *mode: number and start of the single support; () is the tail in continuous time
         return State(m.q, m.v, s, () if self.held is None else self.held.start(m.q, m.v, *mode))
 
@@ -290,11 +272,8 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of the single support `mode` (by default the first one, at 0 s) in q (n,) [rad],
-        v (n,) [rad/s].
-
-        Here, once, the controller's first output, its state's methods and its reference are tried:
-        raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
-        """
+        v (n,) [rad/s]. Here, once, the controller's first output, its state's methods and its reference are
+        tried: raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN."""
         mode = Mode() if mode is None else mode
         q, v = (np.asarray(x, dtype=float) for x in (q, v))
         # without the disturbance, which does not matter here, so that loops with different ones share the
@@ -305,21 +284,16 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     # -- what it does --------------------------------------------------------------------------------
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """The measurement that the controller gets at t [s], q (n,) [rad], v (n,) [rad/s].
-
-        Sensors are not applied here: q, v are what they show. Raises InputError where that is not (n,) numbers
-        each, NotFiniteError for NaN or infinity.
-        """
+        """The measurement that the controller gets at t [s]; q (n,) [rad], v (n,) [rad/s] are what its sensors
+        show. Raises InputError where they are not (n,) numbers each, NotFiniteError for NaN or infinity."""
         if self.sensors is not None:
             shape = (self.plant.n,)
             q, v = (returned(x, shape, self.sensors, "reading") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:
-        """u (p,) [N m] with each entry bounded by the torque limit, if there is one.
-
-        Raises InputError for what is not one real number per motor, NotFiniteError for NaN or infinity.
-        """
+        """u (p,) [N m] with each entry bounded by the torque limit, if there is one. Raises InputError for what
+        is not one real number per motor, NotFiniteError for NaN or infinity."""
         shape, limit = (self.plant.p,), self.torque_limit
         u = returned(u, shape, self.controller, "output", finite=False)
         if limit is not None:
@@ -337,8 +311,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         self, t: float, q: Array, v: Array, tail: Tail, mode: Mode
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N], the latter 0: a plant whose stance foot
-        is pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`.
-        """
+        is pinned, at t [s], q (n,) [rad], v (n,) [rad/s], under the torque in `tail`."""
         return semantics.on_stance_foot(self, self.resultant(t, mode), t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
@@ -365,14 +338,12 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def _release(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) just after the torque that waited for a fraction of the period has begun to act; t and mode
-        are not used.
-        """
+        are not used."""
         return semantics.release(self, x)
 
     def relaxing(self) -> Relaxing | None:
         """Places in x of the p torques of lagging motors, and of the commanded torques to which they go
-        exponentially, the last p numbers of x; with 1 / lag [1/s]. None without lag.
-        """
+        exponentially, the last p numbers of x; with 1 / lag [1/s]. None without lag."""
         k, p = self.held, self.plant.p
         if k is None or k.motors.speed == 0.0:
             return None
@@ -382,8 +353,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
 
     def clocks(self) -> tuple[Clock, ...]:
         """The control clock, and for a delay of a fraction of the period a second one that releases the waiting
-        torque; empty in continuous time.
-        """
+        torque; empty in continuous time."""
         time, k = self.timing, self.held
         if not isinstance(time, SampledTime) or k is None:
             return ()
@@ -419,9 +389,7 @@ def _held(
     own: int,
 ) -> HeldParts:
     """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
-
-    It is remembered in `time`, so that loops with equal parts share the result.
-    """
+    It is remembered in `time`, so that loops with equal parts share the result."""
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
@@ -430,11 +398,8 @@ def _held(
 
 @once
 def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layout]:
-    """Compute the x (nx,) of `ClosedLoop.initial_state`, and its layout, and check the controller there.
-
-    start: shape and bytes of q, then shape and bytes of v, since results are remembered by arguments that can
-    be hashed, and arrays cannot.
-    """
+    """Compute the x (nx,) of `ClosedLoop.initial_state`, and its layout, and check the controller there. start:
+    shape and bytes of q, then those of v: arrays cannot be hashed, as keys of remembered results must be."""
     shapes, data = start[::2], start[1::2]  # the arrays of q and v again
     q, v = (np.frombuffer(x).reshape(shape) for shape, x in zip(shapes, data, strict=True))
     # no warning of NumPy: a number that is not finite raises an error here, or ends the walk later.
@@ -451,12 +416,9 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
-    """Raise InputError where the gains or the reference of a controller do not fit p motors and the
-    coordinates.
-
-    The reference is evaluated at the measurement m for that. A controller without gains or reference passes.
-    An exception in a reference of the user's names its line (`handing_out`).
-    """
+    """Raise InputError where the gains or the reference of a controller, if it has any, do not fit p motors and
+    the coordinates. The reference is evaluated at the measurement m for that; an exception in a user's
+    reference names its line (`handing_out`)."""
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):
         gains.check(p)

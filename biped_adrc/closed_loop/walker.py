@@ -18,22 +18,19 @@ coordinates x -> (w, E) in which what is stiff is linear:
 
     E' = A E + N_E,   w' = N_w          E (k, p): one column per actuated joint
 
-An observer with poles far to the left makes x' = f(x) stiff: an explicit method would need steps
-far below 1 ms. In these coordinates the stiff part is the constant matrix A (k, k), k being the number of
-observer states per joint; the remainder N is slow. e = S (q_b, q_b') - Z is the observer's error. Z (k, p) is
-the observer's state; S (q_b, q_b') (k, p) has q_b in row 0, scale q_b' in row 1, and zeros below; `scale` [s]
-is the factor of velocities in Z:
+An observer with poles far to the left makes x' = f(x) stiff: an explicit method would need steps far below
+1 ms. In these coordinates the stiff part is the constant matrix A (k, k), k being the number of observer states
+per joint; the remainder N is slow. e = S (q_b, q_b') - Z is the observer's error. Z (k, p) is the observer's
+state; S (q_b, q_b') (k, p) has q_b in row 0, scale q_b' in row 1, and zeros below; `scale` [s] is the factor of
+velocities in Z:
 
     w = (q, q', rest),   E = e,   N_E = scale xi_total in row 1,   xi_total = q_b'' - kappa u
 
 N_E is zero in all other rows. xi_total (p,) [rad/s^2], the total disturbance, does not depend on u itself;
 torque limits, a wrong model and forces from outside are in it. `rest` is what follows the observer in the
 controller's state. `Walker.split` hands these coordinates to the method of integration in Python;
-`engine.equations` makes machine code of them for the compiled one. Numbers such as (7) are equations of the
-paper.
-
-`hybrid.simulator` runs a Walker in Python; `engine` compiles the same Walker. `scenario.build`
-makes one from plain values.
+`engine.equations` makes machine code of them for the compiled one. `hybrid.simulator` runs a Walker in Python;
+`engine` compiles the same Walker. `scenario.build` makes one from plain values.
 """
 
 from __future__ import annotations
@@ -62,8 +59,7 @@ from biped_adrc.model.ground import GroundSteps, Slope, Stones, drop_of
 @dataclass(frozen=True)
 class ErrorForm:
     """The change of coordinates x -> (w, E) of the exponential method, for a robot under a controller whose
-    state begins with that of a linear observer, order * p numbers.
-    """
+    state begins with that of a linear observer, order * p numbers."""
 
     n: int
     """Number of coordinates."""
@@ -95,8 +91,7 @@ def remainder(
     loop: Loop, form: ErrorForm, t: float, w: Array, E: Array, mode: Mode
 ) -> tuple[Array, Array]:
     """The remainder of the closed loop at t [s], w (2 n + rest,), E (k, p): N_w, of the size of w, and row 1 of
-    N_E (p,), its only row that is not zero. Raises RanAwayError for a torque beyond all bounds (`bounded`).
-    """
+    N_E (p,), its only row that is not zero. Raises RanAwayError for a torque beyond all bounds (`bounded`)."""
     i = semantics.instant(loop, t, form.back(w, E), mode)
     s, u = flatten(i.s), loop.bounded(i.u)
     # s' is used only for `rest`; without one the slice of `ds` below is empty, and s saves the computation
@@ -109,8 +104,7 @@ def remainder(
 FOOT_STRIKE = "foot_strike"
 """Name of the event function, clearance of the swing foot, whose zero is the impact."""
 LEAST_STEP = 1e-3
-"""Minimum step length [m]; shorter ground contacts are ignored. Legs without knees scuff the ground in
-mid-swing, when the swing foot passes the stance foot."""
+"""Minimum step length [m]; shorter contacts are ignored: legs without knees scuff the ground in mid-swing."""
 ON_GROUND = 1e-9
 """Largest depth of a foot below the ground that counts as round-off of a touchdown [m]."""
 
@@ -172,11 +166,9 @@ class Walker(ClosedLoop[Biped]):
     # -- parts -------------------------------------------------------------------------------------
     def check_foot(self, q: Array, v: Array, mode: Mode) -> None:
         """Raise InputError for a start q (n,) [rad], v (n,) [rad/s] in the single support `mode` whose
-        touchdown is past.
-
-        The swing foot is then below the ground and comes down, ahead of the hip. A foot that is not yet ahead
-        may begin below the ground, as one of a leg without knees does in the middle of a walking step.
-        """
+        touchdown is past: the swing foot is below the ground and comes down, ahead of the hip. A foot that is
+        not yet ahead may begin below the ground, as one of a leg without knees does in the middle of a walking
+        step."""
         # clearance is z + x tan(slope) + const., so `along` . (x', z') is its rate
         x, _ = self.plant.swing_foot(q)
         depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.ground_slope), 1.0])
@@ -206,43 +198,35 @@ class Walker(ClosedLoop[Biped]):
     # -- from outside ------------------------------------------------------------------------------
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
         """Force of the ground on the stance foot, tangential and normal (F_T, F_N) (2,) [N], at the instant i.
-
         By Newton's law it is m (p_com'' - g), which the plant computes from the motion, less the resultant
-        force from outside.
-        """
+        force from outside."""
         m = i.measurement
         return self.plant.ground_reaction(m.q, m.v, i.a) - self.resultant(m.t, mode)
 
     # -- impact and ground -------------------------------------------------------------------------
     def strike(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode] | None:
-        """x+ (nx,) after the impact at t [s], x (nx,) being x-, with the mode that begins.
-
-        None where the swing foot is not more than LEAST_STEP, 1 mm, ahead of the stance foot: its touch of the
-        ground is then ignored, as a leg without knees scuffs the ground in mid-swing.
-        """
+        """x+ (nx,) after the impact at t [s], x (nx,) being x-, with the mode that begins. None where the swing
+        foot is not more than LEAST_STEP, 1 mm, ahead of the stance foot: its touch of the ground is then
+        ignored, as a leg without knees scuffs the ground in mid-swing."""
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
         return self.impact(t, x, mode)
 
     def impact(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
         """x+ (nx,) after impact, relabelling and the controller's jump at t [s], wherever the swing foot is,
-        and the mode that begins.
-        """
+        and the mode that begins."""
         after = Mode(mode.step + 1, t)
         return semantics.strike(self, t, x, after), after
 
     def drop(self, step: int) -> float:
         """How much lower [m] than the plane through the stance foot the ground is where single support `step`
-        ends, by the steps of the ground; below 0 for a step up.
-        """
+        ends, by the steps of the ground; below 0 for a step up."""
         return drop_of(self.ground_steps, step)
 
     def clearance(self, q: Array, step: int | None = None) -> float:
-        """Height of the swing foot above the ground [m] along the vertical, at q (n,) [rad].
-
-        With `step`, the number of a single support, above the ground where that one ends; without, above the
-        plane through the stance foot.
-        """
+        """Height of the swing foot above the ground [m] along the vertical, at q (n,) [rad]. With `step`, the
+        number of a single support, above the ground where that one ends; without, above the plane through the
+        stance foot."""
         drop = 0.0 if step is None else self.drop(step)
         fall = math.tan(self.ground_slope)
         return float(semantics.clearance(fall, drop, self.plant.swing_foot(q)))
@@ -256,8 +240,7 @@ class Walker(ClosedLoop[Biped]):
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
         """Three event functions of the single support `mode`: clearance of the swing foot [m], at whose zero
         the impact is; height of the hip over its limit [m], at whose zero the run ends as FELL; time left [s],
-        at whose zero it ends as STALLED. Only a zero where the function falls counts.
-        """
+        at whose zero it ends as STALLED. Only a zero where the function falls counts."""
         n = self.plant.n
         # each with its name, its function of (t, x), and what follows: a state after it, or the end of the run
         return (
@@ -289,8 +272,7 @@ class Walker(ClosedLoop[Biped]):
 
     def split(self, mode: Mode) -> Split | None:
         """The coordinates of the exponential method, x -> (w, E), with A and the remainder of the closed loop
-        in `mode`; None in sampled time or without a linear observer.
-        """
+        in `mode`; None in sampled time or without a linear observer."""
         if (form := self.split_form()) is None:
             return None
 

@@ -1,6 +1,13 @@
 """The figures of the reproduction: which signals each gets; the drawing is in `view`.
 
-Drawing takes longer than some of the runs, so each figure is a task of `processes`.
+Drawing takes longer than some of the walks, so each figure is a `Task`, drawn by one of several processes.
+
+    controllers      NPD (PD with decoupling of the inertia) and ADRC (with an observer of disturbances)
+    headline runs    one walk of 25 impacts for each controller, with a push on the joints
+    signals          angles, torques, errors, forces of a walk over time (`analysis.signals`)
+    map of pushes    many short walks, which differ in onset, amplitude and joints of the push
+    plan             what a reproduction computes: its presets (sets of masses of the robot RABBIT), the push of
+                     the headline runs, and whether it is full (the whole map of pushes) or quick
 """
 
 from __future__ import annotations
@@ -36,9 +43,10 @@ def draw_all(
 ) -> dict[str, bytes]:
     """Write every figure to the folder `out` as .png and .svg; returns the SVG by name, for the report.
 
-    walks: the headline runs, under the plan's push, by controller. workers: processes; one per core if None.
+    r: all results. walks: the headline runs, by controller. workers: processes; one per core if None.
     """
     named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
+    # PRELOADED: modules that are imported once for all processes; the `value` of a finished task is its result
     drawn = run_tasks(list(named.values()), workers, PRELOADED)
     result = {}
     for name, picture in zip(named, drawn, strict=True):
@@ -53,10 +61,13 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     """The figures of the paper and beyond, by file name, each as a task that returns it as (PNG, SVG).
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
-    does not: the disturbance estimate, the ground's force, energies, multipliers, and the map of pushes, which
-    only a full plan computes. signals: of the pushed walks, by controller.
+    does not: the disturbance estimate, the ground's force, energies, multipliers of the return map, and the map
+    of pushes, a figure for each preset, which only a full plan computes. r: all results. signals: of the pushed
+    walks, by controller.
     """
+    # window: start and stop of the push [s], the same under both controllers
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
+    # a quick plan has no multipliers of ADRC
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     biped = Biped.load("rabbit", r.plan.preset)
     mu = biped.description.friction_coefficient
@@ -80,22 +91,26 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     """Draw the map of pushes of one preset: a panel for each controller and torque limit, onset [ms] against
-    joints and amplitude [N m]. rows: pushes as `PushCell.row` returns them.
+    joints and amplitude [N m]. rows: of each push its values and how the walks under it end, by the names of
+    `PushCell.row`; "npd_word" and "adrc_word" are the outcomes.
 
     The number of a push is 1 if the walk makes all steps and is feasible, or would be but for the impulses at
     impact; 0.5 if it makes all steps and is infeasible; 0 if it does not make all steps; NaN, an empty cell, if
     the walk ends in another way at half of the integration step ("marginal").
     """
+    # COUNTED and LOST: the outcomes that count as 1 and as 0; all that are not named here as 0.5
     ends = dict.fromkeys(COUNTED, 1.0) | dict.fromkeys(LOST, 0.0) | {"marginal": math.nan}
     panels: dict[str, list[tuple[float, str, float]]] = {}
     for c, r in itertools.product(CONTROLLERS, rows):
         limit = "unlimited" if r["torque_limit"] is None else f"{r['torque_limit']:g} N m"
+        # amplitudes of equal width, so that the texts sort by number
         push = r["onset_ms"], f"{r['pattern']} {r['amplitude']:3.0f}"
         end = ends.get(r[f"{c.lower()}_word"], 0.5)
         panels.setdefault(f"{c}, {limit}", []).append((*push, end))
     columns = ((name, zip(*panel, strict=True)) for name, panel in panels.items())
     numbers = {name: (x, y, np.array(end)) for name, (x, y, end) in columns}
     names = "onset in the step [ms]", "joints, amplitude [N m]"
+    # log=False: a linear scale of colours from 0 to 1
     return map_figure(numbers, names, "1 feasible, 0.5 makes all steps, 0 does not", log=False)
 
 

@@ -1,15 +1,25 @@
 """The scenarios on which claims are tried, from the results of a reproduction, and the metrics of claims.
 
-claims.toml and checks.toml name these functions: one that takes `Runs` returns scenarios by name, the others
-compute a metric of one of them; words behind the name of a function in the file are its first arguments. A
-metric is `AtTwoSteps`, its value at the integration step used and at half of it, or a float, which counts as
-the same at both. Where NaN may occur NumPy's max and min are used, since Python's ignore NaN, and a limit would
-then count as kept by a number that does not exist.
+claims.toml and checks.toml name these functions: one that takes `Runs` (all results) returns scenarios by name,
+the others compute a metric of one of them; words behind the name of a function in the file are its first
+arguments. A metric is `AtTwoSteps`, its value at the integration step used and at half of it, or a float, which
+counts as the same at both. Where NaN may occur NumPy's max and min are used, since Python's ignore NaN, and a
+limit would then count as kept by a number that does not exist.
 
-Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. An `Outcome` holds the
-numbers of one walk; a walk is asked for a number of impacts, and makes all of them unless it falls or stops.
-A `Certificate` says what a finished walking step has asked of ground and motors (forces, torques, work).
-A member is one combination of the choices that the paper leaves open; its walks have a push on the joints.
+    NPD, ADRC        the controllers: PD with decoupling of the inertia, and ADRC with an observer (Table I)
+    x*               the paper's fixed point: (q, q') [rad, rad/s] just before an impact of its periodic walk
+    gait (a), (b)    that through x*, and that by the recipe of section IV
+    cycle            a periodic walk: fixed point of the return map from impact to impact; its multipliers are
+                     the eigenvalues of the map's derivative, delta^2 the largest one in closed form
+    Theta            phase of the gait [rad]; Theta' is its rate. (20) is the paper's law of ADRC
+    Outcome          the numbers of one walk; a walk is asked for a number of impacts, and makes all of them
+                     (`walked`) unless it falls or stops; `half` is the same walk at half the integration step
+    Certificate      what a finished walking step has asked of ground and motors (forces, torques, work)
+    member           a combination of the choices that the paper leaves open; its walks have a push on joints.
+                     In a `MemberOutcome` they are in `walked`, by controller, each a `MemberWalk`: the figures
+                     of merit from the pushed step on
+    headline run     a walk of 25 impacts with the push that the user's plan has
+    preset           a set of masses and inertias of the robot RABBIT
 """
 
 from __future__ import annotations
@@ -47,7 +57,7 @@ def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
 
 def made(o: Outcome) -> AtTwoSteps:
     """Share [1] of the impacts asked for that the walk makes."""
-    return at_two(lambda x: x.impacts / x.run.run.impacts, o)
+    return at_two(lambda x: x.impacts / x.run.run.impacts, o)  # made over asked for
 
 
 def distance(o: Outcome) -> float:
@@ -166,18 +176,21 @@ def longest(o: MemberOutcome) -> AtTwoSteps:
     """Duration [s] of the longest walking step of both controllers' walks; infinite if one of the walks does
     not make all steps.
     """
+    # zip: the values of both at the integration step used, then those at half of it
     return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 
 
 def reached(start: Start) -> AtTwoSteps:
     """Share [1] of the impacts asked for that are made, under the controller that makes more of them."""
+    # zip: the shares of both at the integration step used, then those at half of it
     return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
 
 
 def longest_step(multiplier: float) -> float:
     """Time [s] in which a tracking error, which decays like exp(-K_d t / 2), falls to the share `multiplier`: a
-    longer walking step would have a smaller multiplier of the tracking error.
+    longer walking step would have a smaller multiplier of the tracking error. K_d [1/s] is that of Table II.
     """
+    # max: K_d may be one number, or one for each joint
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
@@ -239,17 +252,19 @@ def theta_of(o: MemberOutcome) -> str:
 
 # -- scenarios -------------------------------------------------------------------------------------
 def headline(r: Runs) -> dict[str, Outcome]:
-    """The headline runs, 25 impacts under the plan's push, by controller."""
+    """The headline runs by controller: walks of 25 impacts with the push of the user's plan."""
     return dict(zip(CONTROLLERS, r.pair("push"), strict=True))
 
 
 def adrc_push(r: Runs) -> dict[str, Outcome]:
-    """The headline run, a walk under the plan's push, under ADRC alone."""
+    """The headline run under ADRC alone, a walk of 25 impacts with the push of the user's plan."""
     return {"ADRC": r.pair("push")[1]}
 
 
 def walks(r: Runs) -> dict[str, Outcome]:
-    """All walks of `runs.BOTH` under both controllers, by "controller, name of the walk"."""
+    """The walks in which both controllers are compared (pushed, sampled, with a heavier plant), by "controller,
+    name of the walk".
+    """
     every = r.pairs("").items()  # every name begins with an empty word
     return {f"{c}, {n}": o for n, pair in every for c, o in zip(CONTROLLERS, pair, strict=True)}
 
@@ -274,7 +289,9 @@ def laws_of_models(r: Runs) -> dict[str, float]:
 
 
 def numerics(r: Runs) -> dict[str, Sequence[float]]:
-    """One scenario with no name: the numbers of `physical_laws.numerics_laws`, all together in their order."""
+    """One scenario with no name: the numbers of `physical_laws.numerics_laws`, all together in their order,
+    as the metrics `figure` and `change` take them by index.
+    """
     return {"": tuple(r.figures.values())}
 
 
@@ -306,6 +323,7 @@ def lost_by_npd(r: Runs) -> dict[str, PushCell]:
     """The pushes of the map under which NPD does not make all steps, by preset, torque limit and push; without
     those under which a walk ends in another way at half of the integration step.
     """
+    # LOST: the outcomes of walks that fell or ended before their last impact
     cells = [c for c in r.cells if c.certain and c.npd.feasibility.outcome in LOST]
     return {
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c
@@ -333,7 +351,7 @@ def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
 
 def below_least(r: Runs) -> dict[str, Start]:
     """The starts with less than the least speed that reaches the next impact, by preset and by their speed
-    after the impact as a share of the gait's.
+    after the impact as a share of the gait's. factor: speed over the least one.
     """
     return {
         f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
@@ -344,8 +362,9 @@ def below_least(r: Runs) -> dict[str, Start]:
 
 
 def gains(r: Runs) -> dict[str, tuple[float, float]]:
-    """Pairs of the same gain, of the observer of Table I (m = 7) and of one with m = 1 extended state, which
-    has either the same bandwidth or the same delay margin.
+    """Pairs of the same gain, of the observer of Table I, with m = 7 states for the disturbance and its
+    derivatives, and of one with m = 1, which has either the same bandwidth or the same delay margin; by name.
+    (17) is the observer's equation.
     """
     result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():

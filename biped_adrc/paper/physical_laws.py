@@ -8,7 +8,15 @@ None of them was used to derive the model or to choose the methods, so that each
     gait       on a periodic gait, joint work of a step = energy lost at its impact
     numerics   the error (23) on one held joint; order of sampled against continuous control; order of ETD-RK4
 
-Functions return numbers by name; they are tasks of `paper.runs`, and `paper.table` has the limits.
+    (23)        the paper's transfer function from the total disturbance xi [rad/s^2] of a joint to its tracking
+                error [rad] under ADRC; as printed one term lacks a factor, so there is a corrected one
+    ETD-RK4     the exponential method, which integrates a linear stiff part of the loop, the observer, exactly
+    q, q'       coordinates and rates [rad, rad/s], the first p of them (q_b) with motors
+    u, zeta     torques of the motors, and from outside [N m]
+    NPD, ADRC   the controllers: PD with decoupling of the inertia; ADRC with the observer's poles of Table I
+    preset      a set of masses and inertias of the robot RABBIT
+
+Functions return numbers by name; their limits are in checks.toml.
 """
 
 from __future__ import annotations
@@ -54,11 +62,12 @@ def walk_laws(full: Walk) -> dict[str, float]:
     """Violations of two laws in a simulated walk, both 0 but for errors of integration.
 
     "height" [m]: largest |height of the swing foot| at the impacts that the simulator located. "energy" [J]:
-    kinetic and potential energy gained, less the integral of u' q_b' + zeta' q', the power of motors and of the
-    disturbance; over the first pushed step, or the first step where there is none.
+    kinetic and potential energy gained, less the integral of u . q_b' + zeta . q', the power of motors and of
+    the disturbance; over the first pushed step, or the first step where there is none.
     """
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
+    # single supports are counted from 1; a walk that ends before its push is judged in its first one
     pushed = min(pushed_steps(o.run), default=1)
     s = full.signals.of_step(pushed if pushed in full.signals.step else int(full.signals.step[0]))
     power = np.sum(s.u * s.v[:, : b.p], axis=1) + np.sum(s.zeta * s.v, axis=1)
@@ -96,7 +105,7 @@ class HeldJoint(HybridSystem):
     def flow(self, t: float, x: Array, mode: AnyMode) -> Array:
         """x' (2 + observer states,) for x = (q [rad], q' [rad/s], states of the observer)."""
         q, v, s = x[:1], x[1:2], x[2:, np.newaxis]
-        # the measurement in single support 1, with the joint's own J as the model and no bias Omega
+        # measured at time t of single support 1; the model is the joint itself: mass matrix J, no force Omega
         D = np.array([[self.J]])
         m = Measurement(t, 1, t, q, v, reduce(D, np.zeros(1), 1))
         u = self.controller.output(s, m)
@@ -116,19 +125,21 @@ def held_joint(
 
     frequency [Hz]: of the disturbance. t_end, h [s]: duration and integration step. The observer's poles are
     those of Table I times `factor`: slow enough for the error to stand clear of round-off. The simulated
-    amplitude is that of the sine which fits the last two periods best.
+    amplitude is that of the sine which fits the last two periods best; the reference is 0, so the error is q.
     """
     observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
-    zero = np.zeros(1)
+    zero = np.zeros(1)  # q_d, q_d', q_d'' of the one joint
     controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
     w = 2.0 * math.pi * frequency
     start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)[:, 0]))
+    # None: the system has one mode only
     run = simulate(HeldJoint(controller, w), start, None, RK4(h), t_end=t_end)
     t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
-    last = t >= t_end - 2.0 / frequency - 1e-9  # two periods
+    last = t >= t_end - 2.0 / frequency - 1e-9  # two periods; 1e-9 s for round-off of the times
     basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
     amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
     loop, at = ObserverLoop(observer), np.array([w])
+    # the second argument of `tracking_error`: whether (23) is taken as printed
     corrected, printed = (float(abs(loop.tracking_error(at, p)[0])) for p in (False, True))
     return amplitude, corrected, printed
 
@@ -140,6 +151,7 @@ def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4))
     zero-order hold has k near 1.
     """
 
+    # (q, q') (10,) before the first impact, with integration step h [s] and sampling period [s]
     def end(h: float, period: float | None = None) -> Array:
         run = scenario("NPD", preset, hardware={"period": period}, run={"impacts": 1, "h": h})
         return walk_scenario(run).trajectory.before(FOOT_STRIKE)[-1][:10]
@@ -147,6 +159,7 @@ def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4))
     exact = end(2.5e-4)  # no period: continuous control
     # the integration step is not longer than the period
     gaps = [float(np.linalg.norm(end(min(T, 5e-4), T) - exact)) for T in periods]
+    # the slope of the straight line through the logarithms
     return float(np.polyfit(np.log(periods), np.log(gaps), 1)[0])
 
 
@@ -156,14 +169,16 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 
     The errors are those of the state after 0.1 s of walking under ADRC, with the poles of Table I times
     `factor`, against a step of 1/32 ms. For the order, steps longer than 0.25 ms do not resolve the fast joints
-    of a robot without rotors.
+    of a robot without the inertia of the motors' rotors.
     """
     poles = {"controller.observer.poles": tuple(factor * pole for pole in TABLE_I)}
     run = scenario("ADRC", preset, **poles)
+    # `walked` is the gait, its start (q, q') after the impact of its orbit
     scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))
 
+    # (q, q') (10,) after 0.1 s with integration step h [s]; StepMode(): single support 1, from t = 0 on
     def end(h: float) -> Array:
         moved = simulate_by(COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1)
         return moved.final_state[:10]
@@ -171,7 +186,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     exact = end(3.125e-5)
     coarse, fine = (float(np.max(np.abs(end(h) - exact))) for h in (2.5e-4, 1.25e-4))
     error = float(np.max(np.abs(end(5e-4) - exact)[:5]))  # of q1 to q5
-    return math.log2(coarse / fine), error
+    return math.log2(coarse / fine), error  # halving the step divides the error by 2^order
 
 
 def numerics_laws(preset: str) -> dict[str, float]:
@@ -179,6 +194,7 @@ def numerics_laws(preset: str) -> dict[str, float]:
 
     checks.toml and `paper.values` take them by their place, so their order counts.
     """
+    # of the run at half the integration step the simulated amplitude alone
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
     etd_table, error = exponential_order(preset, 1.0)
     return {

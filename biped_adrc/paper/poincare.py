@@ -1,13 +1,19 @@
 """The stability test of the reproduction: fixed point, multipliers by central differences, delta^2.
 
+The return map takes the state x- = (q, q', states of the controller) just before an impact to that before the
+next one. A periodic walk is its fixed point x*; the multipliers are the eigenvalues of its derivative at x*,
+and the walk is stable if all are below 1 in magnitude. delta is the ratio of the angular momenta about the
+stance foot after and before an impact, on the zero dynamics (the motion with the joints exactly on the gait);
+delta^2 is the largest multiplier in closed form.
+
 A `PoincareResult` has them at two integration steps, which says how far they have converged. The paper's own
 test is a linear regression, its (26), (27), through the states before impacts:
 
     x-(k + 1) - x* = Phi (x-(k) - x*)
 
-x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine dimensions, and a
-walk that converges along one direction excites one direction: Phi is not determined by such data. So the
-rank of the data is returned with the eigenvalues, and `warning` says what they are worth.
+x-(k) is (q, q') before impact k of one walk: ten numbers, on a section of nine dimensions, as the swing foot is
+on the ground there. A walk that converges along one direction excites one direction: Phi is not determined by
+such data. So the rank of the data is returned with the eigenvalues, and `warning` says what they are worth.
 """
 
 from __future__ import annotations
@@ -55,11 +61,12 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     with_states: whether the controller's states belong to the state of the return map; without them the
     controller starts anew after each impact.
     """
-    scene = RobotAndGait.of(run)
+    scene = RobotAndGait.of(run)  # robot and gait of the scenario; `walked` is the gait
 
+    # fixed point and multipliers at the integration step h [s]
     def orbit(h: float) -> PeriodicOrbit:
         cycle = gait_map(run.replace(run={"h": h}), with_states)
-        # the guess is the gait's orbit; a map without the controller's states takes (q, q') of it
+        # P is the return map, the guess the state on the gait's orbit; without the controller's states (q, q')
         return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
@@ -91,8 +98,9 @@ class Regression(NamedTuple):
 
 
 def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
-    """The regression (27) of the paper by least squares, from the states before k impacts x_minus (k, n)
-    [rad, rad/s], k >= 3, and the fixed point x_star (n,).
+    """The regression (27) of the paper: the eigenvalues of the Phi (n, n) that takes x-(k) - x* to
+    x-(k + 1) - x* with least squares of the error. x_minus (k, n) [rad, rad/s]: states before k >= 3 impacts.
+    x_star (n,): the fixed point x*.
     """
     chi = x_minus - x_star  # in rows, so that least squares gives the transpose of Phi
     Phi = np.linalg.lstsq(chi[:-1], chi[1:], rcond=None)[0].T

@@ -1,12 +1,16 @@
-"""Pushes on the joints, at the declared choices and over the phase of a step, under both controllers.
+"""Pushes on the joints under both controllers, NPD (PD with decoupling of the inertia) and ADRC.
 
-A member is one combination of the choices that the paper leaves open (`scenarios.Member`). What a push does is
-separated from what the controller does anyway: the error of the pushed step is compared with that of the same
-walking step without a push (`Track.away_from`). The walk starts on the orbit of its gait at the pushed step;
-peaks are taken of an interpolant, since the largest error lies between two stored instants ("nodes"). A share
-of 1 or 0.5 says at which of the two integration steps a number is computed.
+A member is one combination of the choices that the paper leaves open, such as amplitude and onset of the push
+(`scenarios.Member`); all were declared before any run. What a push does is separated from what the controller
+does anyway: the error of the pushed step is compared with that of the same walking step without a push
+(`Track.away_from`). The walk starts on the orbit of its gait at the pushed step; peaks are taken of an
+interpolant, since the largest error lies between two stored instants ("nodes"). Each number is computed at two
+integration steps, the one used and half of it: a share of 1 or 0.5 says at which.
 
-The map of pushes tries another claim of section VI: in which phase of the step does a push make which
+Symbols: q_b the p joints with motors, q_d their references [rad], error = q_b - q_d; Theta the phase of the
+gait, Theta' its rate [rad/s]; xi the total disturbance of the joints, xi^ its estimate [rad/s^2].
+
+The map of pushes tries a claim of the paper's section VI: in which phase of the step does a push make which
 controller fall? It is over onset, amplitude and joint pattern, with and without a torque limit
 (`scenarios.MapPush`). Every walk is made at two integration steps; if the two end differently the cell is
 marginal, and no claim rests on it. The outcomes of a walk:
@@ -77,12 +81,14 @@ class Track(NamedTuple):
         if not np.any(counted) or not np.all(np.isfinite(usual.error)):
             return float("nan")
         there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
+        # `largest`: the peak of a curve with these values and derivatives; there(at, 1) is the derivative
         at = self.t[counted]
         return largest(at, self.error[counted] - there(at), self.derror[counted] - there(at, 1))
 
 
 def track(walk: Walk) -> Track:
-    """The `Track` of the first single support of a walk."""
+    """The `Track` of the first single support of a walk; its rate is NaN unless it ends with an impact."""
+    # states over the first single support, and the event that ended it
     arc = walk.trajectory.arcs[0]
     s = walk.signals.of_step(arc.mode.step)
     ended = arc.event is not None and arc.event.guard == FOOT_STRIKE
@@ -92,7 +98,8 @@ def track(walk: Walk) -> Track:
 
 @lru_cache(maxsize=8)
 def scene_in(preset: str | None, gait: str) -> RobotAndGait:
-    """RABBIT in a preset and one of its gaits, read once for many walks; "NPD" has no effect on them."""
+    """The robot RABBIT in a preset (a set of masses) and one of its gaits, read once for many walks."""
+    # a scenario needs a controller; which one has no effect on robot and gait
     return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
 
 
@@ -100,7 +107,7 @@ def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
     """Walk the first single support of a run with the integration step share * run.h, and the others, of which
     only the ending matters, with share * COARSE; returns the walk of either part, one if it ends in the first.
 
-    zero: whether the observer starts at xi^ = 0 instead of the model's xi.
+    share [1]: 1 or 0.5. zero: whether the observer starts at xi^ = 0 instead of the model's xi.
     """
     scene = scene_in(run.robot.preset, run.gait.name)
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
@@ -109,10 +116,13 @@ def in_two(run: Scenario, zero: bool, share: float) -> list[Walk]:
     mode, adrc = Mode(run.run.first_step), run.controller.name == "ADRC"
     x = walker.initial_state(*gait.start(scene.biped), mode)
     if zero and adrc:
-        x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
+        # the state is q, q' (n each), x1^, x2^ (p each), then x3^ = xi^ and its derivatives, scaled
+        x[2 * n + 2 * scene.biped.p :] = 0.0
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
+    # [0]: the integration method; [1] would be a finer step where a push switches, as this one is already
     first = methods_of(run.run.replace({"h": share * h}), walker)[0]
     parts = [WalkPart(1, first), WalkPart(impacts - 1, later)]
+    # the first part alone for one impact
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
     return [Walk(walker, gait, moved) for moved in runs]
 
@@ -123,6 +133,8 @@ def usual_track(usual: Member, controller: str, share: float) -> Track:
 
     share: of the integration step, 1 or 0.5.
     """
+    # start: of the observer, "zero" (xi^ = 0) or "model"; [0]: the walk's first part is its first single
+    # support
     run = usual.run(controller, pushed=False)
     return track(in_two(run, usual.start == "zero", share)[0])
 
@@ -157,14 +169,16 @@ class MemberOutcome:
 
 
 def limits_broken(f: Feasibility) -> float:
-    """How many limits of ground and motors a walk breaks, the impact aside; infinite where not all steps were
-    made.
+    """How many limits of ground and motors a walk breaks, the friction of the impulse at impact not counted;
+    infinite where not all steps were made.
     """
+    # reasons: a sentence by name of each limit that is broken; IMPULSE is the name of that at impact
     return float(len(set(f.reasons) - {IMPULSE})) if f.status.ok else math.inf
 
 
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
-    """Walk a member under a controller at both integration steps; values: of its scenario, by name."""
+    """Walk a member under a controller at both integration steps; values: others of its scenario, by name."""
+    # why: of the walk at the integration step used; that at half of it is dropped
     (numbers, why), (at_half, _) = (_at(member, controller, x, values) for x in (1.0, 0.5))
     return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))
 
@@ -172,14 +186,15 @@ def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
 def _at(
     member: Member, controller: str, share: float, values: Mapping[str, Any]
 ) -> tuple[tuple[float, ...], Mapping[str, str]]:
-    """The numbers of a `MemberWalk` in the order of its fields, at the share (1 or 0.5) of the integration
-    step, and its `infeasible`.
+    """The numbers of a `MemberWalk` in the order of its fields (peak, deviation, rate, longest, broken), at the
+    share (1 or 0.5) of the integration step, and its `infeasible`. values: of the scenario, by name.
     """
     run = member.run(controller, **values)
     # without the push its values have no effect: equal ones let `usual_track` compute each such step once
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     walks = in_two(run, member.start == "zero", share)
     one, other = track(walks[0]), usual_track(usual, controller, share)
+    # `walks` are the pushed step and the later ones; complete: all impacts asked for were made
     complete = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
     # the sentence of the first walk replaces that of the second
     why = {k: x for walk in reversed(walks) for k, x in walk.feasibility.reasons.items()}
@@ -208,7 +223,7 @@ LOST = ("fell", "ended")
 
 def word_of(o: Outcome) -> str:
     """The outcome of a walk of the map, one of `OUTCOME_WORDS`; "marginal" if it ends in another way at half of
-    the integration step. An outcome without a `half` cannot be marginal.
+    the integration step. An outcome without a `half`, the walk at half the step, cannot be marginal.
     """
     one, half = ((_at_step(x), x.status) for x in (o, o.half or o))
     return one[0] if one == half else "marginal"
@@ -219,6 +234,7 @@ def _at_step(o: Outcome) -> str:
     the ground would have had to pull.
     """
     f = o.feasibility
+    # the least mean normal force of the walk [N]; an infinite one is none
     pulls = f.outcome == "infeasible" and -math.inf < f.mean_normal_force <= 0.0
     return "pulled" if pulls else f.outcome
 

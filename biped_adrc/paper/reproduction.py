@@ -1,14 +1,19 @@
 """The paper reproduced end to end: run everything, judge it, and write what it came to.
 
-    Plan -> tasks (processes) -> Results -> the one table of claims and checks -> summary, figures, report
+    Plan -> tasks (processes) -> Runs (results) -> table of claims and checks -> summary, figures, report
 
 Written to the output folder: figures (PNG, SVG), the two headline runs (npz and JSON), walk.html, summary.json
 and report.html. Each file is written whole or not at all, so that an interrupted run leaves readable files. The
 command `reproduce` calls this; its exit code says whether all checks hold.
 
-Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. The headline runs are
-walks of 25 impacts on gait (a) under the plan's push. The map of pushes tries many pushes under both
-controllers.
+    plan             what to compute: presets (sets of masses of the robot RABBIT), pushes, parts left out
+    NPD, ADRC        the two controllers: PD with decoupling of the inertia, and ADRC with an observer
+    x*               the paper's fixed point: (q, q') [rad, rad/s] just before an impact of its periodic walk
+    gait (a), (b)    that through x*, and that by the recipe of the paper's section IV
+    headline runs    a walk of 25 impacts on gait (a) for each controller, with the push of the plan
+    map of pushes    many pushes, tried under both controllers
+    multipliers      eigenvalues of the derivative of the return map, from impact to impact, at a periodic walk
+    Outcome          the numbers of one walk; `half` is the same walk at half of the integration step
 
 In summary.json: `holds` and `checks` (what is asserted), `tally` and `claims` (what became of the paper's
 claims), `findings` and `tables` (what the report shows), `settings` and `versions`, and the wall time of each
@@ -70,6 +75,7 @@ def reproduce(
     summary = judgement(r)
     seconds = {name: one.seconds for name, one in zip(named, done, strict=True)}
     summary |= {"command": command, "seconds": seconds, "versions": versions()}
+    # workers send back scenario and trajectory alone; the walk is made again from these
     walks = {c: rebuilt_walk(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
@@ -87,7 +93,7 @@ def judgement(r: Runs) -> dict[str, Any]:
 
     `holds` is whether all checks hold. Command, times and versions are added by `reproduce`.
     """
-    plan, of_claims = r.plan, rows(r)
+    plan, of_claims = r.plan, rows(r)  # rows: each claim with its verdict
     result = checks(r, of_claims)
     parts = {
         "preset": plan.preset,
@@ -117,8 +123,8 @@ def probe(out: Path) -> None:
     """Make the folder and write a file in it, which is deleted again: a folder that cannot be written is found
     before the runs, which take a minute.
 
-    Raises InputError where `out` is no folder; OutputError where it cannot be written, or has a link or a
-    device with a suffix of the files that a reproduction writes.
+    Raises InputError where `out` is no folder; OutputError where it cannot be written, or where a link or a
+    device in it has the suffix of a file that a reproduction writes, such as .html.
     """
     check_folder(out)
     marker = out / ".writable"
@@ -171,7 +177,7 @@ def _table(rows: Iterable[dict[str, object]]) -> Table:
 
 
 def _run(name: str, o: Outcome) -> dict[str, object]:
-    """The row of one walk in the table "Runs": how it ended, errors, torques, forces.
+    """The row of one walk in the table "Runs": how it ended, errors, torques, forces. name: of the walk.
 
     A walk that ended early has no peak error or torque in the table (None): they would be those of a fall. The
     impulse ratio is the largest of its impacts.
@@ -207,6 +213,7 @@ def _multipliers(r: Runs) -> Table:
     """
     result: dict[str, tuple[list[float], str]] = {}
     for name, x in r.multipliers.items():
+        # "ADRC measured": at impact the measurement sets the observer's angle and rate, and xi^ is kept
         z, of = np.abs(x.orbit.multipliers), name.replace(" measured", ", reset 'measured'")
         remembers = "the observer's xi^ and its derivatives live on through the impact"
         remark = remembers if name.endswith("measured") else ""
@@ -214,6 +221,7 @@ def _multipliers(r: Runs) -> Table:
     result["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
     for c, head in r.headline.items():
         test = regression_of(head.outcome)
+        # the warning is empty where the data span all directions
         name, remark = f"regression (27) on the pushed walk, {c}", test.warning or NO_MULTIPLIERS
         result[name] = test.magnitudes.tolist(), remark
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
@@ -224,13 +232,13 @@ def _multipliers(r: Runs) -> Table:
 
 
 def _recipe(r: Runs) -> Table:
-    """The table of the cycles of gait (b), by preset and controller: whether it is stable, its three largest
-    |multipliers|, the jump of a joint's rate against the gait at impact, and x- - x* [rad, rad/s]; None where
-    no cycle was found, and the remark says why.
+    """The table of the periodic walks on gait (b), by preset and controller: whether each is stable, its three
+    largest |multipliers|, the jump of a joint's rate against the gait at impact, and x- - x* [rad, rad/s] with
+    x- the state before impact; None where no periodic walk was found, and the remark says why.
     """
     rows = []
     for name, x in r.named("cycles", "(b)").items():
-        result = None if isinstance(x, str) else x.orbit
+        result = None if isinstance(x, str) else x.orbit  # a text is the reason why there is none
         row: dict[str, object] = {"gait": name, "stable": result and result.stable}
         row["largest multipliers"] = result and np.abs(result.multipliers[:3]).tolist()
         # the name is "gait (b), preset, controller"
@@ -246,6 +254,7 @@ COLUMN = {"pulled": "the ground would pull", "marginal": "other at half the step
 
 def _map(cells: list[PushCell]) -> Table:
     """How many walks of the map end in each outcome: a row for each preset, torque limit and controller."""
+    # x[1:]: the walks of NPD and of ADRC under this push
     fates = [
         (x.setting, c, word_of(w)) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)
     ]

@@ -3,8 +3,20 @@
 The walks are those of `paper.scenarios`; most are made at two integration steps. A node is an instant at which
 a state is stored; of a walk with very many nodes only those are kept that a figure of merit needs. Tasks have
 names such as "multipliers/ADRC" or "cycles/gait (b), tac2003, NPD": the kind, which is a field of `Runs`, and
-the key in that field. Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. A
-member is one combination of the choices that the paper leaves open.
+the key in that field.
+
+    plan             what to compute: presets (sets of masses of the robot RABBIT), pushes, parts left out
+    headline run     a walk of 25 impacts with the push of the plan, one under each controller
+    NPD, ADRC        the controllers: PD with decoupling of the inertia, and ADRC with an observer (Table I)
+    gait (a), (b)    that through the paper's fixed point x*, and that by the recipe of section IV
+    Outcome          the numbers of one walk; `half` is the same walk at half of the integration step
+    member           one combination of the choices that the paper leaves open
+    cycle            a periodic walk: fixed point of the return map from impact to impact; its multipliers are
+                     the eigenvalues of the map's derivative
+    q_b, q_d         angles of the p joints with motors and their references [rad]
+    xi, kappa        total disturbance of the joints [rad/s^2] and input gain: q_b'' = kappa u + xi for the
+                     motors' torques u; the observer has m states for xi and its derivatives
+    Theta            phase of the gait [rad]
 """
 
 from __future__ import annotations
@@ -61,10 +73,11 @@ def twice(run: Scenario) -> Outcome:
     the walk has very many.
     """
     h = run.run.h
-    # nodes h apart are very many for a short h alone; and with another reset than by the model the observer has
-    # a fast transient after every impact, for which all nodes are needed
+    # None is the default step, which is long: very many nodes are those at most 1e-4 s apart. With a reset at
+    # impact that is not by the model the observer has a fast transient after it, for which all nodes are needed
     if h is None or h > 0.2 * NODE_DISTANCE or run.controller.observer.reset != "model":
         return execute_twice(run)
+    # `halved` is the scenario with half the integration step, which may be a default that the walker decides
     walk = sparse(walk_scenario(run))
     half = sparse(walk_scenario(halved(run, walk.walker)), 0.5 * NODE_DISTANCE)
     return replace(walk.outcome, half=half.outcome)
@@ -88,17 +101,20 @@ def _headline(run: Scenario) -> Headline:
     single supports from the push on, since only the peak error in them is used.
     """
     walk = sparse(walk_scenario(run))
-    # a walk begins on the orbit of its gait, also in a later single support
+    # `halved` is the scenario with half the integration step, which may be a default that the walker decides;
+    # late: the values of a walk that begins in the pushed single support, there too on the orbit of its gait
     half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
+    # the half of the half
     quarter = walk_scenario(halved(half, walk.walker).replace(run=late)).outcome
+    # with half the integration step nodes are kept at half the distance; walk_laws: violated laws of physics
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
     return Headline(outcome, walk.trajectory, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:
-    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s], such as on two engines;
-    infinite if they have different numbers of impacts, or none.
+    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s], such as on two engines,
+    compiled code and Pinocchio; infinite if they have different numbers of impacts, or none.
     """
     a, b = (walk_scenario(run).outcome.x_minus for run in (one, other))
     n = RobotAndGait.of(one).biped.n
@@ -111,7 +127,8 @@ def engines(one: Scenario, other: Scenario) -> float:
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
     """A walking cycle at two integration steps, or the reason, in words, why none is found.
 
-    with_states: whether the observer's states belong to the state of the return map.
+    with_states: whether the observer's states belong to the state of the return map; without them the observer
+    starts anew after each impact.
     """
     try:
         return poincare(run, with_states)
@@ -135,7 +152,7 @@ class Start:
 def starts(preset: str) -> list[Start]:
     """Walks of both controllers from just below and just above the least speed that reaches the next impact.
 
-    No controller of the joints helps a start below it, which matters for the promise of global stability.
+    No controller of the joints helps a start below it, which matters for the paper's word "global stability".
     """
     least, result = least_speed(preset), []
     for k in scenarios.declared()["basin"]["factors"]:
@@ -149,8 +166,9 @@ def least_speed(preset: str) -> float:
     next impact.
 
     sigma is the angular momentum about the stance foot; after the impact it has to exceed sqrt(2 V_max), where
-    V_max is the largest potential of the zero dynamics in the step.
+    V_max is the largest potential in the step of the zero dynamics, the motion with the joints on the gait.
     """
+    # the scenario says robot and gait alone here: controller and speed have no effect
     scene = RobotAndGait.of(scenarios.starting("NPD", preset, 1.0))
     orbits = ZeroOrbits.of(ZeroDynamics.of(scene.biped, scene.walked.constraint))
     sigma = scene.biped.angular_momentum(*scene.walked.start(scene.biped))
@@ -162,16 +180,20 @@ def jumps(preset: str) -> dict[str, float]:
 
     "xi_at_impact" and "xi_at_an_edge" [rad/s^2]: of xi of (13), the total disturbance, on gait (a), at an
     impact and when a push of 30 N m on all joints switches on. "published" and "recipe", gaits (a) and (b)
-    [rad/s]: of q_b' - q_d' at an impact, 0 for a hybrid-invariant gait. "period" [s]: of gait (a).
+    [rad/s]: of q_b' - q_d' at an impact, 0 for a hybrid-invariant gait. "period" [s] is no jump: the duration
+    of a step on gait (a), which a claim on the printed multipliers needs of each preset too.
     """
+    # scenarios that say robot and gait, of which no walk is made: the controller has no effect
     walks = {gait: scenarios.loose("NPD", preset, gait=gait) for gait in scenarios.GAITS}
     scenes = {name: RobotAndGait.of(run) for name, run in walks.items()}
     biped, gait = scenes["published"].biped, scenes["published"].walked
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
     # xi before the impact in the order that the joints have after it
+    # a torque on the joints enters xi as kappa times it
     xi, edge = after.xi - relabelled(before.xi, biped.swap), after.kappa @ np.full(biped.p, 30.0)
     gaits = {name: of.walked for name, of in scenes.items()}
+    # [1]: the jump of the rates; [0] would be that of the angles
     rates = {k: impact_jump(biped, g.constraint, g.q_minus, g.v_minus)[1] for k, g in gaits.items()}
     result = {"xi_at_impact": xi, "xi_at_an_edge": edge, **rates}
     return {name: float(np.max(np.abs(x))) for name, x in result.items()} | {"period": gait.period}
@@ -199,6 +221,7 @@ def orders(preset: str) -> dict[str, Order]:
     """The observer of Table I (m = 7), and two with one extended state (m = 1): of the same bandwidth, and of
     the same delay margin.
     """
+    # by default the poles of Table I; `scale` is their geometric mean
     table = GPIObserver.from_poles()
     margin = ObserverLoop(table).delay_margin().delay
     named = {
@@ -214,6 +237,7 @@ def bandwidth_with(margin: float, m: int) -> float:
     [s].
     """
 
+    # log of the delay margin at the bandwidth exp(log_w) over the wanted one: zero at the result
     def excess(log_w: float) -> float:
         result = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
         return float(np.log(result / margin))
@@ -226,7 +250,8 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     all joints, of 30 N m.
     """
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
-    poles = tuple(float(np.real(pole)) for pole in observer.poles)
+    poles = tuple(float(np.real(pole)) for pole in observer.poles)  # all are real
+    # `on_the_recipe` is a member with this push on gait (b)
     member = replace(scenarios.on_the_recipe(preset), gait="published")
     return Order(
         float(np.max(np.abs(observer.gains))),
@@ -240,7 +265,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
 
 # -- tasks -----------------------------------------------------------------------------------------
 def tasks(plan: Plan) -> dict[str, Task[object]]:
-    """Everything to compute, by "kind/name", the longest first so that no core waits at the end."""
+    """Everything to compute, by "kind/name", about the longest first so that no core waits at the end."""
     result: dict[str, Task[object]] = {}
 
     def add(kind: str, name: str, function: Any, *arguments: object) -> None:
@@ -312,6 +337,7 @@ class Runs:
         kinds: dict[str, dict[str, Any]] = {}
         for of, value in values.items():
             kind, _, name = of.partition("/")
+            # the kind "claim runs" is the field claim_runs
             kinds.setdefault(kind.replace(" ", "_"), {})[name] = value
         return cls(plan, **kinds)
 
@@ -326,15 +352,17 @@ class Runs:
         return {name: x for result in self.numerics.values() for name, x in result.items()}
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
-        """The outcomes of a walk under NPD and under ADRC. name: without the controller at its end, "push" for
-        the headline runs.
+        """The outcomes of a walk under NPD and under ADRC. name: as in `base_runs` or `claim_runs`, without the
+        controller at its end; "push" for the headline runs.
         """
         every = {**self.run_twice, **self.claim_runs}
         npd, adrc = (every[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def pairs(self, *words: str) -> dict[str, tuple[Outcome, Outcome]]:
-        """The outcomes (NPD, ADRC) of the walks in `BOTH` whose names begin with one of these words."""
+        """The outcomes (NPD, ADRC) of the walks in `BOTH`, in which the controllers are compared, whose names
+        begin with one of these words.
+        """
         return {name: self.pair(name) for name in BOTH if name.startswith(words)}
 
     def named(self, kind: str, *words: str) -> dict[str, Any]:
@@ -344,6 +372,7 @@ class Runs:
 
     def on_gait(self, gait: str) -> dict[str, Outcome]:
         """The undisturbed walks on gait "a" or "b", by "gait (.), preset, controller"."""
+        # the words with which the names of these walks begin in `scenarios.base_runs`
         word = {"a": "nominal", "b": "gait (b)"}[gait]
         return {
             f"gait ({gait}), {preset}, {c}": self.runs[f"{word} {preset} {c}"]

@@ -1,14 +1,21 @@
-"""Every walk of the reproduction as a scenario, by name; what is left open is declared in admissible.toml.
+"""Every walk of the reproduction as a scenario, by name; what the paper leaves open is in admissible.toml.
 
 The paper prints no push amplitude, no masses and no start of the observer. A claim that was tried at one choice
 could be an accident of it, and at choices picked afterwards it would prove nothing. admissible.toml declares
 levels of seven choices, and takes 36 of their 648 combinations (`Member`), an orthogonal array of strength 2:
 any two choices meet in all pairs of levels equally often, so that no effect hides behind another one.
 
-The headline runs are walks of 25 impacts under the plan's push. Gait (a) passes through the paper's x*, gait
-(b) follows the recipe of its section IV; without a word on it a walk is on gait (a). A preset is a set of
-masses and inertias of RABBIT. `values` of a function are values of a scenario by their dotted names, which
-replace its own.
+    plan             what a user asks of the reproduction: presets, the push of the headline runs, and whether
+                     it is full (the whole map of many pushes) or quick (a first look)
+    headline runs    walks of 25 impacts with the push of the plan, one under each controller
+    NPD, ADRC        the controllers: PD with decoupling of the inertia, and ADRC with an observer
+    preset           a set of masses and inertias of the robot RABBIT, whose motors are at q1 to q4
+    x*               the paper's fixed point: (q, q') just before an impact of its periodic walk
+    gait (a), (b)    that through x*, and that by the recipe of section IV; without a word on it, gait (a)
+    Theta''          second derivative of the gait's phase, a term of the paper's law (20): "solved" from the
+                     dynamics, or left out as (20) is "printed"
+    xi, xi^          total disturbance of the joints [rad/s^2], and the observer's estimate of it
+    values           of a function: values of a scenario by their dotted names, which replace its own
 
 Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.two_steps`).
 """
@@ -104,14 +111,17 @@ def pushed_steps(run: Scenario) -> set[int]:
 
 
 def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
-    """A walk with RK4, at the integration step that its controller needs away from pushes."""
+    """A walk with RK4, at the integration step that its controller needs away from pushes: 0.5 ms under NPD,
+    0.05 ms under ADRC. values: replace these.
+    """
     h = _STEPS[controller][0]
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
-    """The scenario of `by_rk4`; for ADRC with the exponential method and an integration step of h [s] in place
-    of RK4, for walks of which no small spike has to be resolved. h has no effect on NPD.
+    """A walk that may be integrated less finely, as no spike of the tracking error below 1e-5 rad has to be
+    resolved: under ADRC by the exponential method with an integration step of h [s]; under NPD, on which h has
+    no effect, by RK4 at 0.5 ms.
     """
     if controller == "ADRC":
         values |= {"run.method": "exponential", "run.h": h}
@@ -120,6 +130,7 @@ def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scen
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: gait (a) under the plan's pushes, integrated finely around them."""
+    # of the single supports in which a push switches, and of those after them
     fine = _STEPS[controller][1]
     return by_rk4(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
@@ -128,6 +139,7 @@ def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed single support of the headline run on Pinocchio's dynamics, and on the compiled engine, at the
     same integration step.
     """
+    # a walk that begins in the pushed single support begins on the orbit of its gait
     first, h = plan.pushes[0].step, declared()["walks"]["engines_step"]
     run = {"first_step": first, "impacts": 1, "h": h}
     one = scenario(controller, plan.preset, pushes=plan.pushes, run=run)
@@ -135,13 +147,14 @@ def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
-    """The walks that are checked at half of their integration step, by name.
+    """The walks that are checked at half of their integration step, by name; the controller ends the name.
 
     Undisturbed walks in every preset on both gaits; the push with slow edges; a sine; a push on the torso;
-    sampled control at 1 kHz; a plant that is heavier than the model; (20) as printed, and every policy of the
-    observer at an impact. A walk that begins in a later single support than the first one begins on the orbit
-    too.
+    sampled control at 1 kHz; a plant that is heavier than the model; (20) as printed, and every policy for the
+    observer at an impact. A walk that begins in a later single support than the first, to be shorter, begins on
+    the orbit too.
     """
+    # EIGHT: walks of eight impacts and not of 25; SOLVED: whether Theta'' is solved for, and not left out
     runs: dict[str, Scenario] = {}
     # pushes with edges of 10 ms in place of vertical ones
     rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
@@ -186,32 +199,33 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         for torque in declared()["torso"]["amplitudes"]:
             late = {"first_step": step, "impacts": 4}
-            # only endings and durations of these are used
+            # only endings and durations of these are used: their integration step, also NPD's, is COARSE
             run = loose(c, preset, pushes=(on_torso(torque),), run=late).replace({"run.h": COARSE})
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
+        # in the plan's own preset the heavier plant is in `base_runs`
         for kind, factors in HEAVIER.items() if preset != plan.preset else ():
             runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, run=EIGHT, errors=factors)
     return runs
 
 
 def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
-    """The walks whose cycles are looked for, by name, each with whether the observer's states are coordinates
-    of the return map.
+    """The scenarios whose cycles (periodic walks) are looked for, by name, each with whether the observer's
+    states are coordinates of the return map.
 
     Gait (b) with them; gait (a) without them, with Theta'' in (20) solved for and as printed.
     """
     result = {}
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         result[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
-        for theta in declared()["factors"]["theta"]:
+        for theta in declared()["factors"]["theta"]:  # "solved", "printed"
             run = scenario(c, preset, **{SOLVED: theta == "solved"})
             result[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
     return result
 
 
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
-    """The walking cycles of which all multipliers are computed, by controller; "ADRC measured" resets the
-    observer's states at impact by the measurement, and not by the model.
+    """The periodic walks of which all multipliers (eigenvalues of the return map's derivative) are computed, by
+    controller; "ADRC measured" resets the observer's states at impact by the measurement, not by the model.
     """
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
     if plan.quick:
@@ -221,6 +235,7 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
     """A walk of three impacts that starts after an impact of gait (a) with `speed` [1] times its rates."""
+    # in a scenario `speed` is the share that is added to the rates
     return loose(controller, preset, COARSE, start={"speed": speed - 1.0}, run={"impacts": 3})
 
 
@@ -261,6 +276,7 @@ class Member:
         its estimate of xi is kept at impacts, since the model is not to help it. values: of the scenario, which
         replace these.
         """
+        # k: single support and duration of the push; steps: integration steps and number of impacts
         k, steps, joints = declared()["push"], declared()["steps"], ",".join(self.joints)
         push = Push(joints=joints, torque=self.amplitude, onset=self.onset, rise=self.rise, **k)
         zero = self.start == "zero" and controller == "ADRC"
@@ -320,6 +336,7 @@ class MapPush:
         continued past the ends of its range of Theta, so that a fall is the robot's and not due to a
         polynomial, which grows steeply there.
         """
+        # patterns: factor 1, -1 or 0 of each motor; single support 19 is in the 10th of the paper's steps
         signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
         push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)

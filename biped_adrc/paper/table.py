@@ -10,17 +10,19 @@ m are marginal:
     h = 0                       contradicted
     otherwise                   depends, on the variant of the scenario, which the share names
 
-In checks.toml every scenario is a check of its own, whose kind (`core.verdict`) says what a broken check means:
+Claims are in claims.toml. Checks, by which the reproduction itself is checked, are in checks.toml: there every
+scenario is a check of its own, whose kind (`core.verdict`) says what a broken check means:
 
     law           the program is wrong: physics or numerics
     consistency   a gait does not do what it was designed for
     reproduced    the paper's statement does not hold for this robot
 
-A check is a table of checks.toml, a claim one of claims.toml (`said` in arguments): its words, and by name the
-scenarios, the metric ("measure") and the values for its texts: functions of `ROOMS`, or attributes of the
-results `Runs`, with their first arguments behind the name. In braces of the words stand
-{limit}, {found} (the least and the largest number of the cases) and those values. Limits, and the choices under
-which claims are tried, are in admissible.toml, which was written before the runs.
+The table of a claim or a check in its file (`said` in arguments) has its words, and by name the scenarios, the
+metric ("measure") and the values for its texts. A name is that of a function in one of the modules `ROOMS`, or
+of an attribute of the results `Runs`; words behind it are its first arguments. In braces of the words stand
+{limit}, {found} (the least and the largest number of the cases) and those values. A variant is the choice in a
+scenario on which a verdict may depend, in words. Limits, and the choices under which claims are tried, are in
+admissible.toml, which was written before the runs.
 """
 
 from __future__ import annotations
@@ -73,6 +75,7 @@ class Probe(NamedTuple):
         limit: makes the check of a value. round_off: largest change by halving the step that counts as none, in
         the unit of the metric. variant: as the field; the scenario's name if None.
         """
+        # of each check only whether it holds: name and kind have no effect on that
         used, half = (limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(round_off)
         return cls(name, figure, half, doubtful, name if variant is None else variant)
@@ -116,6 +119,7 @@ def all_texts() -> dict[str, Any]:
 
 def word_of_claim(cases: Sequence[Probe]) -> str:
     """The verdict on a claim from its cases, as the head of this module says; "not testable" without a case."""
+    # `all` of no case is true
     if all(case.marginal for case in cases):
         return "not testable"
     if all(case.kept for case in cases):
@@ -141,7 +145,7 @@ def share_text(cases: Sequence[Probe], apart: bool) -> str:
 
 def limit(text: str) -> _Bound:
     """A function (name, kind, value) -> `Check` with the limit that a text such as "<= 0.01" or "in 0.9 1.1"
-    means; "<= ratio" has its number in admissible.toml.
+    (between these) means; of "<= ratio" the number is the entry "ratio" of the limits in admissible.toml.
     """
     sign, *words = text.split()
     bounds = [_number(word) for word in words]
@@ -158,8 +162,8 @@ def _number(text: str) -> float:
 def _function(text: str) -> Callable[..., Any]:
     """The function of `ROOMS` that the first word of a text names, with the other words as its first arguments.
 
-    If no room has it, the name is an attribute of the object that it will be called with; with other words, a
-    method of it.
+    If none of these modules has it, the name is an attribute of the object with which the result is called; if
+    other words follow, a method of that object.
     """
     name, *words = text.split()
     for room in ROOMS:
@@ -177,6 +181,7 @@ def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
     if "scenarios" not in said:
         return ()
     measure = _function(said["measure"]) if "measure" in said else AtTwoSteps.of
+    # without a variant `Probe.of` takes the scenario's name
     variant = _function(said["variant"]) if "variant" in said else None
     bound, round_off = limit(said["limit"]), _number(said.get("round_off", str(ROUND_OFF)))
     return tuple(
@@ -221,8 +226,8 @@ def rows(r: Runs) -> list[Claim]:
 
 
 def findings(r: Runs, of_claims: Iterable[Claim]) -> list[str]:
-    """One line for each main finding: those of claims, then those of the table [beyond] of claims.toml, of
-    which the paper says nothing.
+    """One line for each main finding: those of the judged claims `of_claims`, then those of the table [beyond]
+    of claims.toml, of which the paper says nothing. r: the results, from which the latter have their numbers.
     """
     beyond = all_texts()["beyond"].values()
     of_others = [said["finding"].format(**_function(said["values"])(r)) for said in beyond]

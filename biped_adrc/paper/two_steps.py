@@ -2,7 +2,8 @@
 
 A number that changes when the step is halved says something of the method and nothing of the robot. Two values
 agree when they differ by at most 1 %, or by the resolution of the quantity: tracking errors of undisturbed
-walks are themselves round-off. Outcomes (`scenario.recording.Outcome`) hold the run at half the step in `half`.
+walks are themselves round-off. The numbers of a walk are an `Outcome`, which has the same walk at half the step
+in `half`. "Step" is the integration step here, "impact" the end of a walking step.
 """
 
 from __future__ import annotations
@@ -88,8 +89,10 @@ def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
     both in the unit of the value; two values agree when they differ by at most the resolution.
 
     Numbers that would not converge are replaced by 0: forces that are infinite, as where no single support is
-    long enough for a mean, and the friction where F_N <= 0, as the ratio F_T / F_N has its pole at F_N = 0.
+    long enough for a mean, and the friction where F_N <= 0, as the ratio F_T / F_N has its pole at F_N = 0. F_T
+    and F_N are the force of the ground along it and out of it. A resolution of 0 asks for 1 % alone.
     """
+    # f: extremes over the walk; last: work and energy of the last finished walking step
     f, last = o.feasibility, o.certificates[-1] if o.certificates else None
     forces = (f.mean_normal_force, f.mean_friction, f.impulse_ratio) if f.supports else (0.0,) * 3
     normal, friction, impulse = (0.0 if x == math.inf else x for x in forces)
@@ -108,7 +111,8 @@ def compared(o: Outcome) -> tuple[tuple[float, float], ...]:
 
 
 def largest_gap(o: Outcome) -> float:
-    """The largest relative change [1] of a figure of merit when every integration step is halved.
+    """The largest relative change [1] of a figure of merit from o to o.half, which has half the integration
+    steps.
 
     Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
     falls before its last impact has no figures of merit: only its ending has to be the same.
@@ -117,6 +121,7 @@ def largest_gap(o: Outcome) -> float:
     one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
     if one != half:
         return math.inf
+    # near: the difference below which two values count as equal
     pairs = zip(compared(o), compared(o.half), strict=True)
     return max(AtTwoSteps(x, y).gap(near) for (x, near), (y, _) in pairs) if o.walked else 0.0
 
@@ -129,7 +134,7 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
     """Text of the largest tracking error at both integration steps, end: of the walk at the step used, half: at
     half of it; with a hint to shorten the step where the two walks do not agree.
     """
-    errors = AtTwoSteps(end[0], half[0])
+    errors = AtTwoSteps(end[0], half[0])  # [0]: the error; behind it status and number of impacts
     text = f"{errors.value:.3e} rad ({errors.at_half:.3e} at half the step)"
     if end[1:] != half[1:]:
         ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
@@ -143,7 +148,7 @@ def order_of_error(o: Outcome) -> float:
     """Observed order k [1] in which the peak tracking error e converges with the integration step h; NaN if two
     of the errors are equal.
 
-    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|), from the outcomes o, o.half and o.half.half
+    k = log2 (|e(h) - e(h/2)| / |e(h/2) - e(h/4)|), from the outcomes o, o.half and o.half.half of the same walk
     """
     assert o.half is not None
     assert o.half.half is not None

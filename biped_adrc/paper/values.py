@@ -1,9 +1,21 @@
 """The numbers in the texts of the claims: each function returns them by the names in braces in claims.toml,
 where the text around a name has its unit. `Extremes` of numbers stand in a text as "least to largest".
 
-Gait (a) passes through the paper's x*, gait (b) follows the recipe of its section IV. A member is one
-combination of the choices that the paper leaves open. A walk is lost when it falls or ends before its last
-impact.
+    r                the results of a reproduction
+    NPD, ADRC        the controllers: PD with decoupling of the inertia, and ADRC with an observer
+    headline runs    walks of 25 impacts with a push on the joints, one under each controller
+    x*               the paper's fixed point: (q, q') [rad, rad/s] just before an impact of its periodic walk
+    gait (a), (b)    that through x*, and that by the recipe of section IV
+    member           one combination of the choices that the paper leaves open, such as the push and Theta''
+    Theta            phase of the gait [rad]; Theta'' in the law (20) is computed from the dynamics ("solved")
+                     or left out (as "printed")
+    lost             a walk that falls or ends before its last impact
+    multipliers      eigenvalues lambda of the derivative of the return map, from impact to impact, at a
+                     periodic walk; delta^2 is the largest in closed form; (26), (27): the paper's regression
+    m                number of the observer's states for the disturbance and its derivatives
+    K_p, K_d         gains of both controllers on angles [1/s^2] and rates [1/s], in Table II
+    Table I          the poles of the observer [rad/s]
+    (23)             transfer function from a disturbance of a joint [rad/s^2] to its tracking error [rad]
 """
 
 from __future__ import annotations
@@ -31,7 +43,7 @@ def of_headline(r: Runs) -> dict[str, object]:
     """How both controllers walk under the push of the headline runs.
 
     npd, adrc: their outcomes. slow: that of ADRC when the push rises and falls in 10 ms. asked: impacts asked
-    for. words: how feasible the walks are.
+    for. pushes: the pushes in words. words: how feasible the walks are. errors: text of the peak errors.
     """
     npd, adrc = r.pair("push")
     slow = r.pair("rising push")
@@ -52,8 +64,9 @@ def of_members(r: Runs) -> dict[str, object]:
 
     solved, printed: peak errors of ADRC by the choice of Theta''. npd, adrc: errors that the push adds;
     npd_rates: changes of Theta' at the impact after it. why: the reasons but for the impulse at impact. apart:
-    number of walks under ADRC with any reason, count: of all members.
+    number of walks under ADRC with any reason, count: of all members. steps: impacts asked for.
     """
+    # names of limits -> sentences, of a walk that breaks them: IMPULSE is the limit of the impulse at impact
     every = [o for part in r.members.values() for o in part]
     adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
     why = sorted({x for w in adrc for name, x in w.infeasible.items() if name != IMPULSE})
@@ -87,8 +100,10 @@ def of_map(r: Runs) -> dict[str, object]:
     and NPD is not.
     """
     known = [c for c in r.cells if c.certain]
+    # fates: outcomes of ADRC under the known pushes under which NPD is lost
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
-    lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]  # of NPD, of ADRC
+    # whether (NPD, ADRC) are lost; a push of the map is (push, walk under NPD, walk under ADRC)
+    lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
     return {
         "lost": len(fates),
         "known": len(known),
@@ -101,14 +116,14 @@ def of_map(r: Runs) -> dict[str, object]:
 
 def of_torso(r: Runs) -> dict[str, object]:
     """For each preset the least torque on the torso that stops the walk under ADRC, "none" if all are walked;
-    and "not " in `alike` unless NPD stops under the same pushes.
+    and "not " in `alike` unless NPD stops under the same pushes. A preset is a set of the robot's masses.
     """
     every = m.torso(r)  # torques in increasing order
     stopped: dict[str, str] = {}
     for name, (_, adrc) in every.items():
         torque, _, preset = name.partition(" on the torso, ")
         if not adrc.walked:
-            stopped.setdefault(preset, torque)
+            stopped.setdefault(preset, torque)  # the first one, the least, stays
     alike = all(npd.walked == adrc.walked for npd, adrc in every.values())
     stops = ", ".join(f"{stopped.get(p, 'none')} ({p})" for p in r.plan.presets)
     return {"stops": stops, "alike": "" if alike else "not "}
@@ -121,9 +136,12 @@ def of_heavier(r: Runs) -> dict[str, object]:
 
 def of_orders(r: Runs) -> dict[str, object]:
     """Values that compare the observer of Table I (m = 7) with two of m = 1, of equal bandwidth and of equal
-    delay margin.
+    delay margin: gains, delay margins [us] of Table I and [ms] at equal bandwidth, the bandwidth [rad/s] at
+    equal delay margin, peak errors [rad] under a push, and errors per disturbance at 5 Hz [s^2] of Table I
+    (slow) and at equal delay margin (other).
     """
     orders = next(iter(r.orders.values()))  # computed for one preset
+    # of Table I; m = 1 of the same bandwidth; m = 1 of the same delay margin
     table, band, delay = orders.values()
     shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in m.gains(r).items())
     return {
@@ -138,8 +156,8 @@ def of_orders(r: Runs) -> dict[str, object]:
 
 
 def of_jumps(r: Runs) -> dict[str, object]:
-    """Extremes over the presets of the jumps at an impact and at an edge of a push, named as in
-    `runs.jumps`.
+    """Extremes over the presets of the jumps of xi, the total disturbance [rad/s^2], and of joint rates [rad/s]
+    at an impact and at an edge of a push, named as in `runs.jumps`.
     """
     every = [*r.jumps.values()]
     return {name: Extremes(x[name] for x in every) for name in every[0]}
@@ -158,8 +176,8 @@ def of_cycles(r: Runs) -> dict[str, object]:
 
 
 def of_needs(r: Runs) -> dict[str, object]:
-    """Costs of transport of the undisturbed walks under NPD on gait (b) against gait (a), and the peak torques
-    [N m] on gait (b).
+    """Costs of transport [1] of the undisturbed walks under NPD on gait (b) against gait (a), by preset, each
+    in the last walking step; and the peak torques [N m] on gait (b).
     """
     both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
     costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
@@ -193,16 +211,21 @@ def noise_spectrum() -> Array:
     """
     k, n = declared()["noise"], len(X_STAR)
     random = np.random.default_rng(k["seed"])
+    # the seed and the numbers of draws and impacts are declared in admissible.toml; the fixed point is 0 here
     draws = (random.normal(size=(k["impacts"], n)) for _ in range(k["draws"]))
     result = [regress_multipliers(x, np.zeros(n)).magnitudes for x in draws]
     return np.median(result, axis=0)
 
 
 def of_printed(r: Runs) -> dict[str, object]:
-    """The printed multipliers; the share exp(-K_d t / 2) to which a tracking error decays in t = 0.4 s; the
-    longest walking step for the least printed multiplier, and the shortest period of a gait, both [ms]; and
-    what the regression makes of noise.
+    """Numbers on the multipliers that the paper prints, some of which would have to be of the tracking error.
+
+    published: these. decay: exp(-K_d t / 2), the share to which a tracking error decays in t = 0.4 s, about a
+    walking step. least: the least printed one. longest [ms]: the time in which a tracking error decays to
+    `least`; in a longer walking step it would decay further. period [ms]: the shortest walking step of gait (a)
+    over the presets. noise: the |lambda| that the paper's regression gives for states that are noise.
     """
+    # max: K_d may be one number, or one for each joint; r.jumps has the gait's period beside the jumps
     return {
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
         "decay": math.exp(-0.2 * float(np.max(TABLE_II.K_d))),
@@ -217,14 +240,14 @@ def of_held(r: Runs) -> dict[str, object]:
     """Amplitude of the tracking error [s^2] of the held joint per unit of disturbance: simulated, by (23)
     corrected, and by (23) as printed; and the gains of Table II.
     """
-    # in the order of `numerics_laws`; the second number is the first at half the integration step
+    # numbers in the order of `numerics_laws`; the second is the first at half the integration step
     simulated, _, corrected, printed = tuple(r.figures.values())[:4]
     return {"simulated": simulated, "corrected": corrected, "printed": printed, "gains": TABLE_II}
 
 
 def of_poles(r: Runs) -> dict[str, object]:
     """Magnitudes of the slowest and the fastest pole of the observer [rad/s], and the largest distance from x*
-    [rad, rad/s] at the last impacts of the undisturbed walks on gait (a).
+    [rad, rad/s] at the last impacts of the undisturbed walks on gait (a). The poles are negative.
     """
     farthest = float(np.max([m.distance(o) for o in r.on_gait("a").values()]))
     return {"slow": -max(TABLE_I), "fast": -min(TABLE_I), "farthest": farthest}

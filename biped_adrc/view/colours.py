@@ -28,4 +28,5 @@ def bent_arrow(radius: float) -> Array:
     angle, tip = np.radians(np.linspace(-60.0, 200.0, 30)), np.radians(240.0)
     rim = np.column_stack((np.cos(angle), np.sin(angle)))
     head = 1.3 * rim[-1], (np.cos(tip), np.sin(tip)), 0.7 * rim[-1]
+    # shares of the radius: rims at 1.12 and 0.88, head from 1.3 to 0.7; a negative radius mirrors x
     return np.vstack((1.12 * rim, head, 0.88 * rim[::-1])) * [radius, abs(radius)]

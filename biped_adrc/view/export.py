@@ -4,8 +4,8 @@
     .gif           a moving picture from the side (`from_the_side.moving_picture`)
     .png, .svg     a strip of stick figures (`from_the_side.moving_picture`)
 
-`biped-adrc animate` and `Walk.animate` call `export` with a `Clip` of what is to be shown; each of
-the three takes of it what it can use, and options that it has no use for are refused.
+`biped-adrc animate` and `Walk.animate` call `export` with a `Clip`: the part of the walk and how it is shown.
+Options of a clip that the kind of file has no use for are refused.
 """
 
 from __future__ import annotations

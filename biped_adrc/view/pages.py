@@ -47,15 +47,15 @@ HEIGHT = 480
 def rendered(template: str, package: str = _HERE, **values: object) -> str:
     """Fill in a page's template; returns the text of the page.
 
-    template: name of the file, in `package` or in `view`. values: by the names in the template. Every value is
-    escaped as HTML, and written by `as_text`: floats with four significant digits.
+    template: name of the file without .html.j2, in `package` or in `view`. values: by the names in the
+    template. Every value is escaped as HTML, and written by `as_text`: floats with four significant digits.
     """
     return _environment(package).get_template(f"{template}.html.j2").render(values)
 
 
 @cache
 def _environment(package: str) -> Environment:
-    """Jinja's environment for the templates of `package` and of this one, made once, since it compiles them.
+    """Jinja's environment for the templates of `package` and of `view`, made once, since it compiles them.
 
     Templates have the policy, the name of the style sheet, and file(name): the text of a file beside them.
     """

@@ -5,10 +5,10 @@ out along the ground, `WalkScene.joints` gives the joint values of the URDF at a
 `link_placements` the links, `loads_at` the forces. Kinematics are those of the URDF's tree alone;
 Pinocchio is not needed to draw.
 
-The model's stance foot is always at the origin and q is relabelled at impact, so that the model
-walks without left and right. A drawing has both: in odd single supports the stance leg is the one
-the robot's record calls so (RABBIT: left), in even ones the other. The joints drawn are q in odd
-steps and R q in even ones, so no drawn angle jumps at impact. A rimless wheel has spokes in place
+The model's stance foot is always at the origin, and at impact R (n, n) exchanges the legs in the coordinates
+q (n,) [rad], so that the model walks without left and right. A drawing has both: in odd single supports the
+stance leg is the one that the robot's record calls so (RABBIT: left), in even ones the other. The joints drawn
+are q in odd steps and R q in even ones, so no drawn angle jumps at impact. A rimless wheel has spokes in place
 of legs: it is drawn at q in every step, on the next of its equal spokes.
 
 The ground is a slope with steps down and up,
@@ -165,7 +165,8 @@ def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
     if is_wheel(biped):
         return (), ()
     d = biped.description
-    pairs = tuple(twins(biped.tree, (d.stance_foot, d.swing_foot)))  # one, other, one, other, ...
+    # the links of both legs, in turn of the leg of `stance_foot` and of the other one
+    pairs = tuple(twins(biped.tree, (d.stance_foot, d.swing_foot)))
     return pairs[::2], pairs[1::2]
 
 
@@ -266,6 +267,7 @@ class WalkScene:
         """x and z [m] of the stance foot in arc i at t [s]: its foothold; on soft ground, where it may slip,
         its recorded place.
         """
+        # `read` has what a simulator of soft ground recorded at the nodes, by name
         arc = self.trajectory.arcs[i]
         if PLACE not in arc.read:
             return self.foothold(i)
@@ -275,6 +277,7 @@ class WalkScene:
     @cached_property
     def surface(self) -> Surface:
         """The ground under the footholds: the walker's slope, and the steps of the ground between them."""
+        # behind the last foothold no step of the ground is known
         arcs = self.trajectory.arcs[: len(self.footholds) - 1]
         drops = np.array([self.walker.drop(arc.mode.step) for arc in arcs])
         middles = 0.5 * (self.footholds[:-1] + self.footholds[1:])
@@ -305,6 +308,7 @@ class WalkScene:
 
     def points(self, i: int, t: float, q: Array) -> Array:
         """x and z [m] of the hip and of the swing foot in the world (4,), at q (n,) [rad] in arc i at t [s]."""
+        # both are relative to the stance foot
         ends = np.concatenate((self.biped.hip(q), self.biped.swing_foot(q)))
         return ends + np.tile(self.foot(i, t), 2)
 
@@ -336,7 +340,7 @@ def loads_at(scene: WalkScene, t: float) -> DrawnLoads:
         other, slips = arc.read[FORCE][k, 2:], bool(foot_slips(scene, arc)[k])
     row = k + sum(len(before.t) for before in arcs[:at])  # signals have the nodes of all arcs
     force, zeta = s.ground_reaction[row], s.zeta[row]
-    # with q drawn as R q, power zeta' q' is that of R^-T zeta, and R is its own inverse
+    # with q drawn as R q, the power zeta . q' is that of R^-T zeta, and R is its own inverse
     drawn = scene.biped.R.T @ zeta if exchanged(scene.biped, arc.mode.step) else zeta
     return DrawnLoads(force, drawn, other, slips)
 
@@ -346,7 +350,7 @@ def foot_slips(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     friction cone and it moves, as `analysis.soft_steps` counts it.
     """
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
-    F, _, v = meters.feet_of(arc)
+    F, _, v = meters.feet_of(arc)  # forces, places, velocities of both feet
     return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.ground_slope)), axis=1)
 
 
@@ -356,13 +360,14 @@ def contact_changes(scene: WalkScene, arc: Arc) -> Array:
     """
     if FORCE not in arc.read:
         return np.zeros(0)
+    # [:, 2:]: the force on the other foot, 0 where it does not touch
     contact = np.column_stack((foot_slips(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
     return arc.t[1:][np.any(contact[1:] != contact[:-1], axis=1)]
 
 
 def check_frames(count: float) -> None:
     """Raise InputError for a number of frames above MOST_FRAMES."""
-    if not count <= MOST_FRAMES:
+    if not count <= MOST_FRAMES:  # also for NaN
         raise InputError(
             f"this would be {count:.6g} frames, expected at most {MOST_FRAMES}; show a part of the "
             "walk, or fewer frames per second"
@@ -379,7 +384,7 @@ def ending(trajectory: Trajectory) -> str:
         return ""
     event = trajectory.arcs[-1].event
     reason = status.value.split(";")[0]  # without the advice behind the semicolon
-    if event is not None and event.x_plus is None:
+    if event is not None and event.x_plus is None:  # no state follows: a terminal event
         reason = event.guard.replace("_", " ")
     elif trajectory.detail:
         reason = trajectory.detail

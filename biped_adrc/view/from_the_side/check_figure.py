@@ -2,7 +2,8 @@
 
 The robot stands with its feet a step apart, the swing foot in front. A bent arrow at a joint shows how what it
 carries turns as its angle grows; the disc at a COM has an area in proportion to the mass. The title has the
-phase Theta. `robot check` writes this picture, and it is figure 1 of a reproduction.
+phase Theta of a gait as a sum of angles. The command `robot check` writes this picture, and in a reproduction
+of the paper it is figure 1. A record is the robot's file beside its URDF: which joints and feet are which.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ def check_figure(biped: Biped) -> Figure:
     Beside each COM stands its link; a line goes from a link's origin to its COM and to the joints below it.
     """
     d, tree, leg = biped.description, biped.tree, robot_of(biped).leg
+    # q (n,) with the swing foot this far ahead, on level ground (slope 0), without limits of angles ({})
     q = apart(biped, _STEP * leg, 0.0, {})
     places = link_placements(tree, joint_values(biped, q))
     stance, swing = legs(biped)
@@ -37,12 +39,13 @@ def check_figure(biped: Biped) -> Figure:
         axes = figure.subplots()
         axes.axhline(0.0, color="black", lw=1.0, zorder=0)
         for name in tree.links_from(d.trunk):
+            # texts at the stance leg are to the left, all others to the right
             link, side = tree.links[name], -1 if name in stance else 1
             colour = STANCE if name in stance else SWING if name in swing else TRUNK
             ends = [_at(places[joint.child]) for joint in tree.joints_below(name)]
             if link.inertial is not None:
                 mass, com = link.inertial.mass, _at(places[name], link.inertial.com)
-                size = 40.0 * np.sqrt(mass / biped.mass)
+                size = 40.0 * np.sqrt(mass / biped.mass)  # diameter in typographic points
                 axes.plot(*com, "o", color=colour, alpha=0.5, ms=size)
                 _write(axes, com, f"{name} {mass:.4g} kg", side, colour, 0.5 * size)
                 ends.append(com)

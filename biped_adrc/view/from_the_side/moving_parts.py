@@ -3,8 +3,8 @@
 `DrawnWalk` makes the artists of one walk on an Axes once; its method `show` sets their positions and colours
 for the time t [s]. The module `moving_picture` puts the parts together. Matplotlib draws
 walk k with zorder 10 k to 10 k + 9, so that one walk is in front of another as a whole, and the ground and the
-paths of hip and foot behind all walks, as k begins at 2. An arc is one single support. A role says which leg a
-line belongs to: stance, swing, or "" for the trunk.
+paths of hip and foot behind all walks, as k begins at 2. An arc is one single support, a foothold the place of
+its stance foot. A role says which leg a line belongs to: stance, swing, or "" for the trunk.
 """
 
 from __future__ import annotations
@@ -79,6 +79,7 @@ def ground(axes: Axes, views: list[SideView]) -> None:
     scene = views[-1].scene
     if scene.walker.stones is not None:
         half = scene.walker.stones.tolerance
+        # a walk may have more or fewer footholds than stones
         for x_0, L in zip(scene.footholds, scene.walker.stones.lengths, strict=False):
             at, z = (x_0 + L - half, x_0 + L + half), scene.level(float(x_0 + L))
             axes.plot(at, (z, z), color=STONE, lw=6.0, solid_capstyle="butt", zorder=1)
@@ -130,6 +131,7 @@ class DrawnWalk:
         """Move all artists to t [s]; from call to call t has to grow, since the paths are extended."""
         view, scene = self.view, self.view.scene
         roles, placements = view.roles(t), view.placements(t)
+        # placed_lines: both ends of every line of the robot, from the placements of its links
         self.links.set_segments(placed_lines(view.bones, placements))
         self.links.set_color([COLOURS[role] for role in roles])
         self.links.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
@@ -137,6 +139,7 @@ class DrawnWalk:
         self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
         self._extend(points, view.step(t))
         acting, foot = loads_at(scene, t), np.array(scene.foot(i, t))
+        # drawn: vector of the arrow [m]; cut: a text if it was cut; points[2:]: the swing foot
         drawn, cut = self._arrow(0, foot, acting.ground_reaction)
         self._arrow(1, points[2:], acting.other)
         self.text.set_text(cut or ("slips" if acting.slips else ""))
@@ -146,6 +149,7 @@ class DrawnWalk:
         self.text.set_position((beside, foot[1] + max(0.5 * drawn[1], 0.05)))
         radii = colours.METRES_PER_NEWTON_METRE * acting.zeta
         torque = dict(zip(scene.biped.description.joints, radii.tolist(), strict=True))
+        # a ring at each joint with a torque, at x and z of its child link
         pushed = [joint for joint in scene.biped.tree.joints if torque.get(joint.name)]
         self.torques.set_verts(
             [placements[j.child][[0, 2], 3] + colours.bent_arrow(torque[j.name]) for j in pushed]

@@ -5,7 +5,7 @@
 slide, 64 colours and at most 50 frames a second.
 
 Walks are laid over one another, or stand side by side. An error of a milliradian is invisible on a robot 1.4 m
-high: the curves of `plot` show which controller has it.
+high: the curves of the command `plot` show it.
 
 *A strip* of stick figures over a few steps, as in papers on walking: postures at equally spaced times are
 drawn over one another on the ground they walk on, darker the later; stance leg, swing leg and trunk differ in
@@ -75,6 +75,7 @@ def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
     last frame, in which the reason is read.
     """
     first = min(walk.trajectory.t_start for walk in walks.values())
+    # the clip's times, or from the first start to the last end
     start, stop = clip.part(first, max(walk.trajectory.t_end for walk in walks.values()), first)
     check_frames((stop - start) * rate)
     # round-off in the product does not add a frame
@@ -96,6 +97,7 @@ def moving_figure(
     width, shown = (WIDE, PANEL) if apart else (WIDTH, SHOWN)
     share, panels = 1.0 / len(groups), []
     views = [[SideView(WalkScene.of(walk)) for walk in group.values()] for group in groups]
+    # x[-1]: the walk that the picture of a group follows
     tallest = max(draw.HEADROOM * x[-1].height + draw.SOLE for x in views)
     # a metre has the same number of pixels in width and in height
     figure = draw.blank(width, share * width * tallest / shown)
@@ -128,7 +130,7 @@ class _Panel:
         shown: float,
     ) -> None:
         self.axes, self.last, self.pace = axes, views[-1], pace
-        self.around = ahead * shown, (1.0 - ahead) * shown
+        self.around = ahead * shown, (1.0 - ahead) * shown  # [m] to the left and right of the hip
         self.runs = {name: walk.trajectory for name, walk in walks.items()}
         axes.set_axis_off()
         draw.ground(axes, list(views))
@@ -162,6 +164,7 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     The palette is made from about eight of the frames and from bands of the colours MARKED. fps [1/s]: frames
     per second. rest [s]: how much longer the last frame is shown.
     """
+    # every third row of some frames
     some = [frame[::3] for frame in frames[:: max(1, len(frames) // 8)]]
     height, width, _ = some[0].shape
     bands = [np.full((height // 4, width, 3), ImageColor.getrgb(c), np.uint8) for c in MARKED]
@@ -228,6 +231,7 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
         mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
+        # matplotlib leaves "_" out of the legend
         text = (name or view.scene.biped.description.trunk) if named and mine else "_"
         lines = LineCollection(mine, colors=colour, linewidths=width, linestyles=dash, label=text)
         lines.set(alpha=0.25 + 0.75 * darkness, capstyle="round", zorder=3)
@@ -256,8 +260,9 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
 
 
 def write_strip(path: Path, walk: Drawable, clip: Clip) -> None:
-    """Write a strip of stick figures as .png or .svg; arguments as for `strip`. Raises
-    InputError and OutputError.
+    """Write a strip of stick figures of a walk to the file `path`, .png or .svg; clip: the part shown, the last
+    two steps if it has no times. Raises InputError for times outside the walk, OutputError for a file that
+    cannot be written.
     """
     with new_figure(6.4, 5.2) as figure:
         strip(figure.subplots(), walk, clip)

@@ -2,7 +2,8 @@
 
 `bones` finds a line for each link in the frame of that link; `SideView` moves these lines with a
 walk. Strips, moving pictures and the scale of the page in Meshcat are made from it. A line belongs to the
-"stance" leg, to the "swing" leg, or "" to the trunk; a placement is a homogeneous transform (4, 4).
+"stance" leg, to the "swing" leg, or "" to the trunk; a placement is a homogeneous transform (4, 4). A wheel is
+a rimless one, with spokes in place of legs, of which its URDF draws one.
 """
 
 from __future__ import annotations
@@ -35,12 +36,14 @@ class Bone:
 
 def bones(biped: Biped) -> list[Bone]:
     """Find the lines of a robot, by links in the order of its URDF; a wheel has them once for each spoke."""
+    # legs: links of the leg that carries odd single supports, and of the other
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     result = [
         Bone(name, ends, leg.get(name, ""))
         for name, link in biped.tree.links.items()
         for ends in _lines(biped.tree, link)
     ]
+    # spokes: rotations from the drawn spoke to each; the identity alone for legs
     return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in result]
 
 

@@ -7,8 +7,8 @@ and links stay together between frames. Every `add_` function draws below its ar
 The player is player.js in the page: it moves, scales, fills in and colours at run time what is drawn here once.
 Lengths are in [m]. y points away from the camera; a placement is a homogeneous transform (4, 4).
 
-The feet are points in the model and balls in the URDF: the ground is drawn one radius below the
-footholds.
+The feet are points in the model and balls in the URDF: the ground is drawn one radius below the footholds, the
+places where stance feet stand. A rimless wheel has spokes in place of legs. q are the robot's coordinates.
 """
 
 from __future__ import annotations
@@ -84,6 +84,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
         here = node[joint_path(tree, joint)]
         here.set_transform(joint_transform(joint, 0.0))
         for k, visual in enumerate(tree.links[joint.child].visuals):
+            # spokes: rotations of the drawn spoke to each one, for legs the identity alone
             for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
                 # `visual_links` has the names of the first ones
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
@@ -155,7 +156,7 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
 
 def add_trace(node: SceneNode, points: int, rgb: _Colour, opacity: float) -> None:
     """Add an empty line of this colour and opacity (0 to 1) for as many points; the player fills it in."""
-    # both ends of each segment between two points
+    # both ends of each segment between two points; at least one segment
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
@@ -178,11 +179,13 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: _Colour, opacity: fl
     The player scales its node `turn` by the torque; a negative torque mirrors it.
     """
     node.set_transform(placed(origin))
+    # 63 points: outer rim, head of three points, inner rim backwards
     outline = bent_arrow(1.0)
     # the rim in triangles, point k of its outer side beside last - k of its inner; and the head, a triangle
     last, n = len(outline) - 1, len(outline) // 2 - 1
     k = np.arange(n - 1)
     rim = np.column_stack((last - k, last - k - 1, k, last - k - 1, k + 1, k)).reshape(-1, 3)
+    # vertices (x, 0, z), and triangles as indices of these
     mesh = np.insert(outline, 1, 0.0, axis=1), np.vstack((rim, (n + 2, n, n + 1)))
     node["turn"]["body"].set_object(shapes.TriangularMeshGeometry(*mesh), paint(rgb, opacity))
 
@@ -229,6 +232,7 @@ def camera(kind: str, scale: float) -> dict[str, object]:
     node = window.viewer[f"/Cameras/{kind}/rotated"]
     node.set_transform(placed(R=UPRIGHT))
     if kind == "side":
+        # all is multiplied by `scale` below, the distance of 8 m is not: it has no effect on a parallel view
         half, position, target = 0.5 * VIEW * scale, [0.0, 0.7, 8.0 / scale], [0.0, 0.7, 0.0]
         node.set_object(shapes.OrthographicCamera(-half, half, half, -half, near=0.1, far=100.0))
     else:

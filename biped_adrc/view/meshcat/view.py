@@ -1,13 +1,16 @@
 """Walks in Meshcat as one offline HTML file: the viewer, the robots, their motion and the controls.
 
-`animation_html` lays the walks out (`placement`), samples them (`Frames`), draws the objects (`objects`), and
-writes all of it as JSON into the page (`pages.player`); player.js plays it. One walk is solid and followed by
-the camera, the others are ghosts: translucent, each a little farther from the camera.
+Meshcat draws three-dimensional scenes in a browser. `animation_html` lays the walks out along the ground,
+samples them (`Frames`), draws the objects (`objects`), and writes all of it as JSON into the page; the page's
+program player.js plays it. One walk is solid and followed by the camera, the others are ghosts: translucent,
+each a little farther from the camera.
 
 The player draws a walk at any time by cubic Hermite interpolation between samples. They are at the times of the
 frames, at both ends of every single support, at the switching times of pushes, and on soft ground at the times
 at which the other foot touches or leaves it, or a foot begins or ends to slip. Between them the error of the
-drawn angles is 1e-5 rad at most. A node is one of Meshcat's tree (`objects`), an arc one single support.
+drawn angles is 1e-5 rad at most. A node is one of Meshcat's tree of objects (`objects`), a foothold the place
+of a stance foot. An arc is the motion of one single support; its state x begins with the n coordinates q and
+their n rates.
 """
 
 from __future__ import annotations
@@ -92,6 +95,7 @@ def scene_settings(
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
         opacity, sampled = (1.0 if lane == 0 else _GHOST), (frames or {}).get(name)
+        # the traces of hip and swing foot get a point at each sample
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
         robot.set_transform(placement.placed((0.0, LANE * lane, 0.0)))
@@ -196,6 +200,7 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
     """
     solid, *ghosts = scenes
     biped = scenes[solid].biped
+    # what an arrow, and the radius of a ring, of 0.1 m mean
     newtons = 0.1 * biped.weight / colours.WEIGHT_LENGTH
     torque = 0.1 / colours.METRES_PER_NEWTON_METRE
     walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
@@ -263,9 +268,10 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     """
     arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foot(i, t)
     n, step = biped.n, arc.mode.step
-    x = arc(t, "left" if t == arc.t[-1] else "right")
+    x = arc(t, "left" if t == arc.t[-1] else "right")  # the side of a jump of the state at t
     q, v = x[:n], x[n : 2 * n]
     moving = [joint.name for joint in biped.tree.joints if joint.type != "fixed"]
+    # values of the joints at t, and EPSILON [s] later and earlier
     at, later, earlier = (
         joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
     )
@@ -286,6 +292,7 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     first = scene.trajectory.t_start
     # the frames of the whole walk are equally spaced from its start on
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
+    # switching times may be outside of the arc
     edges = *scene.walker.switching_times(arc.mode), *placement.contact_changes(scene, arc)
     inside = [t for t in (*frames, *edges) if start < t < end]
     return np.unique([start, *inside, end])

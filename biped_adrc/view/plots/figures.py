@@ -4,7 +4,11 @@
 around it, and most of them the milliseconds after each of its edges, the times at which it begins and ends, in
 which a fast observer acts. A column is a list of panels above one another with one time axis; the grid `spec`
 of a figure has four places in a row. In figures that compare controllers the i-th one has the i-th colour and
-mark in all panels.
+mark in all panels. `Signals` are angles, torques, errors and forces over time, at the stored instants of a
+walk.
+
+Symbols: zeta, torque from outside on each coordinate [N m]; xi of (13) of the paper, total disturbance of a
+joint [rad/s^2], and xi^, an observer's estimate of it; Theta, phase of the gait [rad], and its rate Theta'.
 """
 
 from __future__ import annotations
@@ -49,8 +53,8 @@ def tracking_figure(
     time around it, shaded, and the milliseconds after either edge, but for angles, as these do not move within
     milliseconds. torque_limit [N m]: drawn as a dotted line.
     """
-    p = signals.q_d.shape[1]
-    # two panels of angles: of RABBIT hips and knees
+    p = signals.q_d.shape[1]  # number of joints with motors
+    # two panels of angles: of the five-link robot RABBIT hips and knees
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
     angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
     below: list[Panel] = [
@@ -71,6 +75,7 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
     """
     if push is None:
         return title
+    # per joint the torque, with its sign, at the node at which it is largest
     peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
     joints: dict[str, list[str]] = {}
     for i in np.flatnonzero(peaks):
@@ -136,6 +141,7 @@ def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
     """Set the time axis of a column to the time around the push, of the whole walk if None, and each value axis
     to the range of the data shown there.
     """
+    # within the walk
     start, stop = push or (s.t[0], s.t[-1])
     _limits(column, max(start - BEFORE, s.t[0]), min(stop + AFTER, s.t[-1]))
 
@@ -195,7 +201,7 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
     that its estimate xi^ is equivalent to [N m], a colour for each torque; joints with the same torque share
     the line. push: (start, stop) [s]; the time around it is shown, below also either edge.
     """
-    p = signals.q_d.shape[1]
+    p = signals.q_d.shape[1]  # number of joints with motors
     with new_figure(10.0, 5.2, _titled(title, signals, push)) as figure:
         parts: Any = figure.subfigures(2, 1)
         above, below = parts
@@ -238,7 +244,8 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
 def multiplier_figure(
     multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Figure:
-    """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order.
+    """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order: a walk
+    is stable if all are inside.
 
     multipliers: name of a method or a controller -> (k,), complex. published (k,): magnitudes printed in the
     paper, shown for comparison; see `stability.magnitudes`.
@@ -301,6 +308,7 @@ def observer_figure(report: ObserverReport) -> Figure:
                 continue
             axes.loglog(grid, level, label=report.name, color=PALETTE[0], ls=DASHES[0])
             axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST * np.max(level)))
+            # half the sampling frequency, in [rad/s]
             axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
         return figure

@@ -1,9 +1,16 @@
 """Signals of one walk over time, on axes of your own: angles, errors, torques, disturbances, ground, energy.
 
-Also the phase portrait and the friction cone, which are curves of the same signals. Every plot
-takes the Axes, `Signals` (rows are the nodes of a walk) and perhaps the window of a push, which is
-shaded; it labels the axes with units and returns them. Lines break at impacts, where velocities and
-torques jump.
+Also the phase portrait and the friction cone, which are curves of the same signals. Every plot takes the Axes,
+`Signals` (rows are the K nodes of a walk, the instants at which its state is stored) and perhaps the window of
+a push, which is shaded; it labels the axes with units and returns them. Lines break at impacts, where
+velocities and torques jump.
+
+    q, q_b, q_d      the coordinates [rad], the first p of them, which have motors, and references of these
+    u, zeta          torques of the motors, and of disturbances from outside [N m]
+    xi, xi^          total disturbance of the joints [rad/s^2], and an observer's estimate of it
+    kappa            input gain of the controller's model, q_b'' = kappa u + xi: (13) of the paper
+    Theta            phase of the gait [rad], Theta' its rate
+    F_T, F_N         force of the ground on the robot, along the ground and out of it [N]
 """
 
 from __future__ import annotations
@@ -156,12 +163,13 @@ def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | Non
 
 
 def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draw the external torque [N m] on each actuated joint, and the torque to which its xi^ is equivalent.
+    """Draw the external torque zeta [N m] on each actuated joint, and the torque to which its xi^ is
+    equivalent.
 
-    Broad: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal),
-    with xi_nominal of the model without zeta; it also holds the unmatched part and errors of the model, so the
-    lines differ by those. Joints with the same torque share the first one's lines. push: (start, stop) [s],
-    shaded. Returns the axes.
+    Broad: zeta_b, the torque on the motors' joints, which a motor could cancel. Dashed: kappa^-1 (xi^ -
+    xi_nominal), with xi_nominal the xi of the model without zeta; it also holds the effect of zeta on the joint
+    without a motor and errors of the model, so the lines differ by those. Joints with the same torque share the
+    first one's lines. push: (start, stop) [s], shaded. Returns the axes.
     """
     # joints by the bytes of their torque over time
     alike: dict[bytes, list[int]] = {}
@@ -220,7 +228,7 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
     """
     check_positive(mu, f"the coefficient of friction is {mu}")
     tangent, normal = (s.ground_reaction @ axis for axis in ground_axes(slope))
-    top = 1.1 * max(float(np.max(normal)), 1.0)
+    top = 1.1 * max(float(np.max(normal)), 1.0)  # [N]; a cone also where the ground never pushes
     axes.fill([0.0, mu * top, -mu * top], [0.0, top, top], color="#dddddd", zorder=0)
     for sign in (-1.0, 1.0):
         name = f"cone, $\\mu$ = {mu:g}" if sign > 0 else "_"
@@ -252,6 +260,7 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
     """
     x, y = with_gaps(s, s.theta), with_gaps(s, s.dtheta)
     axes.plot(x, y, color=PALETTE[colour], lw=0.8, label=name)
+    # j: last node before an impact, j + 1: first node after it
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
         axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)
@@ -289,7 +298,7 @@ def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
     walks: name of the controller -> signals. The scale is logarithmic, so that less than FLOOR is drawn there.
     """
     for i, (name, s) in enumerate(walks.items()):
-        past = s.before_fall
+        past = s.before_fall  # without the nodes of a fall, where the error is NaN
         sizes = [max(float(np.nanmax(np.abs(s.error))), FLOOR), max(rms(past.t, past.error), FLOOR)]
         axes.plot([0, 1], sizes, color=PALETTE[i], marker=_MARKERS[i % 4], ls="", ms=8, label=name)
         for k, size in enumerate(sizes):
@@ -313,6 +322,7 @@ def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
     width = 0.8 / len(walks)
     for i, (name, s) in enumerate(walks.items()):
         peaks = np.max(np.abs(s.u), axis=0)
+        # the bars of all walks together are centred at the number of the motor
         at = np.arange(len(peaks)) + (i - 0.5 * (len(walks) - 1)) * width
         hatch = ("", "///", "...", "xxx")[i % 4]
         axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)

@@ -1,8 +1,8 @@
-"""Floquet multipliers of the return map, and the steps of a return map as stairs.
+"""Floquet multipliers of the return map, and iterations of a scalar return map as stairs.
 
-A periodic walk is stable when all multipliers, the eigenvalues of the derivative of the return map
-at its fixed point, lie inside the unit circle. `analysis.stability` computes them by several
-methods; they are drawn by name beside each other.
+The return map takes the state before an impact to that before the next one. A periodic walk, its fixed point,
+is stable when all multipliers lambda, the eigenvalues of the map's derivative there, lie inside the unit
+circle. `analysis.stability` computes them by several methods; they are drawn by name beside each other.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
         z = np.atleast_1d(np.asarray(values, dtype=complex))
-        _plot(axes, i, name, z.real, z.imag, 7 + 2 * i)
+        _plot(axes, i, name, z.real, z.imag, 7 + 2 * i)  # marks of later methods are larger
     axes.set_aspect("equal")
     label(axes, r"Re $\lambda$ [-]", r"Im $\lambda$ [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=3, frameon=False)
@@ -72,10 +72,11 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
 
 
 def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
-    """Draw successive values `way` (k,) of a return map as stairs over (value, next value), from the diagonal
-    at way[0]: up or down to the map, then across to the diagonal, and so on.
+    """Draw successive values `way` (k,) of a scalar return map as stairs over (value, next value), from the
+    diagonal at way[0]: up or down to the map, then across to the diagonal, and so on.
 
     way: in the unit of the map. name: in the legend.
     """
+    # x: w0 w0 w1 w1 ..., y: w0 w1 w1 w2 ...
     corners = np.repeat(way, 2)
     axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

@@ -1,4 +1,5 @@
-"""Figures of a study, one for each question: dots with intervals, maps and paths.
+"""Figures of a study, many walks that differ in some values of their scenario: dots with intervals, maps, and
+paths of a search for the best values.
 
 They take plain values and draw any study: rows and columns are names, numbers come with the ends of a
 confidence interval of 95 %, which are NaN where there is none. A number that is not finite has no mark. A field
@@ -43,6 +44,7 @@ def dots_figure(
     reference: number at which a line is drawn.
     """
     rows, series = _names(numbers)
+    # so that the marks of the series in a row do not cover one another
     offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
     with new_figure(6.5, 1.1 + 0.36 * len(rows)) as figure:
         axes = figure.subplots()
@@ -50,6 +52,7 @@ def dots_figure(
         if reference is not None:
             axes.axvline(reference, color=GREY, lw=0.8)
         for i, name in enumerate(series):
+            # (place on the y axis, number, low, high) of this series
             here = [
                 (rows.index(row) + offsets[i], *x)
                 for (row, of), x in numbers.items()
@@ -83,7 +86,8 @@ def map_figure(
     from 0 to 1.
     """
     shown = dict(list(panels.items())[:MOST_PANELS])
-    # all panels have the same cells: each axis is cut once for the walks of all, one panel after the other
+    # all panels have the same cells: each axis is cut once for the walks of all, one panel after the other.
+    # xs, ys: (index of the cell of each walk, names of the cells)
     xs, ys = (cut([x for panel in shown.values() for x in panel[i]]) for i in (0, 1))
     means, begin = [], 0
     for panel in shown.values():
@@ -92,8 +96,9 @@ def map_figure(
     known = np.concatenate([m[np.isfinite(m)] for m in means])
     low, high = (known.min(), known.max()) if log and known.size else (0.0, 1.0)
     norm = LogNorm(low, max(high, low * 1.001)) if log and low > 0.0 else Normalize(low, high)
+    # sizes in inches grow with the number of cells, within bounds
     columns = min(len(means), 4)
-    rows = -(-len(means) // columns)
+    rows = -(-len(means) // columns)  # rounded up
     width = 1.6 + columns * (1.0 + 0.3 * min(max(len(xs[1]), 5), 20))
     with new_figure(width, 0.8 + rows * (1.2 + 0.22 * min(max(len(ys[1]), 5), 20))) as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
@@ -131,6 +136,7 @@ def path_figure(
             for kept, mark in ((True, "o"), (False, "x")):
                 x = [(n, x) for n, x, feasible in path if feasible is kept and math.isfinite(x)]
                 axes.plot(*np.array(x).reshape(-1, 2).T, mark, color=color, ms=2.5, ls="none")
+            # a candidate that breaks a limit is never the best
             numbers = [x if kept else math.inf if less else -math.inf for _, x, kept in path]
             best = (np.minimum if less else np.maximum).accumulate(numbers)
             numbered = [n for n, *_ in path]
@@ -196,7 +202,7 @@ def _cells(axes: Axes, values: Array, texts: Sequence[Sequence[str]], norm: Norm
 def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
     """Label the cells of both axes with their names, at most about twelve of each."""
     for set_ticks, names, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
-        places = range(0, len(names), -(-len(names) // 12))
+        places = range(0, len(names), -(-len(names) // 12))  # -(-a // b) is a / b rounded up
         set_ticks(list(places), [names[k] for k in places], rotation=rotation)
 
 

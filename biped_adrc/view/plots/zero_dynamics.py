@@ -1,11 +1,15 @@
 """The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta).
 
-On the zero dynamics the angular momentum sigma about the stance foot obeys a scalar system. Single
-support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves of that sum.
-zeta = sigma^2 / 2 at the end of a walking step is mapped by the impact and the next step to rho(zeta) =
-delta^2 zeta - V_zero(Theta-): a straight line, whose fixed point zeta* is the gait. In its plot every walking
-step is a pair of corners between this line and the diagonal. Signs - and + mean before and after an impact,
-delta = sigma+ / sigma-, V_max is the largest V_zero of a step.
+The zero dynamics are the motion with all joints exactly on the gait's curves: a scalar system.
+
+    Theta            phase of the gait [rad]; Theta- and Theta+ just before and after an impact, as of others
+    sigma            angular momentum about the stance foot [kg m^2/s], sigma = I(Theta) Theta'
+    V_zero(Theta)    potential [kg^2 m^4/s^2]: sigma^2 / 2 + V_zero is constant in a single support, so that the
+                     portrait has level curves of this sum; V_max is the largest V_zero of a step
+    zeta             sigma-^2 / 2 at the end of a walking step; zeta* of the periodic orbit, the gait
+    delta            sigma+ / sigma- across an impact
+    rho(zeta)        delta^2 zeta - V_zero(Theta-): zeta at the end of the next step. Its graph is a straight
+                     line; every walking step is a pair of corners between this line and the diagonal
 
 `biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
 The domain is the range of zeta from which walks come back to the orbit and keep the limits.
@@ -52,6 +56,7 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     o = report.orbits
     theta = grid(o.zero)
     axes.plot(theta, o.potential(theta), color=PALETTE[0], label=r"$V_{zero}$")
+    # sigma+^2 / 2 = delta^2 sigma-^2 / 2
     begin, name = o.delta**2 * report.zeta_star, r"$\sigma_+^2/2$ of the orbit"
     axes.axhline(begin, color=PALETTE[1], ls=DASHES[1], label=name)
     axes.plot(o.theta_max, o.v_max, "o", color="black", ms=4, label=r"$V_{max}$")
@@ -67,7 +72,7 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     The sigma axis reaches a little past the fastest step of the domain. Returns the axes.
     """
     o, theta = report.orbits, grid(report.orbits.zero)
-    low, high = _shown(report)
+    low, high = _shown(report)  # range of zeta that is drawn
     orbit, fastest = _sigma(o, theta, report.zeta_star), _sigma(o, theta, max(low, high))
     if not report.domain.empty:
         slowest = _sigma(o, theta, low)
@@ -92,12 +97,13 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     do not belong to it, and run towards zeta* where the gait is stable. Returns the axes.
     """
     o = report.orbits
-    low, high = _shown(report)
+    low, high = _shown(report)  # range of zeta that is drawn
     right = 1.05 * max(high, report.zeta_star)
     zeta = np.array([o.lowest, right])
     if not report.domain.empty:
         axes.axvspan(low, high, color=DOMAIN, lw=0, zorder=0, label="domain")
     axes.plot([0.0, right], [0.0, right], color=GREY, ls="--", label="the same speed")
+    # v_end is V_zero(Theta-); the line begins at the lowest zeta whose next step is completed
     axes.plot(zeta, o.delta**2 * zeta - o.v_end, color=PALETTE[0], label=r"$\rho(\zeta)$")
     for k, end in enumerate(() if report.domain.empty else (low, high)):
         inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
