@@ -49,7 +49,7 @@ from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.published import passive_cycle
-from biped_adrc.gait.reference import TimeReference
+from biped_adrc.gait.reference import ZeroReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.integrators import Adaptive
@@ -322,7 +322,6 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
-    # the reference of zeros: q_d, q_d', q_d''; of the one step there is one certificate
-    none = np.zeros(walker.plant.p)
-    along = signals(walker, run, TimeReference(lambda t: (none, none, none)))
+    along = signals(walker, run, ZeroReference(walker.plant.p))
+    # of the one step there is one certificate
     return certificates(walker, run, along, limits)[0]

@@ -43,10 +43,11 @@ from biped_adrc.analysis.return_map import (
 )
 from biped_adrc.analysis.tick_derivative import tick_derivative
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
-from biped_adrc.core.errors import InputError, SimulationError, SingularError
+from biped_adrc.core.errors import InputError, ModelError, SimulationError, SingularError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.engine.run import compiled_plant
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
 
@@ -126,6 +127,13 @@ class VariationalSystem(HybridSystem):
             )
 
     @cached_property
+    def fast(self) -> Walker:
+        """The walker with robot and reference in machine code where that can be."""
+        with suppress(ModelError):  # of a robot that is no planar tree
+            return compiled_plant(self.walker)[0]
+        return self.walker
+
+    @cached_property
     def torque_derivative(self) -> TorqueDerivative:
         """The derivative of the walker's torque."""
         return torque_derivative(self.walker)
@@ -133,7 +141,7 @@ class VariationalSystem(HybridSystem):
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
         """Time derivative (2 n + 4 n^2,) of y: the walker's flow [rad/s, rad/s^2], and A Phi."""
         x, Phi = split_matrix(y)
-        i = self.walker.instant(t, x, mode)
+        i = self.fast.instant(t, x, mode)
         A = flow_derivative(self.walker, i, self.torque_derivative(i))
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 

@@ -88,3 +88,14 @@ class TimeReference(Reference):
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
         q_d, dq_d, ddq_d = self.function(t)  # q_d'' does not depend on q'', so it is all drift
         return ReferencePoint(q_d, dq_d, ddq_d, np.zeros((len(q_d), len(q))))
+
+
+@dataclass(frozen=True)
+class ZeroReference(Reference):
+    """q_d = 0 of p joints, for signals of which only torques and forces are asked."""
+
+    p: int
+
+    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        zero = np.zeros(self.p)
+        return ReferencePoint(zero, zero, zero, np.zeros((self.p, len(q))))

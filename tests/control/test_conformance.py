@@ -28,7 +28,7 @@ from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.gait.constraint import CorrectedConstraint, continued
 from biped_adrc.gait.curves import BSpline, Curve
 from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, Outputs
-from biped_adrc.gait.reference import TimeReference
+from biped_adrc.gait.reference import TimeReference, ZeroReference
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
@@ -137,6 +137,7 @@ UNNAMED = {
         CorrectedConstraint(CorrectedConstraint(continued(h), leaning), leaning),
     ],
     "time": lambda h: [TimeReference(swung)],
+    "zero": lambda h: [ZeroReference(4)],
     "linear outputs": lambda h: [outputs(h), LinearOutputs(ABSOLUTE, h)],
     "outputs of a function": lambda h: [FunctionOutputs(bent)],
     "added torque": lambda h: [AddedTorque(ba.ADRCController(h), np.full(4, 2.0))],
