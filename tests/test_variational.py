@@ -76,7 +76,7 @@ def test_derivatives_of_the_acceleration(biped, friction):
     biped = replace(biped, friction=friction)
 
     def check(q, v, force):
-        found = acceleration_derivatives(biped, q, v, force)
+        found = acceleration_derivatives(biped, q, v, biped.acceleration(q, v, force))
         close(found.dq, difference(lambda x: biped.acceleration(x, v, force), q))
         close(found.dv, difference(lambda x: biped.acceleration(q, x, force), v))
         close(found.dforce, np.linalg.inv(biped.inertia(q)))

@@ -86,7 +86,7 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
     """A = df/dx (2 n, 2 n) of single support at an instant i, x in [rad, rad/s]; du (p, 2 n): du/dx."""
     n, m = walker.plant.n, i.measurement
-    plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
+    plant = acceleration_derivatives(walker.plant, m.q, m.v, i.a)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv

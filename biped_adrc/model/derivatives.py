@@ -50,19 +50,17 @@ class AccelerationDerivatives(NamedTuple):
     """dq''/dforce = D_s^-1 [1/(kg m^2)]."""
 
 
-def acceleration_derivatives(
-    biped: Biped, q: Array, v: Array, force: Array
-) -> AccelerationDerivatives:
-    """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the
-    generalised force (n,) [N m].
+def acceleration_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> AccelerationDerivatives:
+    """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s], under the generalised force that
+    gives q'' = a (n,) [rad/s^2] there.
 
     The force is B_s u + delta + zeta, a constant here; friction is included where the biped has it.
     """
-    pinned, T, a = biped.pinned, biped.pinned.T, biped.acceleration(q, v, force)
+    pinned, T = biped.pinned, biped.pinned.T
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
     parts = pinned.data.dtau_dq, pinned.data.dtau_dv
     dq, dv = (T.T @ np.reshape(part, T.shape) @ T for part in parts)
-    inverse: Array = np.asarray(np.linalg.inv(biped.inertia(q)), dtype=np.float64)
+    inverse = solve(biped.inertia(q), np.eye(biped.n), "the inertia matrix D_s")
     return AccelerationDerivatives(
         -inverse @ dq, inverse @ (biped.friction_derivative(v) - dv), inverse
     )

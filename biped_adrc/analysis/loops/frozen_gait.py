@@ -137,11 +137,7 @@ def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) ->
     A, B = np.zeros((len(robots), 2 * n, 2 * n)), np.zeros((len(robots), 2 * n, p))
     A[:, :n, n:] = np.eye(n)
     for A_i, B_i, robot in zip(A, B, robots, strict=True):
-        # force: the generalised force under which this robot has q'' = a
-        force = robot.inertia(q) @ a + robot.bias(q, v)
-        if robot.friction:
-            force = force - robot.friction_torque(v)
-        d = acceleration_derivatives(robot, q, v, force)
+        d = acceleration_derivatives(robot, q, v, a)
         A_i[n:, :n], A_i[n:, n:], B_i[n:] = d.dq, d.dv, d.dforce[:, :p]
     return FrozenPoint(t, read_only(q), read_only(v), read_only(A), read_only(B))
 
