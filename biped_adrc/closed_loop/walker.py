@@ -169,11 +169,13 @@ class Walker(ClosedLoop[Biped]):
         touchdown is past: the swing foot is below the ground and comes down, ahead of the hip. A foot that is
         not yet ahead may begin below the ground, as one of a leg without knees does in the middle of a walking
         step."""
+        depth = -self.clearance(q, mode.step)
+        if depth <= ON_GROUND:
+            return
         # clearance is z + x tan(slope) + const., so `along` . (x', z') is its rate
-        x, _ = self.plant.swing_foot(q)
-        depth, along = -self.clearance(q, mode.step), np.array([math.tan(self.ground_slope), 1.0])
+        x, along = self.plant.swing_foot(q)[0], np.array([math.tan(self.ground_slope), 1.0])
         falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
-        if depth > ON_GROUND and falls and x > max(LEAST_STEP, self.plant.hip(q)[0]):
+        if falls and x > max(LEAST_STEP, self.plant.hip(q)[0]):
             foot = self.plant.description.feet[mode.step % 2]
             raise InputError(
                 f"the start has the swing foot '{foot}' {1e3 * depth:.3g} mm below the ground and coming down, "
