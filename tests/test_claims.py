@@ -425,10 +425,11 @@ def test_the_jump_of_the_total_disturbance_is_that_of_a_walk():
 
 
 def test_the_reasons_of_the_members_are_those_beside_the_impulse_at_impact():
-    """One of two members breaks friction and impulse: "why" has friction alone, since the impulse at impact
-    has a row of its own in the table; "apart" counts the member."""
+    """Of four members two break friction and impulse, one the impulse alone: "why" has friction alone, as the
+    impulse at impact has a row of its own in the table; "apart" counts the one that is feasible but for it."""
     broken = {"friction": "friction 0.9 > 0.6", "impulse": "the impulse asks for 0.8"}
-    odd, same = (walk(1e-6)._replace(infeasible=x) for x in (broken, {}))
-    found = results(members={"identified": [member(adrc=odd), member(adrc=same)]})
+    alone = {"impulse": "the impulse asks for 0.8"}
+    walks = (walk(1e-6)._replace(infeasible=x) for x in (broken, broken, alone, {}))
+    found = results(members={"identified": [member(adrc=w) for w in walks]})
     assert of_members(found)["why"] == "friction 0.9 > 0.6"
-    assert (of_members(found)["apart"], of_members(found)["count"]) == (1, 2)
+    assert (of_members(found)["apart"], of_members(found)["count"]) == (1, 4)

@@ -64,7 +64,8 @@ def of_members(r: Runs) -> dict[str, object]:
 
     solved, printed: peak errors of ADRC by the choice of Theta''. npd, adrc: errors that the push adds;
     npd_rates: changes of Theta' at the impact after it. why: the reasons but for the impulse at impact. apart:
-    number of walks under ADRC with any reason, count: of all members. steps: impacts asked for.
+    number of walks under ADRC with that impulse as the only reason, count: of all members. steps: impacts asked
+    for.
     """
     # names of limits -> sentences, of a walk that breaks them: IMPULSE is the limit of the impulse at impact
     every = [o for part in r.members.values() for o in part]
@@ -81,7 +82,7 @@ def of_members(r: Runs) -> dict[str, object]:
         "npd_rates": Extremes.of(w.rate for w in npd),
         "steps": declared()["steps"]["impacts"],
         "why": "; ".join(why) or "nothing",
-        "apart": sum(bool(w.infeasible) for w in adrc),
+        "apart": sum(set(w.infeasible) == {IMPULSE} for w in adrc),
         "count": len(every),
     }
 

@@ -413,5 +413,6 @@ def test_an_axis_with_many_numbers_is_cut_into_cells_of_equal_width():
     assert len(names) == 20
     assert np.bincount(cells) == pytest.approx(1000, rel=0.15)
     assert np.array_equal(cells, np.clip(np.floor((x - x.min()) / np.ptp(x) * 20), 0, 19))
+    assert cut(["b", "", None])[0].tolist() == [2, 1, 0]
     cells, names = cut([0.3, None, "a", 0.1, 0.3])
     assert (cells.tolist(), names) == ([1, 2, 3, 0, 1], ["0.1", "0.3", "none", "a"])

@@ -155,7 +155,9 @@ def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
     middles as names.
     """
     # numbers first, then None, then texts, which cannot be compared with one another
-    levels = sorted(set(values), key=lambda x: (isinstance(x, str), x is None, x or 0))
+    levels = sorted(
+        set(values), key=lambda x: (isinstance(x, str), x is None, 0 if x is None else x)
+    )
     if len(levels) <= MOST_LEVELS or not all(isinstance(x, int | float) for x in levels):
         places = {x: i for i, x in enumerate(levels)}
         return np.array([places[x] for x in values]), [_text(x) for x in levels]
