@@ -422,17 +422,26 @@ def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:
     gains, reference = (getattr(controller, name, None) for name in ("gains", "reference"))
     if isinstance(gains, Gains):
         gains.check(p)
-    if not isinstance(reference, Reference):
-        return
+    if isinstance(reference, Reference):
+        _check_reference(reference, type(controller).__name__, p, m.t, m.q.tobytes(), m.v.tobytes())
+
+
+@once
+def _check_reference(
+    reference: Reference, owner: str, p: int, t: float, q: bytes, v: bytes
+) -> None:
+    """Evaluate the reference of a controller of the class `owner` at t [s] and the bytes of q and v, and raise
+    InputError where it does not fit p motors and the coordinates. What fits is remembered."""
+    at = np.frombuffer(q), np.frombuffer(v)
     try:
         with handing_out():
-            point = reference(m.t, m.q, m.v)
+            point = reference(t, *at)
     except BipedError:
         raise
     except (ValueError, IndexError, TypeError) as error:
         raise InputError(
-            f"the {type(reference).__name__} of {type(controller).__name__} cannot be evaluated at the "
-            f"{len(m.q)} coordinates of this robot: {error}; expected one of this robot, such as the "
+            f"the {type(reference).__name__} of {owner} cannot be evaluated at the "
+            f"{len(at[0])} coordinates of this robot: {error}; expected one of this robot, such as the "
             "constraint of a gait that was designed for it"
         ) from error
-    check_point(reference, point, p, len(m.q))
+    check_point(reference, point, p, len(at[0]))

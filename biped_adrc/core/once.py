@@ -16,7 +16,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from biped_adrc.core.by_value import ByValue
 from biped_adrc.core.part import is_part
 
 _T = TypeVar("_T")
@@ -108,11 +107,9 @@ def shared(part: _T, **values: Any) -> _T:
 
 
 def _known_by(x: object) -> Hashable:
-    """What stands for a field's value in a key: (class, value) of a number or a constant part; else, and for a
-    robot, its id.
+    """What stands for a field's value in a key: (class, value) of a number, or of a constant part of numbers
+    alone; else its id, as to compare arrays takes longer than what is shared saves.
     """
-    if is_part(x):
-        by_value = constant(x) and isinstance(x, ByValue) and not hasattr(x, "_constant")
-    else:
-        by_value = isinstance(x, (*_PLAIN, tuple)) and constant(x)
-    return (type(x), x) if by_value else id(x)
+    inside = [getattr(x, f.name) for f in fields(x)] if is_part(x) and constant(x) else [x]  # type: ignore[arg-type]
+    plain = all(isinstance(i, _PLAIN) or (type(i) is tuple and constant(i)) for i in inside)
+    return (type(x), *inside) if plain else id(x)

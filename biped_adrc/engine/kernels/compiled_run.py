@@ -13,6 +13,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -145,16 +147,27 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     # guards: a walker has three event functions; nN: of N_E only row 1 is stored, since the others are zero
     values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
     values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
-    parts = [np.zeros(len(KINDS)), *(np.ravel(tables[name]) for name in TABLES)]
-    parts += [np.zeros(width) for _ in ROWS]
-    ends = np.cumsum([len(part) for part in parts]).tolist()
-    places = dict(zip((*TABLES, *ROWS), ends[:-1], strict=True))
+    ends, places = _places(tuple(tables[name].size for name in TABLES), width)
+    cells = np.zeros(ends[-1], dtype=np.int64)
+    numbers = cells.view(np.float64)
+    for name, start, end in zip(TABLES, ends, ends[1:], strict=False):
+        numbers[start:end] = tables[name].ravel()
+    for name, value in values.items():
+        (numbers if KINDS[name] == "float" else cells)[PLACES[name]] = value
+    # addresses as distances from the start of the block [bytes]
+    cells[places[0]] = 8 * places[1]
+    return CompiledRun(cells, places[0])
+
+
+@lru_cache(maxsize=64)
+def _places(sizes: tuple[int, ...], width: int) -> tuple[list[int], Ints]:
+    """Where the vectors of a block lie: the first index of each vector in TABLES and ROWS, and the number of
+    all cells; and (2, ..), of each vector the cell with its address and its first index.
+
+    sizes: of the vectors in TABLES. width: of all those in ROWS.
+    """
+    ends = [*accumulate((len(KINDS), *sizes, *[width] * len(ROWS)))]
+    places = dict(zip((*TABLES, *ROWS), ends, strict=False))
     # without inputs from outside these two are never written
     places |= {"torque": places["K"], "force": places["push"]}
-    cells = np.concatenate(parts).view(np.int64)
-    for name, value in values.items():
-        cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
-    # addresses as distances from the start of the block [bytes]
-    for name, start in places.items():
-        cells[PLACES[name]] = 8 * start
-    return CompiledRun(cells, np.array([PLACES[name] for name in places]))
+    return ends, np.array([[PLACES[name] for name in places], [*places.values()]])
