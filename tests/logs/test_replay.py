@@ -97,7 +97,7 @@ LOGGED = {
 
 @pytest.mark.parametrize("values", LOGGED.values(), ids=LOGGED)
 def test_a_log_in_another_reading_is_refused_by_the_one_that_fits(walked, values):
-    walk = walked(**values)
+    walk = walked(**values, **{"run.impacts": 2})
     log = replace(logged(walk), v=None, measured=None)
     assert ba.replay(log, ba.Scenario("NPD")).remarks == ()
     for said, change in WRONG.items():
