@@ -157,7 +157,9 @@ def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
             source_of(Computer(walker_of(kind, thing, hardware)))
         return
     walker = walker_of(kind, thing, hardware)
-    found = difference(walker, source_of(Computer(walker)), 0.11 if kind == "touchdown" else SO_LONG)
+    found = difference(
+        walker, source_of(Computer(walker)), 0.11 if kind == "touchdown" else SO_LONG
+    )
     of_table = ("ADRC", "GPI", "reference reset")  # whose first is Table I
     assert found <= (OF_TABLE_I if name in of_table else TOLERANCE)
 

@@ -66,7 +66,9 @@ def walked(name: str) -> dict[str, Any]:
 def first_step(name: str, engine: str) -> Trajectory:
     """The first single support of a case and the impact at its end, with coarse steps of integration."""
     s = scenario(name)
-    if s.controller.name == "passive":  # its start is a search for the cycle, which that walk has made
+    if (
+        s.controller.name == "passive"
+    ):  # its start is a search for the cycle, which that walk has made
         walk = stored_walk(name)
         n = walk.walker.plant.n
         start = walk.trajectory.arcs[0].x[0][: 2 * n]

@@ -37,7 +37,9 @@ def under_npd(plant, gait, **more):
 def walk(biped, gait):
     """Two steps, pushed in the second."""
     push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.1004, stop=0.2)
-    loop = under_npd(MuJoCoPlant(biped, SoftGround(time_constant=4e-3), h=4e-4), gait, disturbance=push)
+    loop = under_npd(
+        MuJoCoPlant(biped, SoftGround(time_constant=4e-3), h=4e-4), gait, disturbance=push
+    )
     return loop, run_of(loop, gait, impacts=2)
 
 
