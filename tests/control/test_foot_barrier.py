@@ -139,8 +139,8 @@ def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, 
 def test_a_walk_in_which_the_filter_never_acts_is_that_of_the_controller_inside_bit_for_bit(
     biped, gait
 ):
-    """The corridor of 1 m is wider than any error of the foot. NPD walks over stones, ADRC, whose state the filter
-    hands on, on level ground.
+    """The corridor of 1 m is wider than any error of the foot. NPD walks over stones, ADRC, whose state the
+    filter hands on, on level ground.
     """
 
     def on_level(inner):

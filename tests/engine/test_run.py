@@ -111,8 +111,8 @@ def same(python, compiled, tolerance, engine="compiled"):
 
 @pytest.mark.parametrize("restart", [True, False])
 def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
-    """Integration steps of 0.8 ms do not divide the period of 2 ms; a clock without restart counts from the late start
-    at 0.41237 s, one with restart from each impact.
+    """Integration steps of 0.8 ms do not divide the period of 2 ms; a clock without restart counts from the late
+    start at 0.41237 s, one with restart from each impact.
     """
     time = ba.SampledTime(2e-3, restart)
     walker = ba.Walker(biped, adrc(gait), timing=time, torque_limit=120.0)
