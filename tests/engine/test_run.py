@@ -111,7 +111,7 @@ def same(python, compiled, tolerance, engine="compiled"):
 
 @pytest.mark.parametrize("restart", [True, False])
 def test_both_engines_have_the_same_sample_instants(biped, gait, restart):
-    """Integration steps of 0.8 ms do not divide the period of 2 ms; a clock without restart counts from the late
+    """Steps of 0.8 ms do not divide the period of 2 ms; a clock without restart counts from the late
     start at 0.41237 s, one with restart from each impact.
     """
     time = ba.SampledTime(2e-3, restart)
