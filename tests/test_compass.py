@@ -29,8 +29,8 @@ from biped_adrc.model.robot_import.import_robot import Hints, derive
 from biped_adrc.observers.base import Estimate
 
 RELABEL = ba.ResetPolicy.RELABEL
-STEP = ba.RK4(1e-3)
-LATE = ba.SampledTime(1e-3, delay=2.4e-3, delay_known=True)
+STEP = ba.RK4(2e-3)
+LATE = ba.SampledTime(1.5e-3, delay=3.6e-3, delay_known=True)
 PUSH = ba.TorquePulse([5.0, 0.0], step=1, start=0.1, stop=0.2)
 
 
@@ -72,7 +72,7 @@ HARDWARE = {
     "continuous": {},
     "late": {"timing": LATE, "motors": ba.Motors(lag=2e-3)},
     "touchdown noticed": {
-        "timing": ba.SampledTime(1e-3, restart=False),
+        "timing": ba.SampledTime(2e-3, restart=False),
         "sensors": ba.Sensors(1e5, filter_time=1e-3),
         "touchdown": ba.ByKinematics(after=0.1),
     },
@@ -90,11 +90,11 @@ HARDWARE = {
     ],
 )
 def test_both_engines_walk_alike(compass, designed, controller, hardware):
-    """Compiled code against Python after each of three impacts. "late": a delay and lagging motors;
+    """Compiled code against Python after each of two impacts. "late": a delay and lagging motors;
     "touchdown noticed": a clock that runs on over touchdowns that the controller has to notice."""
     around = walker(compass, controller(designed.gait.constraint), **HARDWARE[hardware])
     python, code = (
-        ba.walk(around, designed.gait, 3, STEP, engine=engine).trajectory
+        ba.walk(around, designed.gait, 2, STEP, engine=engine).trajectory
         for engine in ("pinocchio", "compiled")
     )
     assert python.status is code.status is ba.Status.COMPLETED
@@ -128,21 +128,20 @@ def test_an_observer_that_is_relabelled_sees_what_one_of_the_left_leg_sees(compa
     right one, which no impact changes, and never turns a sign. Both have to walk the same."""
     law = adrc(designed.gait.constraint)
     ends = [
-        ba.walk(walker(compass, x), designed.gait, 3, STEP, engine="pinocchio").trajectory
+        ba.walk(walker(compass, x), designed.gait, 2, STEP, engine="pinocchio").trajectory
         for x in (law, OfTheLeftLeg(**vars(law)))
     ]
     one, other = (end.final_state for end in ends)
     np.testing.assert_allclose(other[:4], one[:4], rtol=1e-12)
-    np.testing.assert_allclose(
-        other[4:], -one[4:], rtol=1e-12
-    )  # three impacts: the right leg stands
+    # after two impacts the left leg stands again
+    np.testing.assert_allclose(other[4:], one[4:], rtol=1e-12)
 
 
 def test_a_motor_with_lag_keeps_its_torque_on_the_legs_over_an_impact(compass, designed):
     """The motor's torque cannot jump; the coordinate turns its sign, so all numbers of the line (delay and
     lag) do. Above 0.1 N m a missing sign would show."""
     around = walker(compass, adrc(designed.gait.constraint), **HARDWARE["late"])
-    run = ba.walk(around, designed.gait, 3, STEP).trajectory
+    run = ba.walk(around, designed.gait, 2, STEP).trajectory
     for event in run.events("foot_strike"):
         before, after = (parts(around, x).tail.line for x in (event.x_minus, event.x_plus))
         assert np.abs(before.u_m) > 0.1
@@ -156,7 +155,7 @@ def test_the_exported_controller_walks_over_impacts(compass, designed):
     around = walker(compass, adrc(designed.gait.constraint), **late)
     by_c = ExportedController(source_of(Computer(around)))
     ends = [
-        ba.walk(x, designed.gait, 3, STEP, engine="pinocchio").trajectory
+        ba.walk(x, designed.gait, 2, STEP, engine="pinocchio").trajectory
         for x in (around, replace(around, controller=by_c))
     ]
     for one, other in zip(*(end.events("foot_strike") for end in ends), strict=True):

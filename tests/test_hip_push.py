@@ -88,7 +88,7 @@ def test_once_settled_the_walk_keeps_the_speed_of_the_gait(alone, bare, gait):
     impact = biped.impact(*before)
     x = walker.initial_state(impact.q, impact.v)
     x[-2:] = settled.beta / law.gains.K_I, settled.beta
-    method = ba.RK4(1e-3) if case.tracking == "NPD" else ba.Exponential(1e-3)
+    method = ba.RK4(4e-3) if case.tracking == "NPD" else ba.Exponential(2e-3)
     run = ba.simulate(walker, x, ba.Mode(), method, t_end=5.0, stop_after=("foot_strike", 1))
     assert law.step_length / (run.t_end - run.t_start) == pytest.approx(0.5, abs=1e-3)
     impact = biped.impact(*np.split(run.before("foot_strike")[0][:10], 2))

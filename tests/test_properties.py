@@ -55,7 +55,7 @@ def ends_with_finite_numbers(values, engine):
     assert walk.feasibility.outcome in OUTCOMES
 
 
-@settings(FIXED, max_examples=40)
+@settings(FIXED, max_examples=20)
 @given(SCENARIOS)
 def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
     """Gains, push, start and slope far outside of what walks: refused by a BipedError, or an outcome and
@@ -63,7 +63,7 @@ def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
     ends_with_finite_numbers(values, "compiled")
 
 
-@settings(FIXED, max_examples=5)
+@settings(FIXED, max_examples=3)
 @given(SCENARIOS)
 def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
     """As on the compiled engine, with fewer draws, since Python on Pinocchio is slow."""

@@ -54,7 +54,7 @@ def specified(walker, gait):
 
 def multiplier(walker, gait):
     """The largest |multiplier| of the walk, infinite for a walker that does not come back to the section."""
-    step = 2.5e-4 if walker.motors is not None and walker.motors.lag else 5e-4
+    step = 2.5e-4 if walker.motors is not None and walker.motors.lag else 1e-3
     P = ReturnMap(walker, ba.RK4(step))
     try:
         x = walker.initial_state(*gait.start(walker.plant))

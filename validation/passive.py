@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -105,6 +106,7 @@ def wheel_rows() -> tuple[Row, ...]:
     return tuple(rows)
 
 
+@lru_cache
 def simplest(ratio: float = FEET) -> Cycle:
     """The simplest walker with feet of `ratio` of the hip's mass, on its slope of 0.009 rad."""
     heavier = ModelErrors(mass={"leg": ratio / FEET - 1.0})

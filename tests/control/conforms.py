@@ -31,6 +31,7 @@ from biped_adrc.engine.machine import load_or_compile
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program, push_code
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Vector, column
 from biped_adrc.engine.tracer import Tracer, apply
 from biped_adrc.gait.constraint import continued
@@ -324,7 +325,15 @@ def measurements(count):
     for _ in range(count):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
         m = walker.measure(0.1, *x, ba.Mode())._replace(body=robot().body_terms(*x))
-        yield m._replace(elsewhere=partial(moved_to, m)), random
+        yield m._replace(elsewhere=elsewhere()), random
+
+
+@cache
+def elsewhere():
+    """What measures elsewhere, one for all measurements, as it is a part of the code of what calls it."""
+    q, v = gait().start(robot())
+    m = ba.Walker(robot(), ba.Passive()).measure(0.1, q, v, ba.Mode())
+    return partial(moved_to, m._replace(body=robot().body_terms(q, v)))
 
 
 def moved_to(m, q, v):
@@ -512,6 +521,10 @@ def as_floats(tree):
     return Layout.of(tree).tree(flatten(tree).astype(float))
 
 
+TRACED = {}
+"""A law and the structure of its arguments -> its machine code, which serves all their numbers."""
+
+
 def agree(law, *arguments):
     """The result in Python, equal to that of the machine code to 1e-12 of its largest number.
 
@@ -519,12 +532,14 @@ def agree(law, *arguments):
     """
     expected = law(*arguments)
     numbers = np.array([x for argument in arguments for x in floats(argument)] + [0.0])
-    K = Vector("K", len(numbers))
-    found = apply(Tracer(), law, *(K.like(argument) for argument in arguments))
-    out = column(flatten(found))
-    text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, out)})
-    code = load_or_compile(text, ["law"])
-    one = flatten(expected)
+    key = law, structure(arguments)
+    if key not in TRACED:
+        K = Vector("K", len(numbers))
+        found = apply(Tracer(), law, *(K.like(argument) for argument in arguments))
+        out = column(flatten(found))
+        text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, out)})
+        TRACED[key] = load_or_compile(text, ["law"])
+    code, one = TRACED[key], flatten(expected)
     other = call(code, "law", numbers, np.zeros(1), len(one))
     assert np.max(np.abs(one - other), initial=0.0) <= 1e-12 * np.max(np.abs(one), initial=1.0)
     return expected

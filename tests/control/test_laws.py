@@ -53,7 +53,9 @@ class LeaningReference(Reference):
 
 
 def walked(biped, gait, controller, engine):
-    run = ba.walk(ba.Walker(biped, controller), gait, 1, ba.RK4(5e-4), engine=engine)
+    # the approximant of a delay of 1 ms asks for short steps
+    h = 5e-4 if isinstance(controller, Delayed) else 2e-3
+    run = ba.walk(ba.Walker(biped, controller), gait, 1, ba.RK4(h), engine=engine)
     return run.trajectory
 
 

@@ -95,7 +95,7 @@ class InARow(WithNames):
 def walked(biped, gait, law, clock, engine):
     push = ba.TorqueStep([10.0, 0.0, -5.0, 5.0, 0.0], start=0.05)
     walker = ba.Walker(biped, law(gait.constraint), push, timing=CLOCKS[clock])
-    return ba.walk(walker, gait, 2, ba.RK4(1e-3), engine=engine)
+    return ba.walk(walker, gait, 2, ba.RK4(4e-3), engine=engine)
 
 
 @pytest.mark.parametrize("clock", CLOCKS)

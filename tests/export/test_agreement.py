@@ -24,6 +24,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.core.errors import InputError
+from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import ExportedController
 from biped_adrc.extras.export.source import source_of
@@ -34,6 +35,8 @@ from tests.control.test_conformance import ROWS, UNNAMED, made
 TOLERANCE, OF_TABLE_I = 4e-10, 1e-6
 IN_FLOAT = 1e-3
 """An ulp of float is 5e8 times one of double; angles and their differences stay in double."""
+SO_LONG = 0.03
+"""From the start to the touchdown [s]."""
 KINDS = ("controller", "contact", "around", "observer", "sensor", "touchdown")
 """Kinds of the registry of which the computer has a part, or which decide how it is called."""
 PUSH = [40.0, -30.0, 20.0, 10.0, 5.0]
@@ -110,16 +113,32 @@ def before_touchdown(so_long):
 def walked(walker, so_long):
     """Nodes (K, nx) without the controller's state, single support after single support."""
     begin = walker.initial_state(*before_touchdown(so_long), ba.Mode())
-    run = simulate(walker, begin, ba.Mode(), ba.RK4(5e-4), t_end=so_long + 0.02)
+    run = simulate(walker, begin, ba.Mode(), ba.RK4(PERIOD), t_end=so_long + 0.02)
     assert len(run.arcs) == 2, run
     x, layout = np.concatenate([arc.x for arc in run.arcs]), walker.layout_of(begin)
     return np.delete(x, layout.place("s"), axis=1)
 
 
-def difference(walker, source, so_long=0.03):
+@pytest.fixture(scope="module", autouse=True)
+def _quickly_compiled():
+    """Without the compiler's optimization, which takes most of its time and changes no operation of doubles."""
+    with pytest.MonkeyPatch.context() as patch:
+        flags = ["-O0" if x == "-O2" else x for x in loading.FLAGS]
+        patch.setattr(loading, "FLAGS", tuple(flags))
+        yield
+
+
+@cache
+def npd_walked():
+    """A walker with NPD, its source, and its nodes by Python's laws."""
+    walker = walker_of("controller", made("controller", "NPD")[0], "ideal")
+    return walker, source_of(Computer(walker)), walked(walker, SO_LONG)
+
+
+def difference(walker, source, so_long=SO_LONG, by_python=None):
     """Largest difference of the walks by the C and by Python, as a share of each quantity's largest value."""
     by_c = walked(replace(walker, controller=ExportedController(source)), so_long)
-    by_python = walked(walker, so_long)
+    by_python = walked(walker, so_long) if by_python is None else by_python
     assert by_c.shape == by_python.shape
     most = np.max(np.abs(by_python), axis=0)
     return np.max(np.abs(by_c - by_python)[:, most > 0.0] / most[most > 0.0])
@@ -138,7 +157,9 @@ def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
             source_of(Computer(walker_of(kind, thing, hardware)))
         return
     walker = walker_of(kind, thing, hardware)
-    found = difference(walker, source_of(Computer(walker)), 0.11 if kind == "touchdown" else 0.03)
+    found = difference(
+        walker, source_of(Computer(walker)), 0.11 if kind == "touchdown" else SO_LONG
+    )
     of_table = ("ADRC", "GPI", "reference reset")  # whose first is Table I
     assert found <= (OF_TABLE_I if name in of_table else TOLERANCE)
 
@@ -158,11 +179,11 @@ def test_a_constant_that_is_wrong_by_1e_9_is_seen(number):
     """The comparison is sharp: one constant in the C's text, of the model, the gait or the gains, changed by
     1e-9 of itself, exceeds the tolerance.
     """
-    walker = walker_of("controller", made("controller", "NPD")[0], "ideal")
-    source = source_of(Computer(walker))
+    walker, source, by_python = npd_walked()
     text = source.files["controller.c"]
     line = next(x for x in text.splitlines() if f"{number} */" in x)
     value, rest = line.split(",", 1)
     wrong = text.replace(line, f"{float(value) * (1.0 + 1e-9)!r},{rest}")
     files = {**source.files, "controller.c": wrong}
-    assert difference(walker, replace(source, files=files)) > TOLERANCE
+    found = difference(walker, replace(source, files=files), by_python=by_python)
+    assert found > TOLERANCE

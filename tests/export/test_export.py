@@ -276,17 +276,24 @@ REQUIRED = os.environ.get("REQUIRED_COMPILERS", "").split()
 """They have to be there in CI; elsewhere those are asked that are."""
 
 
+@pytest.fixture(scope="module")
+def legs(tmp_path_factory):
+    """A folder with an export whose names begin with `leg` in place of the default."""
+    folder = tmp_path_factory.mktemp("legs") / "c"
+    export_c(ON_A_ROBOT, folder, prefix="leg")
+    return folder
+
+
 @pytest.mark.parametrize("program", [x for x in COMPILERS if x in REQUIRED or shutil.which(x)])
 @pytest.mark.parametrize("real", ["double", "float"])
-def test_no_compiler_warns(tmp_path, program, real):
+def test_no_compiler_warns(legs, program, real):
     """C99 and C++, in double and float, with all warnings as errors; `leg` is another prefix of the names than
     the default.
     """
-    export_c(ON_A_ROBOT, tmp_path / "c", prefix="leg")
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
     command = [program, *COMPILERS[program], *strict, "-c", "-o", os.devnull]
     for name in ("leg.c", "main.c"):
-        subprocess.run([*command, str(tmp_path / "c" / name)], check=True)
+        subprocess.run([*command, str(legs / name)], check=True)
 
 
 @pytest.fixture(scope="module")

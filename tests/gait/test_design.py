@@ -37,17 +37,19 @@ def speed_of(gait: Gait, biped: Biped) -> float:
     return float(np.hypot(*biped.swing_foot(gait.q_minus)) / gait.period)
 
 
+FEW = 12
+"""Nodes at which limits are kept, half as many as usual; that they are kept between them is certified."""
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
 
 
 @pytest.fixture(scope="module")
 def level() -> DesignedGait:
-    return design_gait("rabbit", 0.8, 0.4, preset="tac2003")
+    return design_gait("rabbit", 0.8, 0.4, preset="tac2003", nodes=FEW)
 
 
 @pytest.fixture(scope="module")
 def downhill() -> DesignedGait:
-    return design_gait("rabbit", 0.7, preset="identified-bare", slope=0.06)
+    return design_gait("rabbit", 0.7, preset="identified-bare", slope=0.06, nodes=FEW)
 
 
 def test_a_design_says_its_numbers_and_one_that_falls_is_refused(level: DesignedGait) -> None:
@@ -129,10 +131,10 @@ def test_other_objectives_do_better_at_what_they_are_for(level: DesignedGait) ->
     squared torque. The objective is computed on the exact orbit and the certificate from a simulated step,
     hence 5 % and 3 %.
     """
-    peak = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="peak")
+    peak = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="peak", nodes=FEW)
     assert peak.certificate.peak_torque < 0.9 * level.certificate.peak_torque
     assert peak.objective == pytest.approx(peak.certificate.peak_torque, rel=0.05)
-    frugal = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="transport")
+    frugal = design_gait("rabbit", 0.8, 0.4, preset="tac2003", objective="transport", nodes=FEW)
     assert frugal.objective == pytest.approx(frugal.certificate.cost_of_transport, rel=0.03)
     assert frugal.certificate.cost_of_transport < 0.9 * level.certificate.cost_of_transport
 
@@ -211,7 +213,7 @@ def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
     with pytest.raises(
         GaitError, match="swing foot above the ground after 50% of the step"
     ) as caught:
-        design_gait("rabbit", 2.5, 0.3, limits=StepLimits(clearance=None))
+        design_gait("rabbit", 2.5, 0.3, limits=StepLimits(clearance=None), degree=4, nodes=8)
     assert "clearance" not in str(caught.value)
 
 

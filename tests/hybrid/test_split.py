@@ -10,8 +10,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.exponential import Exponential
-from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.observers.gpi import TABLE_I
 
 SLOW = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
@@ -81,11 +81,10 @@ def test_linear_part_and_remainder_are_the_derivative_along_the_flow(biped, gait
         assert close(split.back(N_w, split.A @ E + N_E), dx, 1e-10)
 
 
-def impact(walker, gait, h):
+def impact(walker, gait, h, engine="pinocchio"):
     """The first impact of a walk by the exponential method with steps of h [s]."""
     x0 = walker.initial_state(*gait.start(walker.nominal))
-    method, stop = Exponential(h), (FOOT_STRIKE, 1)
-    run = simulate(walker, x0, ba.Mode(), method, t_end=2.0, stop_after=stop)
+    run = simulate_by(engine, walker, x0, ba.Mode(), Exponential(h), t_end=2.0, impacts=1)
     (event,) = run.events(FOOT_STRIKE)
     return event
 
@@ -96,10 +95,12 @@ def impact(walker, gait, h):
     ids=["undisturbed", "heavier, push and torque limit"],
 )
 def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit):
-    """With steps of 0.5 ms (q, q') at the first impact is within 1e-4 of that with 0.1 ms, and 1 us in time."""
+    """With steps of 0.5 ms (q, q') at the first impact is within 1e-4 of that with 0.1 ms, by the compiled
+    engine, and 1 us in time.
+    """
     adrc = ba.ADRCController(gait.constraint)
     walker = ba.Walker(plant(biped), adrc, push, model=biped, torque_limit=limit)
-    exact, found = (impact(walker, gait, h) for h in (1e-4, 5e-4))
+    exact, found = impact(walker, gait, 1e-4, "compiled"), impact(walker, gait, 5e-4)
     assert np.max(np.abs(found.x_minus - exact.x_minus)[:10]) < 1e-4
     assert abs(found.t - exact.t) < 1e-6
     assert abs(walker.clearance(found.x_minus[:5], 1)) < 1e-12

@@ -114,7 +114,7 @@ def test_a_log_in_another_reading_is_refused_by_the_one_that_fits(walked, values
     """The log as it is has no remark under any of LOGGED, also where sensors, masses or ground differ from the
     model. Each mistake of WRONG in its numbers is refused, and the message names the correction that undoes it.
     """
-    walk = walked(**values)
+    walk = walked(**values, **{"run.impacts": 2})
     log = replace(logged(walk), v=None, measured=None)
     assert ba.replay(log, ba.Scenario("NPD")).remarks == ()
     for said, change in WRONG.items():

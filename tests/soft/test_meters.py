@@ -42,7 +42,9 @@ def under_npd(plant, gait, **more):
 def walk(biped, gait):
     """Two steps, pushed in the second."""
     push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.1004, stop=0.2)
-    loop = under_npd(MuJoCoPlant(biped), gait, disturbance=push)
+    loop = under_npd(
+        MuJoCoPlant(biped, SoftGround(time_constant=4e-3), h=4e-4), gait, disturbance=push
+    )
     return loop, run_of(loop, gait, impacts=2)
 
 
@@ -123,9 +125,9 @@ def test_less_friction_slips_and_flies(biped, gait):
     """With friction 0.2 the stance foot slips and uses all of it, with 1.0 none slips. Both feet are in the air
     for more than 5 ms where the robot slips, for less where it does not. A step lasts as long as its arc.
     """
-    rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0)), gait)
+    rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0, 4e-3), h=4e-4), gait)
     holds = steps_of(rough, run_of(rough, gait, impacts=1))
-    smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2)), gait)
+    smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2, 4e-3), h=4e-4), gait)
     slips = steps_of(smooth, run := run_of(smooth, gait, impacts=1))
     assert sum(holds[0].slip) == 0.0
     assert slips[0].slip[0] > 3e-4
