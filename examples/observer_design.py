@@ -22,7 +22,9 @@ for observer in observers:
     print(report.verdict)
     law = ba.ADRCController(gait.constraint, observer)
     encoders, clock = ba.Sensors(counts=COUNTS, velocity="measured"), ba.SampledTime(PERIOD)
-    walk = ba.walk(ba.Walker(biped, law, timing=clock, sensors=encoders, torque_limit=150.0), gait, 6)
+    walk = ba.walk(
+        ba.Walker(biped, law, timing=clock, sensors=encoders, torque_limit=150.0), gait, 6
+    )
     print(f"  a walk with these encoders: {walk.trajectory.status.name}")
 
     margin = report.loop.delay_margin().delay

@@ -43,7 +43,7 @@ OTHERS: dict[str, dict[str, object]] = {
         "controller.observer.order": 3,
         "controller.observer.bandwidth": 300.0,
     },
-    ODD: {"controller": "NPID"},
+    ODD: {"controller": {"name": "NPD", "K_p": 900.0, "K_d": 60.0}},
 }
 
 
