@@ -22,13 +22,15 @@ for observer in observers:
     print(report.verdict)
     law = ba.ADRCController(gait.constraint, observer)
     encoders, clock = ba.Sensors(counts=COUNTS, velocity="measured"), ba.SampledTime(PERIOD)
-    walk = ba.walk(ba.Walker(biped, law, timing=clock, sensors=encoders, torque_limit=150.0), gait)
+    walk = ba.walk(
+        ba.Walker(biped, law, timing=clock, sensors=encoders, torque_limit=150.0), gait, 6
+    )
     print(f"  a walk with these encoders: {walk.trajectory.status.name}")
 
     margin = report.loop.delay_margin().delay
     print(f"  delay margin {1e6 * margin:.4g} us; a torque so much late:")
     for share in (0.95, 1.05):
-        walk = ba.walk(ba.Walker(biped, Delayed(law, share * margin)), gait)
+        walk = ba.walk(ba.Walker(biped, Delayed(law, share * margin)), gait, 12)
         print(f"    {share:.2f} of it {walk.trajectory.status.name}")
 
 print("largest bandwidths that RABBIT allows:")

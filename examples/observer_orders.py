@@ -10,7 +10,7 @@ gait = ba.load_gait("published", biped)
 push = ba.TorqueSine([40, 40, 40, 40, 0], step=2, start=0.05, stop=0.3, frequency=5.0)
 
 print(" m  largest tracking error [rad]")
-for m in (1, 2, 3, 5):
+for m in (1, 3, 5):
     observer = ba.GPIObserver.from_bandwidth(500.0, m)  # all poles at -500 rad/s
     controller = ba.ADRCController(gait.constraint, observer)
     walk = ba.walk(ba.Walker(biped, controller, push), gait, impacts=3)

@@ -36,6 +36,7 @@ from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.core import registry
+from biped_adrc.studies.build import SEED
 from biped_adrc.studies.study import read_study
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -218,12 +219,13 @@ def test_tests_that_a_page_names_exist(page):
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.name)
 def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
     """Examples are read first: at most 25 lines, with the true number of walks in a comment. `rehearse`
-    checks each value without a walk."""
+    checks each value without a walk; of an axis of seeds two, whose values are no more than numbers."""
     text = path.read_text()
     assert len(text.splitlines()) <= 25
     study = read_study(path)
     assert study.count == int(re.search(r"(\d+) walks\b", text)[1])
-    study.rehearse()
+    grid = {name: x[:2] if name == SEED else x for name, x in study.grid.items()}
+    study.model_copy(update={"grid": grid}).rehearse()
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():

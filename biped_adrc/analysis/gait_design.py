@@ -135,9 +135,9 @@ def design_gait(
 
     Raises GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
 
-    >>> design = ba.design_gait("rabbit", speed=0.7, limits=ba.StepLimits(torque=100.0))
+    >>> design = ba.design_gait("three_link", speed=0.7, limits=ba.StepLimits(clearance=None))
     >>> print(f"{design.speed:.3f} m/s, peak {design.certificate.peak_torque:.1f} N m")
-    0.700 m/s, peak 27.3 N m
+    0.700 m/s, peak 14.7 N m
     """
     check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)

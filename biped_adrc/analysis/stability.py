@@ -287,7 +287,7 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     the mechanics alone. Raises SimulationError when no fixed point is found.
 
     >>> from biped_adrc.scenario.cycle import cycle_of
-    >>> stability = ba.cycle_stability(cycle_of(ba.Scenario("passive", robot="compass")))
+    >>> stability = ba.cycle_stability(cycle_of(ba.Scenario("passive", robot="rimless_wheel")))
     >>> stability.table.stable
     True
     """

@@ -172,7 +172,7 @@ def test_feasibility_is_that_of_the_walk(push):
         "pushes.0.onset": 0.1,
     }
     given = {"controller.name": "NPD", "run.impacts": 2, "start.speed_spread": 0.0}
-    env = made(action="added", **given, **(pushed if push else {}))
+    env = made(action="added", **given, **pushed)
     info = walked(env, 0, 2000)[4][-1]
     found = ba.walk_scenario(env.unwrapped.stage.task.scenario).outcome.feasibility
     assert info["feasible"] is (not found.reasons) is (push == 0.0)
@@ -199,7 +199,7 @@ def test_a_seed_repeats_a_start():
     """The random start of a walk follows from the seed of `reset` alone; without one, each reset has another
     seed, and the same row of them after the same first seed.
     """
-    env = made(action="added", condition="wrong model", **SLOW)
+    env = made(action="added", **CASES["RABBIT"])
     first = [env.reset(seed=k)[0] for k in (1, 2, 1)]
     assert np.array_equal(first[0], first[2])
     assert not np.array_equal(first[0], first[1])

@@ -20,7 +20,7 @@ PULSE = {**PULL, "shape": "pulse"}
 WRONG = {"impact_width": 0.02, "mass_width": 0.05}
 BETWEEN = {**PULSE, "onset": 0.1004, "duration": 0.0503}
 CASES = {
-    "pulled by a sine": {"controller": "ADRC", "hardware.period": 1e-3, "pushes": [PULL]},
+    "pulled by a sine": {"controller": "LESO", "hardware.period": 1e-3, "pushes": [PULL]},
     "pulse between instants": {"hardware.period": 1.5e-3, "pushes": [BETWEEN]},
     "encoders, delay, lag": {"hardware": {"profile": "rabbit", "delay": 0.7e-3, "lag": 1e-3}},
     "other impacts": {"hardware.period": 1e-3, "errors": WRONG, "ground.slope": 0.01},
