@@ -133,9 +133,8 @@ def test_an_observer_that_is_relabelled_sees_what_one_of_the_left_leg_sees(compa
     ]
     one, other = (end.final_state for end in ends)
     np.testing.assert_allclose(other[:4], one[:4], rtol=1e-12)
-    np.testing.assert_allclose(
-        other[4:], -one[4:], rtol=1e-12
-    )  # three impacts: the right leg stands
+    # three impacts: the right leg stands
+    np.testing.assert_allclose(other[4:], -one[4:], rtol=1e-12)
 
 
 def test_a_motor_with_lag_keeps_its_torque_on_the_legs_over_an_impact(compass, designed):
@@ -196,8 +195,9 @@ class ForgetsTheSign(ba.NPDController):
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_a_controller_of_ones_own_that_forgets_the_sign_is_told(compass, designed, engine):
-    """Its `jump` exchanges the entries of an angle that it keeps, by s[swap], but does not turn the sign: the
-    walk has to end and name the method."""
+    """The controller's `jump` exchanges the entries of an angle that it keeps, by s[swap], but does not turn
+    the sign: the walk has to end and name the method.
+    """
     law = ForgetsTheSign(designed.gait.constraint)
     run = ba.walk(ba.Walker(compass, law), designed.gait, 1, STEP, engine=engine).trajectory
     assert not run.status.ok
