@@ -123,7 +123,7 @@ def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, mo
     P, w = return_map, return_map.walker
     x = np.concatenate((gait.q_minus, gait.v_minus))
     s, behind, no_return = P.project(x), np.append(biped.relabel(x[:5]), x[5:]), "never returns"
-    # a controller that notices touchdowns counts them, and noise is another one at each step
+    # a controller that notices touchdowns counts them, and noise is another one at each step: no state returns
     notices = replace(w, timing=ba.SampledTime(1e-3, restart=False), touchdown=FaultyTouchdown())
     refused(InputError, no_return, replace, P, walker=notices)
     noisy = replace(w, timing=ba.SampledTime(1e-3), sensors=ba.Sensors(noise=1e-3))

@@ -195,8 +195,9 @@ class ForgetsTheSign(ba.NPDController):
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_a_controller_of_ones_own_that_forgets_the_sign_is_told(compass, designed, engine):
-    """Its `jump` exchanges the entries of an angle that it keeps, by s[swap], but does not turn the sign: the
-    walk has to end and name the method."""
+    """The controller's `jump` exchanges the entries of an angle that it keeps, by s[swap], but does not turn
+    the sign: the walk has to end and name the method.
+    """
     law = ForgetsTheSign(designed.gait.constraint)
     run = ba.walk(ba.Walker(compass, law), designed.gait, 1, STEP, engine=engine).trajectory
     assert not run.status.ok

@@ -373,8 +373,8 @@ class Valued(ByValue):
 
 
 def test_equal_values_are_equal_with_one_hash():
-    """By value and not by identity: arrays too, NaN equals NaN, -0 equals 0; other shapes and types differ. A
-    field with compare=False does not count."""
+    """Objects are compared by value and not by identity: arrays too, NaN equals NaN, -0 equals 0; other shapes
+    and types differ. A field with compare=False does not count."""
     same = [(np.array([0.0]), np.array([-0.0])), (math.nan, float("nan")), ({1: [2]}, {1: [2]})]
     other = [
         (1.0, 2.0),
@@ -478,6 +478,6 @@ def test_what_cannot_be_made_or_registered_is_said(text, call, arguments):
     ],
 )
 def test_a_name_that_cannot_be_registered(name, thing, text):
-    """No text, no class, a name that a controller has already (output_npd), a name that reads as a file's
-    class, and a blank."""
+    """Refused are a name that is no text, a thing that is no class, a name that a controller has already
+    (output_npd), a name that reads as a file's class, and a blank."""
     assert said(InputError, registry.register, "controller", name, thing).startswith(text)

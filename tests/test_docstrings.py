@@ -118,8 +118,9 @@ VERBS = re.compile(
 
 @pytest.mark.parametrize("name", ba.Scenario.names())
 def test_the_text_of_a_value_is_a_sentence_with_a_subject(name):
-    """It begins with a noun, not with a preposition or "That", has a verb of `VERBS` in its first part, and
-    ends with a full stop."""
+    """The text begins with a noun, not with a preposition or "That", has a verb of `VERBS` in its first part,
+    and ends with a full stop.
+    """
     text = ba.Scenario.field_of(name).text
     assert re.match(
         r"(?!The same|That |[A-Z][a-z]*: |On |In |Of |From |To |By |Over |Such )[A-Z]", text

@@ -45,7 +45,9 @@ def test_a_push_that_acts_as_asked_for_is_passed_over(push, walked):
 
 
 def test_a_push_that_is_cut_off_acts_as_one_without_an_end(walked, biped):
-    """It acts until the impact, so its stop is without effect; only the remark tells them apart."""
+    """A push whose stop lies behind the impact acts until the impact, as one without a stop; only the remark
+    tells them apart.
+    """
     cut, endless = walked(pulse(1, 0.1, 0.7)), walked(pulse(1, 0.1, math.inf))
     assert np.array_equal(cut.trajectory.final_state, endless.trajectory.final_state)
     end = cut.trajectory.events("foot_strike")[0].t
@@ -181,6 +183,7 @@ def test_a_start_with_the_swing_foot_in_the_ground_is_named(engine, biped, gait)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), slope=gait.slope)
     foot, lean = biped.swing_foot(q), 0.1 * np.eye(5)[4]
     c, s = math.cos(0.1), math.sin(0.1)
+    # of a turn in either sense; the foot sinks in one of them and rises in the other
     depth = max(s * foot[0] - c * foot[1], -s * foot[0] - c * foot[1])
     with pytest.warns(ba.WalkWarning, match=f"swing foot {1e3 * depth:.3g} mm below the ground"):
         ba.walk(walker, gait, 1, start=(q + lean, v), engine=engine)
@@ -203,9 +206,8 @@ def test_a_gait_of_another_preset_and_a_push_after_the_walk_are_named(biped, gai
 def test_a_walk_warns_with_each_remark_and_shows_the_first(biped, gait):
     """Each remark is a warning at the line of the caller; the walk's repr has the first one and their number,
     or none."""
-    late = pulse(5, 0.1, 0.3) + pulse(
-        7, 0.1, 0.3
-    )  # in single supports that a walk of one impact never reaches
+    # in single supports 5 and 7, which a walk of one impact never reaches
+    late = pulse(5, 0.1, 0.3) + pulse(7, 0.1, 0.3)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), late)
     with pytest.warns(ba.WalkWarning) as caught:
         walk = ba.walk(walker, gait, 1)

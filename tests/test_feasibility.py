@@ -193,6 +193,7 @@ def test_the_mean_over_a_window_is_that_of_the_force_in_it(walker):
     """
     t = np.array([0.0, 0.1, 0.1, 0.25, 0.25, 0.6])
     n = handmade(walker, t, np.array([1.0, 1.0, 4.0, 4.0, -2.0, -2.0]) * 100.0)
+    # row 0: mean F_N over a window of 0.2 s that ends at the node; 1: number of single supports with an impact
     found = demands(walker, n, 0.2, 1)[0]
     # infinite as long as no whole window has passed
     assert found == pytest.approx([*[np.inf] * 3, 65.0 / 0.2, 65.0 / 0.2, -200.0])
@@ -305,7 +306,7 @@ def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact(
     x-."""
     walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, impacts=2)
     asks = abs(np.divide(*bare.impact(published.q_minus, published.v_minus).impulse))
-    assert asks > 0.6
+    assert asks > 0.6  # the friction of RABBIT's record
     assert walk.feasibility.impulse_ratio == pytest.approx(asks, rel=1e-6)
     for share, outcome, impacts in ((0.999, "but_impact", 0), (1.001, "feasible", 2)):
         found = walk.feasible_within(ba.Limits(friction=share * asks))
@@ -356,6 +357,7 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     middle = np.abs(s.t - s.t[0] - 0.2) < 0.01
     deep[middle] = -0.002  # below both footholds, that counts
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
+    # row 2 of `demands`: the depth of scuffing at each node
     assert np.max(demands(up, Nodes.of(dipped), 5e-3, 1)[2]) == pytest.approx(0.002)
 
 
@@ -406,7 +408,7 @@ def test_a_feasible_support_has_no_violation_and_nan_in_a_torque_is_one(walker):
 
 def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
     """The foot is 2 mm deep from 0.395 s of 0.4 s on: in the last 3 % of a step that is the touchdown, but
-    not of a step that has none."""
+    not of a step that has none. first_in(walker, nodes) is the first violation of these nodes."""
     late = beginning(walker, scuffs=0.395)
     assert first_in(walker, late) is None
     assert first_in(walker, late, finished=False).t == pytest.approx(0.395)

@@ -81,6 +81,7 @@ def test_the_height_lost_appears_as_work_the_joints_need_not_do(bare, down):
     arcs, done = down.trajectory.arcs, down.certificates
     start, end = arcs[0].x[0], arcs[-1].x[-1]
     gained = energy(bare, end) - bare.weight * HEIGHT - energy(bare, start)
+    # `end` is just before the last impact, whose loss therefore does not count
     lost = sum(c.energy_lost for c in done[:-1])
     assert sum(c.joint_work for c in done) == pytest.approx(gained + lost, abs=2e-3)
     assert bare.weight * HEIGHT > 4.0, "[J]"
@@ -106,6 +107,7 @@ def test_past_its_end_a_constraint_goes_on_smoothly(published):
         points = []
         for side in (-d, d):
             at = q.copy()
+            # the pitch q[4] has the factor 1 in Theta
             at[4] += end + outwards * side - h.phase @ q
             points.append(c(0.0, at, np.array([0.1, 0.2, -0.1, 0.3, -1.0])))
         for inside, outside in zip(*points, strict=True):

@@ -59,6 +59,7 @@ def test_releases_are_dated_and_the_newest_is_this_one():
     """Headings of CHANGELOG.md: "Unreleased" may be first; then come version and date, the newest first."""
     text = (ROOT / "CHANGELOG.md").read_text()
     headings = re.findall(r"^## (.*)$", text, re.M)
+    # from the second one on (True is 1) if the first is "Unreleased"
     headings = headings[headings[0] == "Unreleased" :]
     found = [re.fullmatch(r"(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)", h).groups() for h in headings]
     dates = [datetime.date.fromisoformat(date) for _, date in found]

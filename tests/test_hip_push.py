@@ -77,7 +77,8 @@ def test_with_the_stride_controlled_the_same_force_is_walked_through(alone, bare
 
 def test_once_settled_the_walk_keeps_the_speed_of_the_gait(alone, bare, gait):
     """A simulated step from where the quadratures settle after 60 steps, with the PI's states from there, under
-    the force that stops the tracking: its speed is 0.5 m/s, and it ends where it began."""
+    the force that stops the tracking without a PI (`alone`): its speed is 0.5 m/s, and it ends where it
+    began."""
     case = HipCase(alone.case.tracking, stride=True)
     biped, _, law = case.parts()
     force = alone.stops.force
@@ -87,6 +88,7 @@ def test_once_settled_the_walk_keeps_the_speed_of_the_gait(alone, bare, gait):
     walker = ba.Walker(biped, law, ba.HipForce(biped, (-force, 0.0)))
     impact = biped.impact(*before)
     x = walker.initial_state(impact.q, impact.v)
+    # the PI's states: sum I of the errors, whose part K_I I makes beta when the speed is kept, and beta
     x[-2:] = settled.beta / law.gains.K_I, settled.beta
     method = ba.RK4(4e-3) if case.tracking == "NPD" else ba.Exponential(2e-3)
     run = ba.simulate(walker, x, ba.Mode(), method, t_end=5.0, stop_after=("foot_strike", 1))

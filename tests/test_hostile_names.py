@@ -92,7 +92,7 @@ def exported(hostile, tmp_path_factory):
 
 
 def test_in_c_they_are_comments(exported):
-    """The preprocessor, which takes comments away, leaves nothing of them."""
+    """The preprocessor takes the comments of the C away, and with them all that the names would plant."""
     sources = [*exported.glob("*.[ch]"), *(exported / "fmu" / "sources").iterdir()]
     assert len(sources) >= 7
     for path in sources:
@@ -175,7 +175,7 @@ def planted(page):
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_in_toml_and_csv_they_are_read_back(name, tmp_path):
-    """As key, value and cell, by Python's own readers."""
+    """Names that are a key, value or cell come back as they were, by Python's own readers of TOML and CSV."""
     text = HOSTILE[name]
     assert tomllib.loads(f"{toml_key(text)} = {toml_value([text, {text: text}])}") == {
         text: [text, {text: text}]

@@ -65,6 +65,7 @@ def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
     cannot be compiled."""
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, Undecorated(law) if plain else law, timing=timing)
+    # in the units of the bounds, the motors' 150 N m and 50 rad/s
     peak = np.max(np.abs(ba.walk(walker, gait, impacts=1).signals.u)) / 150.0
     fast = np.max(np.abs(ba.walk(walker, gait, impacts=1).trajectory.arcs[0].x[:, 5:10])) / 50.0
     for bound in ({"runaway_torque": 0.7 * peak}, {"runaway_speed": 0.7 * fast}):

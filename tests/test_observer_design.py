@@ -184,7 +184,7 @@ def test_sampled_loop_is_the_one_of_the_laws_tick_by_tick(observer, T, delay, kn
     delay: in periods; 0.4 and 2.3 have a part of a period, in which the torque changes between ticks."""
     loop = SampledLoop(observer, T, delay=delay * T, known=known)
     step, size = tick_by_tick(observer, T, delay * T, known)
-    matrix, _ = step(np.eye(size), 0.0)
+    matrix, _ = step(np.eye(size), 0.0)  # without noise of the angle
     np.testing.assert_allclose(loop.matrix, matrix, rtol=1e-9, atol=1e-9 * np.max(np.abs(matrix)))
 
 
@@ -192,6 +192,7 @@ def test_sampled_loop_is_the_one_of_the_laws_tick_by_tick(observer, T, delay, kn
 def test_ripple_of_a_count_is_that_of_many_noisy_loops(T, delay):
     """The rms torque by a covariance against 4000 loops with uniform errors of one encoder count (8192 per
     turn), sampled after they have settled; 2 % is the scatter of so many."""
+    # FIRST: an observer of order 1 and 500 rad/s; step(X, n) is a period of many loops, in columns of X
     loop, sigma = SampledLoop(FIRST, T, delay=delay * T), count_error(8192)
     step, size = tick_by_tick(FIRST, T, delay * T, False)
     random, loops = np.random.default_rng(3), 4000
@@ -244,6 +245,7 @@ def test_known_feeds_what_acts_and_hidden_what_was_asked(bare, published):
     m = Measurement(0.0, 1, 0.0, q, v, bare.reduction(q, v))
     z, u = inner.initial_state(m) + 1e-4, np.array([1.0, -2.0, 3.0, 4.0])
     for known, fed in ((False, inner.output(z, m)), (True, u)):
+        # 1 ms, by an approximant of order 2, which has two states for each of four motors
         controller = Delayed(inner, 1e-3, 2, known)
         s = DelayState(z, np.ones((2, 4)))
         flow = controller.flow(s, m, u)
@@ -325,6 +327,7 @@ def test_peak_after_impact_is_the_one_of_a_walk(bare, published, policy):
     walker = ba.Walker(bare, controller)
     run = ba.walk(walker, published, 2, ba.RK4(1e-5), engine="compiled").trajectory
     arc = run.arcs[1]
+    # over 15 ms, every 0.05 ms
     u = np.array([walker.instant(arc.t[i], arc.x[i], arc.mode).u for i in range(0, 1500, 5)])
     peak = impact_peak(TABLE_I, impact, policy).torque
     usual = np.max(np.abs(u[-1]))  # the gait's own torque, which the linear response leaves out
@@ -435,8 +438,10 @@ def test_recommendations_at_both_ends_of_the_range(monkeypatch):
     is the bisection in between; P = 0.25 P + 3 has the solution 4, and an unstable loop (50 periods late)
     no rms."""
     monkeypatch.setattr(choice, "BANDS", 8)
+    # period of 1 ms, no delay, encoders of n counts, motors of 150 N m, inertia of 1 kg m^2
     blunt, ideal = (Hardware(1e-3, 0.0, False, n, 150.0, 1.0) for n in (1e-3, 1e30))
     assert math.isnan(recommend(blunt, ba.Gains(), 0).bandwidth)
+    # bandwidth, and what bounds it: nothing
     assert recommend(ideal, ba.Gains(), 0)[1:3] == (2e4, "")
     assert last_true(lambda x: x <= 3.0, [1.0, 2.0, 4.0, 5.0]) == pytest.approx(3.0, rel=2e-6)
     assert math.isnan(last_true(lambda x: False, [1.0]))

@@ -64,6 +64,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
     """Each line would write over its own input, also by a link or by its plot. It is refused before a walk is
     made, and every file has the bytes it had."""
+    # one more file that has to keep its bytes
     shutil.copy("keep.json", "published-identified.json")
     before = contents(folder)
     walk = "biped_adrc.scenario.walk.in_parts"

@@ -66,7 +66,7 @@ def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
 @settings(FIXED, max_examples=3)
 @given(SCENARIOS)
 def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
-    """As on the compiled engine, with fewer draws, since Python on Pinocchio is slow."""
+    """Drawn scenarios are walked by Pinocchio, fewer than by the compiled engine, since that is slow."""
     ends_with_finite_numbers(values, "pinocchio")
 
 

@@ -36,6 +36,7 @@ def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
     """One push per onset: 1 for a walk that is feasible, perhaps but for the impact, 0.5 for an infeasible
     one, 0 for one that is lost, and no text where the walk (the third one under ADRC) is marginal."""
     words = [("but_impact", "feasible"), ("fell", "infeasible"), ("ended", "feasible")]
+    # the third one is marginal; onsets 0, 0.1, 0.2
     cells = [cell(*pair, k == 2, 0.1 * k) for k, pair in enumerate(words)]
     npd, adrc, *_ = push_map_figure([c.row() for c in cells]).axes
     assert (npd.get_title("left"), adrc.get_title("left")) == ("NPD, unlimited", "ADRC, unlimited")
@@ -46,6 +47,7 @@ def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push of 150 N m throws NPD past the phase range, where the gait's polynomial explodes and the
     walk ends. The map takes the smoothly continued curve: all steps are made, and infeasible."""
+    # 0.3 s after the impact, 150 N m, and no torque limit
     push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
     assert not walk_scenario(push.run("NPD").replace(gait={"continued": False})).outcome.walked
     (found,) = push_map([push])

@@ -72,7 +72,7 @@ def test_a_class_of_ones_own_fits_too(gait):
 
 
 def test_a_status_is_shown_by_its_name(biped, gait):
-    """Its value is a sentence, which would fill the line."""
+    """The value of a status is a sentence, which would fill the line."""
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, 1)
     assert repr(walk.feasibility).startswith("Feasibility(status=COMPLETED, ")
     assert repr([walk.trajectory.status]) == "[Status.COMPLETED]"

@@ -152,9 +152,8 @@ def missed(T, **values):
     n, p = walker.plant.n, walker.plant.p
     frozen = FrozenGait.of(walker.plant, gait, spread=0.0)
     point = frozen.points[0]
-    z = walker.plant.hip(point.q)[
-        1
-    ]  # a pendulum upside down: z theta'' = g theta, theta = exp(rate t)
+    # a pendulum upside down: z theta'' = g theta, theta = exp(rate t)
+    z = walker.plant.hip(point.q)[1]
     assert frozen.falling**2 * z == pytest.approx(9.81, rel=1e-12)
     deviation = 1e-6 * np.array(
         [1.0, -2.0, 0.5, 1.5, -1.0, *np.array([5.0, 9, -3, 7, 4]) * 1e-3 / T]
@@ -194,8 +193,8 @@ DIFFERENCES = {"hardware.encoders.velocity": "differences"}
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
     """Two walks of the robot that start a little apart against the powers of M, over ten periods. M is frozen
-    at a phase: what it misses is the gait's motion in ten periods, which falls with the period, here to a
-    quarter."""
+    at a phase: what it misses is the gait's motion in ten periods, which falls with the period. `missed` is
+    this gap, relative to the deviation."""
     coarse, fine = (missed(T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
 
@@ -215,8 +214,9 @@ def test_the_derivative_of_a_tick_is_that_of_differences():
 
 
 def test_a_controller_in_plain_python_has_a_specification():
-    """The same law hidden in a class that cannot be compiled (`Undecorated`) is differenced: the growth of
-    its worst mode agrees to 30 %, enough to tell stable from unstable."""
+    """NPD hidden in a class that cannot be compiled (`Undecorated`) is differenced at its ticks: the growth of
+    its worst mode agrees to 30 %, enough to tell stable from unstable.
+    """
     walker, gait, _ = loop_of(controller={"name": "NPD", "solve_theta": False})
     one = replace(walker, controller=Undecorated(walker.controller))
     by_differences, by_laws = (specified(w, gait) for w in (one, walker))
@@ -351,8 +351,10 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
     loop's matrix M open at the torques (M - B C); the product with 1 - G has to be the unit matrix, and S
     what the loop says."""
     _, _, loop = loop_of(controller="LESO", **late)
+    # the last p inputs of B and D are errors that are added to the torques
     M, B, C, D = loop.matrices()
     p, nyquist = len(C), np.pi / loop.period
+    # the frequencies of `loop.sensitivity`, which has those of the modes behind them
     w = np.geomspace(loop.slow, nyquist, FREQUENCIES)
     z = np.exp(1j * w * loop.period)[:, np.newaxis, np.newaxis]
     S = response(z, M, B[:, -p:], C) + D[:, -p:]
@@ -372,14 +374,17 @@ def test_loops_together_are_the_loops_one_by_one():
     loops = specification_of(s).loops
     each = [loops[i, j] for i in range(4) for j in range(5)]
     np.testing.assert_allclose(loops.growth().ravel(), [one.growth() for one in each], rtol=1e-9)
+    # delays are searched up to 0.05 s
     margins = [one.delay_margin(0.05) for one in each]
     assert loops.delay_margin(0.05) == pytest.approx(min(margins), abs=2e-9)
     assert np.ptp(margins) > 1e-4
+    # the first 100 frequencies are the same for all; those of a loop's own modes follow
     np.testing.assert_allclose(loops[2, 3].sensitivity()[:100], loops.sensitivity()[2, 3, :100])
 
 
 def test_a_controller_without_a_state_has_a_delay_margin():
-    """At the margin the first of its loops grows, and none before."""
+    """NPD has no state of its own, unlike ADRC. At the margin the first of its loops grows, and none before."""
+    # delays are searched up to 0.05 s
     loops = specification_of(ba.Scenario("NPD", hardware={"period": 1e-3})).loops
     margin = loops.delay_margin(0.05)
     assert np.max(loops.growth(0.999 * margin)) < 0.0 < np.max(loops.growth(1.001 * margin))

@@ -148,7 +148,7 @@ def test_the_clock_may_run_on_over_contacts():
 
 
 def test_the_plant_may_end_the_run():
-    """Its first bounce sticks: a contact with a status (FELL) ends the run, with no state after it."""
+    """The ball's first bounce sticks: a contact with a status (FELL) ends the run, with no state after it."""
     walked = run(loop(plant=Ball(sticks_at=0.0)), t_end=2.0)
     assert walked.status is ba.Status.FELL
     assert walked.arcs[-1].event.guard == "stuck"

@@ -22,7 +22,9 @@ ROBOT = robot()
 
 
 def test_model_is_the_published_one() -> None:
-    """D and Omega against the closed form for point masses in absolute angles, K o cos and K o sin."""
+    """D and Omega against the closed form for point masses in absolute angles: K_ij cos(th_i - th_j), and the
+    like with sin; arms are the factors of the links' unit vectors in the place of each mass.
+    """
     r, m, M_H, M_T, L, g = 1.0, 5.0, 15.0, 10.0, 0.5, 9.8
     arms = [[r / 2, 0, 0], [r, 0, 0], [r, -r / 2, 0], [r, 0, L]]
     masses, arms = np.array([m, M_H, m, M_T]), np.array(arms)
@@ -83,6 +85,7 @@ def test_finite_time_feedback_comes_to_rest_in_closed_form() -> None:
     alpha, eps, th1 = 0.9, 0.05, -END
     x2_0 = eps * np.array([0.5, -0.3])
     y_0 = -np.sign(x2_0) * np.abs(x2_0) ** (2.0 - alpha) / (2.0 - alpha)
+    # y = (th3 - P3(th1), th1 + th2 - P2(th1)), solved for th2 and th3
     th = np.array([th1, y_0[1] - th1 + P2(th1), y_0[0] + P3(th1)])
     dy_0 = x2_0 / eps
     rate = np.array([1.2, dy_0[1] + 1.2 * (P2.deriv()(th1) - 1.0), dy_0[0] + 1.2 * P3.deriv()(th1)])

@@ -116,6 +116,7 @@ def test_groups_are_complete() -> None:
         assert names == set(gait_names("rabbit", preset)) - {"recipe"}
         assert names >= {"published", *(f"v{speed:g}" for speed in SPEEDS)}
     assert count["multipliers"] == sum(map(len, stored.values()))
+    # each of two presets: a gait for each speed, and the one through x* of the paper
     assert count["design"] == 2 * (1 + len(SPEEDS))
     assert set(gaits.ROBOTS) == set(robot_names())
     with pytest.raises(InputError, match=r"no group 'coffee'; choose one of \['passive'"):

@@ -12,7 +12,7 @@ those on the plant.
     arc            the nodes of one single support; a walk has S, of which the last may be unfinished
     mean force     of the ground, over a window that ends at a node; there is none at the first nodes of a
                    single support, where no window has passed yet
-    impacts        number of single supports that ended in an impact: the first ones
+    impacts        how many single supports ended in an impact; only the last one of a walk may not have
     after          momentum (2,) [N s] just after the impact with which a walk ends, as no node follows it; None
                    for a walk that ends otherwise
     stones         places on which the feet have to land (`model.ground.Stones`)
@@ -158,6 +158,7 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
         return x > 0.0
     if name == "friction":
         return (x <= cone) | (x == math.inf)
+    # SLIP: largest distance that a foot may slip, 5 mm
     most = {"torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
     return x <= most.get(name, 0.0)
 
@@ -203,6 +204,7 @@ def limit_series(
         at_ends[IMPULSE] = impulse_ratios(walker, n, impacts, after)
     # rows 0 to 5: the numbers, in the order of AT_NODES; rows 6 to 8: the joint that has each of the last three
     needed = demands(walker, n, k.window, impacts)
+    # _OF_JOINTS: the numbers that belong to one joint: torque, rate, range
     which = dict(zip(_OF_JOINTS, needed[len(AT_NODES) :], strict=True))
     # joints with the angles q_1 .. q_p in single supports of odd number; in even ones the legs are swapped
     own = walker.plant.motor_joints[1]
@@ -242,6 +244,7 @@ def supports(
         for a, b in pairwise(n.edges)
     ]
     # from here on `worst` has one number per single support in place of one per node
+    # AT_NODES: names of the numbers that `demands` computes at each node
     for name in AT_NODES:
         extreme = np.minimum if name == "normal_force" else np.maximum
         worst[name] = extreme.reduceat(worst[name], first)
@@ -262,7 +265,7 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
     """Distance (S,) [m] by which the foot lands off its stone at the end of each single support.
 
     It is 0 on the stone, without stones, and for the single supports after the first `impacts`, which did not
-    end in an impact.
+    end in an impact. n: the nodes; n.steps: numbers of the supports, n.last: their last nodes, (S,) each.
     """
     missed = np.zeros(len(n.steps))
     if walker.stones is not None:
@@ -319,6 +322,7 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     impact = b.impact(q, v)
     since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
     # the middle of the step, up to round-off of times
+    # ENDS = 0.03: share of the step at either end, where the foot may touch the ground
     inner = np.abs(since - 0.5 * duration) < (0.5 - ENDS) * duration - SAME_INSTANT
     height = s.swing_foot @ (math.tan(walker.ground_slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]

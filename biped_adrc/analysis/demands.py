@@ -14,7 +14,7 @@ so a step is judged by means (`analysis.certificate`).
     t, w           time of the node [s], and length of the window [s] that ends there
     m g e_z        weight of the robot, upwards; v_com is the velocity of its COM
     e, u           tracking error (p,) [rad] and torque (p,) [N m] of the joints with motors
-    at, T..FOOT    at[T], at[STEP], .. are the places in a row where its columns begin; it begins with the time
+    at, T..FOOT    at[T], at[STEP], .. are the places in a row where its numbers begin; a row begins with t
     `inner`        marks a function that numba compiles into its callers, `unit` one that Python calls
 
 Arrays are pointers here, without a shape: `shift(x, i)` points to entry i of x. Shapes in the docstrings say
@@ -88,9 +88,10 @@ def demands(
     ends, same, along, normal = known[NEAR], known[SAME], shift(known, ALONG), shift(known, NORMAL)
     joints = shift(known, FALLS + supports)
     # i: last node before a window begins. above: whether the foot was above the ground in this single support.
-    # near, far: times since its start between which a depth of the swing foot counts; without an impact at its
-    # end the depth there counts too. before: the node before, at the first node itself; half: half the time
-    # since it, for the trapezoidal rule
+    # near, far: times since its start between which a depth of the swing foot counts, since for the share
+    # `ends` of its duration at either end the foot may touch; without an impact at its end the depth there
+    # counts too. same: round-off of times; along, normal (2,): unit vectors of the ground. before: the node
+    # before, at the first node itself; half: half the time since it, for the trapezoidal rule
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start

@@ -136,6 +136,7 @@ class Feasibility(Shown):
 
     def text(self) -> str:
         """The outcome in words, with the reasons."""
+        # OUTCOMES: outcome -> its text
         return ": ".join(filter(None, (OUTCOMES[self.outcome], "; ".join(self.reasons.values()))))
 
 
@@ -161,10 +162,13 @@ def first_violation(
     """
     # the first violation of each kind; a number that is one per single support counts at its end
     result = []
+    # numbers: what the limits apply to, by the limit's name; joint(name, i): the joint that has it at node i,
+    # or None where the number belongs to no joint
     numbers, joint = limit_series(walker, n, k, impacts, after)
     for name, x in numbers.items():
         # [:1]: the first only, if there is any
         for i in np.flatnonzero(~keeps(name, x, k))[:1]:
+            # AT_NODES: names of the numbers that exist at each node, others at the end of a support
             at = i if name in AT_NODES else n.last[i]
             support = int(np.searchsorted(n.last, at))
             text = violation(name, x[i], k, joint(name, at))

@@ -104,7 +104,7 @@ class DesignedGait(Shown):
             (f"walked {_STEPS} steps under NPD, back within {self.gap:.1e}",),
             (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
         ]
-        return "\n".join(columns(rows, 19))
+        return "\n".join(columns(rows, 19))  # 19: least width of the first column
 
 
 def design_gait(
@@ -159,10 +159,12 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     # longest: time limit of one single support [s]
     longest = max(Walker.max_step_time, 2.0 * gait.period)
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
+    # _STEPS = 2: steps of the walk that proves the gait
     x, end = walker.initial_state(*gait.start(biped)), _STEPS * longest
     run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=_STEPS, t_end=end)
     if not run.status.ok:
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
+    # WINDOW = 5 ms, over which the force of the ground is averaged
     allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
     certificate = certificates(walker, run, signals(walker, run, gait.constraint), allowed)[0]
     # reasons that do not count: scuffing where the request sets no clearance, and an impulse that the request
@@ -213,6 +215,7 @@ def library(
     pair with a line of text about it. Raises GaitError where fewer pairs have a gait than the fit needs.
     """
     # least: number of coefficients of a polynomial in two variables of this degree
+    # CURVE_DEGREE = 4, of the polynomials in speed and step length
     least, gaits = (CURVE_DEGREE + 1) * (CURVE_DEGREE + 2) // 2, []
     if min(len(set(speeds)), len(set(lengths))) <= CURVE_DEGREE:
         raise GaitError(
@@ -267,12 +270,15 @@ def design_family(
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    # a row of `ends`: v, before, L, end, ahead, the arguments of `step_integrals`; low and high are ends of the
-    # ranges (speed, length)
+    # a row of `ends` is a random pair of steps, the arguments of `step_integrals`: speed v and length L of the
+    # member at the impact between them, length `before` of the step before both, speed `end` and length
+    # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
+    # _SAMPLES = 1200 random steps
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T
-    # to the impact of the second step: 2 W, J; to its decision: delta^2, 2 W', J', dq_b/dTheta
+    # columns of steps: delta^2 of the impact, 2 W', J' from it to the second step's decision, dq_b/dTheta after
+    # it; the last two are 2 W, J from that decision to the second step's own impact
     to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEP_DEGREE)
     earlier = np.column_stack((v, before, L, ahead))
     to_decision = PolynomialMap.fit(earlier, steps[:, :-2], STEP_DEGREE)
@@ -320,6 +326,7 @@ def _integrals(
     curve.
     """
     # s, weights: on [0, 1]; `inertia` is I = D_N dq/dTheta, D_N the row of the pitch in the inertia matrix
+    # _NODES: 16 Gauss nodes
     s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):

@@ -83,7 +83,8 @@ class Nodes:
 
     @property
     def last(self) -> Indices:
-        """Last node of each single support (S,)."""
+        """Index of the last node of each single support (S,)."""
+        # edges (S + 1,): first node of each, and K
         return self.edges[1:] - 1
 
 
@@ -121,6 +122,7 @@ def _loops() -> Any:
     """The functions `demands` and `totals` of `analysis.demands`, compiled, with 9 and 6 arguments, arrays by
     address.
     """
+    # LOOPS: the modules with these functions; the numbers count their arguments
     return compiled(LOOPS, demands=9, totals=6)
 
 
@@ -141,6 +143,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     along, normal = np.array(ground_axes(slope))
     falls = np.array([max(walker.drop(step), 0.0) for step in n.steps])
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
+    # ENDS = 0.03: share of the step at either end, where the foot may touch the ground
     known = Known(
         window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
     )

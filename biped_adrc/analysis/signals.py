@@ -166,6 +166,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     possible.
     """
     # tracked: the outer loop itself, where there is one, else `reference`; found: the signals at all nodes
+    # LONG = 2000: from so many nodes on compiling is faster than NumPy
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
     tracked, found = tracked_by(walker.law, reference), None
@@ -174,6 +175,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     if found is None:
         found = readings(walker, trajectory, tracked)
     result = signals_of(walker, trajectory, found)
+    # FALLS: ends of a walk in which the robot leaves the gait for good
     if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
         error = result.error.copy()
         error[nodes_before_fall(result.step, result.theta, reference) :] = np.nan
@@ -275,6 +277,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
     # recorded: (x, z) of the stance foot, then of the other one, which is not used; None on the rigid plant
+    # PLACE: name of the feet's recorded places [m]
     foot = recorded(trajectory, PLACE)
     if foot is None:
         foot = np.repeat(footholds(walker, trajectory), [len(arc.t) for arc in arcs], axis=0)
@@ -321,6 +324,7 @@ def footholds(walker: Walker, trajectory: Trajectory) -> Array:
     """
     foot, feet, plant = np.zeros(2), [], walker.plant
     for arc in trajectory.arcs:
+        # read[PLACE]: recorded places (x, z) of stance and swing foot at the nodes (K, 4)
         feet.append(arc.read[PLACE][0, :2] if PLACE in arc.read else foot)
         if arc.event is not None and arc.event.x_plus is not None:
             foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
@@ -335,6 +339,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
     includes the external force, so it is added here too. The momentum in `found` is that relative to the stance
     foot, so the robot's mass times the velocity of this foot (the first two columns of `speed`) is added.
     """
+    # FORCE, SPEED: names of the feet's recorded forces [N] and velocities [m/s]
     force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
     if force is None or speed is None:
         return found

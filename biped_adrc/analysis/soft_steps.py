@@ -3,7 +3,7 @@
 Soft ground is that of a simulator with contacts, such as MuJoCo, which records force, place and velocity of
 both feet at each node, a stored instant of the run; K nodes make an arc, that of one single support.
 
-    slips        |F_T| >= AT_CONE mu F_N  and  |v_T| > slip_speed:  creep below the cone is no slip
+    slips        |F_T| >= 0.99 mu F_N (AT_CONE) and |v_T| > slip_speed:  creep below the cone is no slip
     carries      F_N > carrying
     depth        of a foot point below the ground
 
@@ -13,8 +13,8 @@ the time to its neighbours, so that single support, double support and flight ad
 
 `contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
-    settling   t - start of the single support <= SETTLING
-    pushed     t - (last time at which zeta != 0) <= AFTER, and not settling; zeta is the external torque
+    settling   t - start of the single support <= SETTLING, 0.06 s
+    pushed     t - (last time at which zeta != 0) <= AFTER, 0.05 s, and not settling; zeta: external torque
     settled    not settling
 
 Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
@@ -88,8 +88,8 @@ def recorded_steps(
 
 
 def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
-    """Time of the run [s] at which, in each single support, a foot has slipped by more than SLIP; inf for
-    never.
+    """Time of the run [s] at which, in each single support, a foot has slipped by more than SLIP, 5 mm; inf
+    for never.
 
     run: with the readings of the feet at its nodes. friction: mu of the ground [1]. axes: two unit vectors
     (2,), along the ground and out of it. A time is that of the first node beyond SLIP.
@@ -109,6 +109,7 @@ def feet_of(arc: Arc) -> list[Array]:
     """Forces [N], places [m] and velocities [m/s] of the feet at the K nodes of an arc, each (K, 2, 2): stance
     foot and the other one, each (x, z).
     """
+    # FEET[:3]: names of the recorded forces, places and velocities
     return [arc.read[name].reshape(-1, 2, 2) for name in FEET[:3]]
 
 
@@ -121,6 +122,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     force, place, velocity = feet_of(arc)
     # w @ x is the integral of x over the single support; all below is (K, 2), one column per foot
     w, normal, tangential = spans(arc.t), force @ out, np.abs(force @ along)
+    # CARRYING = 1 N: force from which on a foot carries
     speed, carries = np.abs(velocity @ along), normal > CARRYING
     slips = slipping(force, velocity, friction, axes)
     pressed = normal > PRESSED
@@ -149,6 +151,7 @@ def slipping(
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal
+    # CARRYING = 1 N; SLIP_SPEED = 5 mm/s
     slips = (normal > CARRYING) & at_cone & (np.abs(speed @ along) > SLIP_SPEED)
     return np.asarray(slips, dtype=np.bool_)
 

@@ -98,7 +98,8 @@ class StabilityTable(Shown):
 
     @property
     def agree(self) -> bool:
-        """Whether the methods agree; True where only one is trusted."""
+        """Whether the multipliers of both methods differ by at most the tolerance; True where only one is
+        trusted."""
         return self.gap() <= 1.0
 
     def gap(self, noise: Array | float | None = None) -> float:
@@ -148,6 +149,7 @@ def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> f
     from scipy.optimize import linear_sum_assignment
 
     a, b = one[:, np.newaxis], other[np.newaxis]
+    # RELATIVE = 1e-6, ABSOLUTE = 1e-7
     allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
     # linear_sum_assignment finds the pairs (rows, columns) of least total cost
     cost = np.abs(a - b) / np.maximum(allowed, noise)
@@ -258,7 +260,8 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 
     Raises SimulationError where Newton's method finds no cycle.
     """
-    # the derivative of the step, the second result, is not needed
+    # SETTLES: residual [rad, rad/s] at which Newton's method stops; the second result, the derivative of the
+    # step, is not needed
     cycle, n = known_cycle(biped, slope), biped.n
     orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
     after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
@@ -317,6 +320,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
     if isinstance(method, Adaptive):
+        # APART = 1 ms: longest step of a method with step control
         method = replace(method, max_step=APART)
     stop = FOOT_STRIKE, 1
     run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)

@@ -121,6 +121,7 @@ def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:
     """The constraint h + shift b(s) as a polynomial; shift (p,) [rad]: beta times the direction."""
     # curves in powers of s, (p, number of powers), filled up with zeros to the longer of the two
     a = h.curve.power_coefficients
+    # BUMP (7,): coefficients of b(s) in powers of s
     wide = np.zeros((a.shape[0], max(a.shape[1], len(BUMP))))
     wide[:, : a.shape[1]] = a
     wide[:, : len(BUMP)] += np.outer(shift, BUMP)

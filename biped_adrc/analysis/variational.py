@@ -129,13 +129,14 @@ class VariationalSystem(HybridSystem):
     @cached_property
     def fast(self) -> Walker:
         """The walker with robot and reference in machine code where that can be."""
-        with suppress(ModelError):  # of a robot that is no planar tree
+        # ModelError: of a robot that is no planar tree; [0]: without the list of the compiled references
+        with suppress(ModelError):
             return compiled_plant(self.walker)[0]
         return self.walker
 
     @cached_property
     def torque_derivative(self) -> TorqueDerivative:
-        """The derivative of the walker's torque."""
+        """The function of an instant of the walk that gives du/dx (p, 2 n) [N m/rad, N m s/rad]."""
         return torque_derivative(self.walker)
 
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
@@ -251,9 +252,8 @@ def periodic_orbit(
     s = P.project(np.asarray(guess, dtype=float))
     # a start that costs little: the compiled map's fixed point by differences, if it finds one
     if P.compiled(x := P.lift(s)) is not None:
-        with suppress(
-            SimulationError, SingularError
-        ):  # the derivative costs a hundred compiled steps
+        # differentiate_step below costs as much as a hundred steps of the compiled map
+        with suppress(SimulationError, SingularError):
             s = P.project(P.fixed_point(x, tolerance).x_minus)
     for _ in range(MOST_ITERATIONS):
         step = differentiate_step(P, s)

@@ -46,6 +46,8 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
     def decorate(command: Command) -> Command:
         """Wrap the command in a function `run` whose signature has the short options in place of `values`;
         typer reads options, types and help texts from that signature.
+
+        names: of the short options; usual: defaults of some of them; words: help text by name.
         """
 
         @wraps(command)
@@ -56,7 +58,8 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
                 arguments["values"] = {name: x for name, x in texts.items() if x is not None}
             command(**arguments)
 
-        # short options first, then the command's own parameters, each with its help text, but for `values`
+        # short options first, with the default of `usual` if it has one; then the command's own parameters,
+        # each with its help text. `values` is left out: the short options stand in its place
         parameters = [_option(name, usual.get(name)) for name in names]
         for p in signature(command, eval_str=True).parameters.values():
             text = [_shown(words[p.name])] if p.name in words else []

@@ -135,7 +135,7 @@ def _print_end(walk: ba.Walk, half: ba.Walk | None, limits: ba.Limits) -> None:
         about = f"{error}, peak torque {walk.peak_torque:.1f} N m, {run.settings['method']}"
     console.print(f"{run.status.name}: {run.status.value} {run.detail}".strip())
     console.print(f"{walk.impacts_text}, {about}\n{feasibility.text()}")
-    # `not >` also takes a NaN
+    # `not >` also takes a NaN; of robots without motors, where `half` is None, it is not said
     stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
     if stays and half is not None:
         console.print(f"the old stance foot does not lift off after steps {stays}")
@@ -218,7 +218,8 @@ def poincare(
     console.say(f"{about}, slope {walker.ground_slope:g} rad, {cycle.P.method.label}")
     console.say(f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]")
     step = nominal_step(cycle, o, limits(s))
-    _print_steps([step], [step])  # a certificate has all numbers of a support
+    # the table takes numbers of single supports and certificates of impacts; `step`, a certificate, has both
+    _print_steps([step], [step])
     console.say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")
 
 

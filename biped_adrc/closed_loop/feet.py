@@ -29,8 +29,8 @@ FEET = ("foot_force", "foot_place", "foot_speed", "foot_level")
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
     """A copy of a run of this loop whose arcs have, in `Arc.read`, the readings FEET at their K nodes; also "u"
-    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet. Raises InputError
-    for a plant without feet."""
+    (K, p), the motors' torque, and "zeta" (K, n) [N m], where an arc does not have them yet. `_passed` gives
+    state and load of each node. Raises InputError for a plant without feet."""
     plant, arcs = loop.plant, []
     if not isinstance(plant, OnFeet):
         raise InputError(

@@ -158,7 +158,7 @@ def node_layout(n: int, p: int) -> Layout:
 
 
 def step_reading(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked) -> StepReading:
-    """The `StepReading` at t [s] in the state x (nx,), with errors from the point reference(s, m)."""
+    """Error q_b - q_d to reference(s, m), u, q, v_b, momentum, swing foot at t [s] in the state x (nx,)."""
     i, plant = instant(loop, t, x, mode), loop.plant
     m, p = i.measurement, plant.p
     return StepReading(

@@ -139,7 +139,7 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
         inserted behind the queue, where a walker keeps it. Also of slopes, where all but q' and q'' is 0."""
         # empty, [.., :0], without lag
         u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
-        # only x[.., :at] has `own` in it
+        # only x[.., :at] has these numbers in it, at the places `own`
         return np.concatenate((np.delete(x[..., :at], own, axis=-1), u_m, x[..., at:]), axis=-1)
 
     event = arc.event

@@ -242,8 +242,8 @@ class OnFeet(Protocol):
     """A plant that can say what its feet do."""
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
-        """The `Feet` in the state `row` (2 n + k,), under the torques u (p,) [N m] asked of the motors and the
-        load from outside."""
+        """Force, place and velocity of both feet in the state `row` (2 n + k,), under the torques u (p,) [N m]
+        asked of the motors and the load from outside."""
 
 
 @runtime_checkable

@@ -208,8 +208,8 @@ def on_stance_foot(
 
 
 def command(loop: Loop, s: Any, m: Measurement) -> tuple[Any, Array]:
-    """The controller's state s corrected by the measurement m, and the torque (p,) [N m] that the controller
-    asks for then, saturated."""
+    """The controller's state s corrected by the measurement m, and the torque (p,) [N m] that it asks for then,
+    saturated; beyond `bounded` the run ends. loop.calls: the controller's methods in its time base."""
     s = loop.calls.correct(s, m)
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 

@@ -110,7 +110,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of the single support `mode` (by default the first one, at 0 s) in q (n,) [rad],
-        v (n,) [rad/s], with the row of the plant that was started there."""
+        v (n,) [rad/s], with the row of the plant started there, which needs k = self.own numbers of its own."""
         x, mode = super().initial_state(q, v, mode), Mode() if mode is None else mode
         n = self.plant.n
         return self.with_plant(x, started(self.plant, mode.start, x[:n], x[n : 2 * n], self.own))
@@ -134,7 +134,7 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"{expected}; expected what initial_state(q, v) of this loop gives"
             )
         loop, engine = self.prepared(x)
-        # None: no method of integration, since the plant moves itself
+        # engine: settings that name it. None: no method of integration, since the plant moves itself
         run = simulator.run(loop, x, mode, None, options)
         return replace(run, settings={**run.settings, **engine})
 
@@ -206,8 +206,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.disturbance is not None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, 2 n + k): zero. Called where
-        `pushed_in_python` is false, here without a disturbance; a loop with a compiled one overrides it."""
+        """zeta (K, n) [N m] at K times t (K,) [s], in the plant's rows (K, 2 n + k): zero, as it is called only
+        without a disturbance; the subclass with a compiled disturbance overrides it."""
         return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:

@@ -304,7 +304,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         return u
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
-        """s after the controller's jump to the measurement m where the float `fires` is 1, else s as it is."""
+        """s after the controller's jump to m where `fires` is 1 (it notices a touchdown), else s as it is."""
         return self.calls.jump(s, m, self.swap) if fires > 0.5 else s
 
     def foot_forces(

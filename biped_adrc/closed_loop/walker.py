@@ -74,7 +74,7 @@ class ErrorForm:
 
     def to(self, x: Array) -> tuple[Array, Array]:
         """w (2 n + rest,) and E (order, p) of x (nx,): the error E replaces the observer's state Z in x."""
-        # z: the rows of Z one after the other; S (q_b, q_b') has zeros below its first two rows
+        # z: the rows of Z one after the other. E = (q_b, scale q_b', 0, ..) - Z, row by row
         n, p, end = self.n, self.p, 2 * self.n + self.order * self.p
         z = x[2 * n : end]
         e = np.concatenate((x[:p] - z[:p], self.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))

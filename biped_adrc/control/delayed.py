@@ -118,7 +118,7 @@ class Delayed(Around):
 
     def output(self, s: Any, m: Measurement) -> Array:
         """The torque u (p,) [N m] that leaves the delay line; it does not depend on m, but on R alone."""
-        return self.pade[0] @ s.R
+        return self.pade[0] @ s.R  # of (N, D) the row N
 
     def initial_state(self, m: Measurement) -> Any:
         """The inner state at the start, and R (k, p) at rest under its command, as if it had always been so."""
@@ -234,6 +234,7 @@ class Predicted(Around):
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
         """The state after impact: the torques on their way were computed before it, and are relabelled."""
         U = relabelled(s.U, swap)
+        # ahead: the measurement d later, predicted under the torques U
         return QueueState(self.inner.jump(s.inner, self.ahead(U, after), swap), U)
 
     def correct(self, s: Any, m: Measurement) -> Any:

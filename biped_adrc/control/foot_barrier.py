@@ -123,7 +123,8 @@ class FootBarrier(Around):
 
         q (n,) [rad], v (n,) [rad/s].
         """
-        k, t = self.swing, turned(self.swing.A, q)  # t: cos and sin of the absolute angles a = A q
+        # the foot is at x + i z = sum_i d_i exp(i a_i), d = k.re + i k.im; t: cos and sin of the angles a = A q
+        k, t = self.swing, turned(self.swing.A, q)
         rate2 = (k.A @ v) ** 2
         # [0] is the row of x, [1] would be that of z
         J: Any = jacobian(k.A, t, k.re, k.im)[0]
@@ -160,8 +161,9 @@ class FootBarrier(Around):
             return np.append(q_b, (theta - c[:p] @ q_b) / c[p])
 
         q_r, v_r = on_reference(c @ m.q, r.q_d), on_reference(c @ m.v, r.dq_d)
-        a_r = on_reference(0.0, r.drift)
+        a_r = on_reference(0.0, r.drift)  # at q'' = 0 Theta'' is 0
         R = np.vstack((r.H, (c - c[:p] @ r.H) / c[p]))  # q_r'' = R q'' + a_r
+        # of the swing foot: x, x', J = dx/dq (n,), and ddx, the part of x'' at q'' = 0
         x, dx, J, ddx = self.foot(m.q, m.v)
         x_r, dx_r, J_r, ddx_r = self.foot(q_r, v_r)
         # stones[k - 1] in step k; behind the last stone 1.0, as any length will do: `missing` is 0 there
@@ -208,7 +210,8 @@ class FootBarrier(Around):
 
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         """The inner state at the next sample instant; this one is counted if the torque u breaks a bound."""
-        # a bound that is exceeded by round-off alone is kept
+        # [0]: d, how far the bound is exceeded; by round-off alone it counts as kept
+        # _ROUND_OFF = 1e-6 m/s^2: a bound exceeded by less counts as kept
         infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > _ROUND_OFF, 1.0, 0.0)
         return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 

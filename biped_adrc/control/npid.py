@@ -135,14 +135,16 @@ class NPIDController(Controller):
         return self._filtered(s, m)
 
     def _filtered(self, s: FilterState, m: Measurement) -> FilterState:
-        """M Z + b e of the filter, with the error e of this measurement: Z' in continuous time, Z
-        one period later in sampled time.
+        """M Z + b e, with Z (3, p) the rows e_f, e_f', s of the filter's state and e the error of this
+        measurement: Z' in continuous time, Z one period later in sampled time.
         """
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
         return FilterState(*(M @ np.array(s) + np.outer(b, e)))
 
     def jump(self, s: FilterState, after: Measurement, swap: Indices) -> FilterState:
-        """The filter after impact: a new start, but for the integral, which is relabelled by swap (p,)."""
+        """The filter after impact: it starts anew at the measured error and rate, but keeps the integral,
+        relabelled: joint i takes entry swap[i] of (s, -s), as the legs exchange their names.
+        """
         return self.initial_state(after)._replace(total=relabelled(s.total, swap))
 
     def sampled(self, period: float) -> NPIDController:

@@ -108,8 +108,8 @@ class OuterLoop(Around):
         return LoopState(self._acting(s.own).predict(s.inner, m, u), s.own)
 
     def jump(self, s: Any, after: Measurement, swap: Indices) -> Any:
-        """(inner, w) after impact; the core jumps a second time, from its state before the impact, with this
-        correction in its reference.
+        """(inner, w) after impact, the joints relabelled by swap (p,), as the legs exchange names; the core
+        jumps a second time, from its state before the impact, with this correction in its reference.
         """
         z = self.inner.jump(s.inner, after, swap)
         # as z has the core's state after a jump without this correction, the core jumps again

@@ -1,6 +1,6 @@
-"""Input-output linearisation for outputs of any kind, with proportional-derivative or finite-time action.
+"""Input-output linearisation for outputs of any kind, with proportional-derivative action.
 
-    y'' = J q'' + drift = w,   w = -K_p y - K_d y'
+    y'' = J q'' + drift = w,   w = -K_p y - K_d y'  (another law w: `finite_time`, which uses this torque too)
     u   = (J D^-1 B)^-1 (w - drift + J D^-1 Omega)
 
 y (p,) are the outputs, as many as motors, J = dy/dq (p, n). D q'' + Omega = B u is the nominal model, with
@@ -10,8 +10,9 @@ degree two. With (12), (13) of the paper, q_b'' = a = kappa u + xi and q_N'' = A
 
     (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)
 
-since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta) this is NPD (28) with its
-loop through Theta'' solved.
+since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta), the error from the curve of a gait, this is NPD,
+equation (28) of the paper: there u depends on Theta'' and Theta'' on u, and these linear equations are solved
+together.
 
 Outputs are any object of `gait.outputs`: linear ones, those of a virtual constraint, positions of a foot. They
 may be a user's own Python, so these controllers run in Python.
@@ -82,4 +83,4 @@ def _solve(M: Array, b: Array) -> Array:
             f"condition number is {condition:.1e}, expected above {_SINGULAR:g}; choose outputs that the "
             "motors can move independently here"
         )
-    return dgetrs(factors, pivots, b)[0]
+    return dgetrs(factors, pivots, b)[0]  # x; LAPACK's flag follows

@@ -132,7 +132,8 @@ class StridePI(OuterLoop):
     ) -> StridePI:
         """The PI around `inner` on a gait, with the gait's step length.
 
-        speed [m/s]: v*, the gait's if None. direction (p,) [1]: d, by which the joints bend.
+        speed [m/s]: v*, the gait's if None. direction (p,) [1]: d, by which the joints bend; by
+        default the torso of RABBIT leans.
         """
         length = gait.step_length(biped)
         return cls(

@@ -62,7 +62,9 @@ class SuperTwistingController(Controller):
         return 1.1 * self.lipschitz
 
     def sliding(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
-        """The sliding variable sigma = e' + lambda e and the rate error e' = q_b' - q_d', each (p,) [rad/s]."""
+        """The sliding variable sigma = e' + lambda e and the rate error e' = q_b' - q_d', each (p,) [rad/s], at
+        the point r of the reference.
+        """
         de = m.v_b - r.dq_d
         return de + self.slope * (m.q_b - r.q_d), de
 
@@ -91,7 +93,9 @@ class SuperTwistingController(Controller):
         return s + self.period * self.flow(s, m, u)
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """z (p,) [rad/s^2] after impact, relabelled, since an error of the model belongs to a leg."""
+        """z (p,) [rad/s^2] after impact, relabelled, as an error of the model belongs to a leg: the legs
+        exchange their names, and joint i takes entry swap[i] of (z, -z).
+        """
         return relabelled(s, swap)
 
     def sampled(self, period: float) -> SuperTwistingController:

@@ -373,7 +373,9 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type can be checked: a class of this package but no protocol, a key of `_NUMBERS`, or None."""
+    """Whether a type can be checked: a class of this package but no protocol, a key of `_NUMBERS`
+    (float, Integral, str, Mapping), or None.
+    """
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
     return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
 

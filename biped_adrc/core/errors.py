@@ -166,6 +166,7 @@ def unknown(name: str, known: Iterable[str]) -> str:
     near = list(dict.fromkeys(near))[:3]
     if near:
         return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
+    # MANY = 20: with more names only those of the records are listed
     if len(known) > MANY:
         known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
     return f"unknown name; choose from {known}" if known else "unknown name; leave it out"
@@ -187,6 +188,7 @@ LABELS = ("float", "constrained-float", "int", "bool", "str")
 def dotted_place(error: Mapping[str, Any]) -> str:
     """The dotted name, record.value, of the value that an entry of pydantic's `errors()` is about."""
     parts = map(str, error["loc"])  # also labels of pydantic's, such as "list[float]"
+    # LABELS: types of a union, which pydantic puts into the place
     return ".".join(part for part in parts if part not in LABELS and "[" not in part)
 
 

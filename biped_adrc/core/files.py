@@ -56,6 +56,7 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     check_place(path)
     if path.suffix.lower() in suffixes:
         return path
+    # _KIND: a suffix that states a kind of file; .1 of push_0.1 is none
     if default and not _KIND.fullmatch(path.suffix):
         return output_path(path.with_name(path.name + suffixes[0]), suffixes)
     raise InputError(f"cannot write '{path}', expected {' or '.join(suffixes)} at its end")
@@ -121,6 +122,7 @@ def _named(path: object) -> Path:
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
         raise InputError(f"cannot write {path!r}, expected a file name without control characters")
     for part in Path(path).parts:
+        # _LONGEST = 240 bytes, as file systems take 255
         if (size := len(os.fsencode(part))) > _LONGEST:
             raise OutputError(f"'{path}' has a name too long, {size} bytes of at most {_LONGEST}")
     if Path(path).parts[:1] == ("~",):

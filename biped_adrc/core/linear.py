@@ -1,7 +1,7 @@
 """Small dense linear systems A X = B, solved by LAPACK directly.
 
 For matrices of a few rows `numpy.linalg.solve` spends most of its time on checks; dgesv (LU factors
-with partial pivoting) is called without them. Control laws call these two functions by name: the
+with partial pivoting) is called without them. Control laws call `solve` and `solve_positive` by name: the
 tracer, which turns laws into machine code, knows them and generates unrolled code in their place.
 
 SciPy's module of LAPACK is loaded alone, as the package around it takes a third of the time of a short walk.

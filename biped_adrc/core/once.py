@@ -65,6 +65,7 @@ def constant(x: object) -> bool:
     cls: Any = type(x)
     names = getattr(cls, "__dataclass_fields__", None)
     if names is None:
+        # _PLAIN: classes whose values cannot change, such as float and str
         return isinstance(x, _PLAIN)
     # a part with a memory has been found constant before
     if not (hasattr(x, "_constant") or vars(x).get("_once")):

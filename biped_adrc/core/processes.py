@@ -136,6 +136,7 @@ def _begin() -> None:
             os._exit(1)
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    bytearray(KEPT)  # allocated and freed at once, for its effect on glibc; see KEPT
+    # allocated and freed at once: glibc then keeps memory that is freed later for the worker
+    bytearray(KEPT)
     gc.freeze()  # the search for garbage writes into all other objects, and pages written to are not shared
     Thread(target=end_with_parent, daemon=True).start()

@@ -214,6 +214,7 @@ def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
         result = signature(make).parameters
     except (TypeError, ValueError) as error:
         raise InputError(f"{error}; expected a class or a function written in Python") from error
+    # _VARIADIC: the kinds of *args and **kwargs, which name nothing
     return MappingProxyType({name: p for name, p in result.items() if p.kind not in _VARIADIC})
 
 

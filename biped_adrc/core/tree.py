@@ -151,7 +151,10 @@ def returned_tree(
 
 
 def _or_none(found: Any, layout: Layout | None, part: object, method: str, finite: bool) -> Any:
-    """Check a part of a tree as `returned_tree` checks the whole; a part may also be None, without numbers."""
+    """Check a part of a tree as `returned_tree` checks the whole; a part may also be None, without numbers.
+
+    layout: of this part at the start of the run; None: any is right.
+    """
     if found is None and (layout is None or layout.kind is type(None)):
         return None
     return returned_tree(found, layout, part, method, finite)

@@ -198,7 +198,9 @@ class Windowed(Disturbance):
 
     @derived
     def end(self) -> float:
-        """Time from which the torque is zero [s], counted as `start`: `stop`, or later where edges rise."""
+        """Time from which the torque is zero [s], counted as `start`: here `stop`; a subclass whose
+        torque falls along a ramp after `stop` returns the end of the ramp.
+        """
         return float(self.stop)
 
     def onset(self, t_start: float) -> float:
@@ -206,6 +208,7 @@ class Windowed(Disturbance):
 
         t_start counts only where the window has a `step`.
         """
+        # support: `step` as a float, 0 for None
         return 1.0 * (self.support > 0) * t_start + self.start
 
     def acts(self, t: float, step: int, t_start: float) -> float:

@@ -5,7 +5,7 @@ force has the world's axes, not the link's. It enters the unactuated row too, so
 (Westervelt, Grizzle, Canudas de Wit, IEEE CDC 2003): the speed of walking changes, and an outer loop such as
 `control.stride` has to bring it back. The force of the ground is m (p_com'' - g) - F, with p_com the COM. J is
 that of the plant: a plant with model errors has other geometry than the nominal robot, and the push acts on
-what walks.
+what walks. step is the number of the single support, from 1, and t_start [s] the time at which it began.
 
 `OnLink` has (F_x, F_z, M) of a wave: a pulse, a step, a sine, noise, or any other `Windowed` of amplitude (3,).
 The wave is a function of time that knows nothing of links: its `torque` gives three numbers in place of n
@@ -80,6 +80,7 @@ class OnLink(Disturbance):
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         """zeta = J(q)' (F_x, F_z, M) (n,) [N m], with the three numbers of the wave at t."""
+        # AT_REST: zeros for q and q', which a wave does not read
         return wrench_torque(self.point, q, self.wave.torque(t, step, t_start, *AT_REST))
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:

@@ -1,7 +1,8 @@
 """Torques over a window of time: a pulse, a step, a sine, band-limited noise.
 
 zeta (n,) [N m] is the torque on all n coordinates, amplitude (n,) [N m] its size, t [s] the time, and start,
-stop [s] the ends of the window, the onset being its beginning.
+stop [s] the ends of the window, the onset being its beginning. step is the number of the single support,
+t_start [s] the time at which it began.
 
 `TorquePulse` is constant over a window; it rises and falls at once (vertical edges) or with a finite slope:
 

@@ -191,6 +191,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
             raise
         status, detail = simulator.status_of(error)
         x, start = np.concatenate((case.q, case.v)), case.mode.start
+        # no times of impacts and no states before them; it ends at `start`, where it begins
         none = np.zeros((0, len(x)))
         walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
         return lambda: walked
@@ -237,6 +238,7 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:  # memory for the rows of so many single supports
+        # _AT_ONCE = 25: most single supports for whose nodes memory is taken at a time
         run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
     # parts: rows (t, x-, x+) of the impacts; rows: those of the table; left: impacts that are still to be made
     status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts
@@ -268,5 +270,6 @@ def strides(
     single support `mode`. t_end [s]: longest duration of one single support.
     """
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        # 1: each ends after one impact
         runs = [pool.submit(_strides, compiled, x, m, m.start + t_end, 1) for x, m in starts]
     return [run.result() for run in runs]

@@ -80,7 +80,7 @@ class Call:
         """The outputs (outputs,) for the inputs in `inp`, as a read-only copy."""
         self._function(*self._at)
         out = self.out.copy()
-        out.setflags(write=False)  # once, for all the views that are handed out
+        out.setflags(write=False)  # parts of it that are handed out are read-only then, too
         return out
 
     def rows(self, inp: Array) -> Array:
@@ -183,7 +183,9 @@ class CompiledBiped(Biped):
         return self._made[method](*arguments)
 
     def reduction(self, q: Array, v: Array) -> Reduction:
-        """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
+        """The terms of (11)-(15), such as kappa and xi of q_b'' = kappa u + xi for the joints q_b with motors,
+        at q (n,) [rad], v (n,) [rad/s].
+        """
         return cast(Reduction, self._called("reduction", q, v))
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
@@ -232,6 +234,7 @@ class CompiledReference:
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
         """The point at t [s], q (n,) [rad], v (n,) [rad/s]."""
+        # known: (t, q, v, point) of a sample instant for which it was computed already, or None
         known = self.known
         if known is not None and q is known[1] and v is known[2] and t == known[0]:
             return known[3]
@@ -250,6 +253,7 @@ def compiled_references(part: object, n: int, references: list[CompiledReference
             references.append(CompiledReference(part, n))
             return references[-1].twin
         return part
+    # classes, which count as dataclasses too, and robots have no references in them
     if not is_dataclass(part) or isinstance(part, type | Biped):
         return part
     values = {f.name: getattr(part, f.name) for f in fields(part) if f.init}

@@ -90,7 +90,7 @@ class SymbolicLoop(NamedTuple):
 
     @property
     def exact(self) -> bool:
-        """Whether the controller's model is the plant."""
+        """Whether the controller's model is the plant; joint friction is in no model of a controller."""
         return self.numbers.model is None and not self.plant.friction
 
     @property
@@ -120,7 +120,10 @@ class SymbolicLoop(NamedTuple):
         return np.array([minimum(maximum(x, -limit), limit) for x in u], dtype=object)
 
     def jumped(self, fires: float, s: Any, m: Measurement) -> Any:
-        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is."""
+        """s after the controller's jump to the measurement m where `fires` is 1, else s as it is.
+
+        fires: 1 at a tick at which the controller notices a touchdown, else 0.
+        """
         return self.trace(chosen)(fires, self.calls.jump(s, m, self.swap), s)
 
     def foot_forces(
@@ -191,7 +194,12 @@ class SymbolicFunction(NamedTuple):
 
 @dataclass(frozen=True)
 class Equations:
-    """The functions of walkers of one structure; each of the methods below traces one of them."""
+    """The functions of walkers of one structure; each of the methods below traces one of them.
+
+    `at()` makes the symbols of the inputs: `inp`, all of them as one column; `does(f)`, what a function f of
+    `semantics` gives for them; and their `loop`, whose `lost` is the least pivot. `function(inp, ..)` makes a
+    compiled function of the inputs and of expressions as outputs.
+    """
 
     layout: Layout
     """Layout of a state x."""
@@ -218,13 +226,16 @@ class Equations:
         (_, K), trace = self.symbols, Tracer()
         plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         law, held = trace.on_symbols(K.controller), trace.on_symbols(K.held) if K.held else None
+        # the controller's methods, each to be copied for symbols where it is called
         calls = ControlLaw(*(partial(apply, trace, getattr(law, x)) for x in ControlLaw._fields))
+        # []: no torque is computed yet
         return SymbolicLoop(plant, model, K, trace, calls, held, self.layout, [], zeta, force)
 
     def at(self) -> SymbolicInstant:
         """Make the symbols of the inputs (t, step, t_start, x, zeta, force), in this order, and a loop for
         them."""
         n = self.numbers.plant.n
+        # OUTSIDE: the two numbers of `force`
         inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
         return SymbolicInstant(inp, self.loop(inp.take(n), inp.take(OUTSIDE)), t, x, mode)
@@ -272,6 +283,7 @@ class Equations:
         if len(x) != self.nx:
             name = type(self.numbers.controller).__name__
             raise Located(f"{name}.jump gives a state of another size than initial_state")
+        # lost: the least pivot, or -1 where a torque is beyond the bound
         return self.function(inp, x, loop.lost)
 
     def events(self) -> SymbolicFunction:
@@ -288,6 +300,8 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The change of coordinates x -> (w, E) of the exponential method, as an object on symbols."""
+        # symbols is (K, the walker's numbers with symbols in place of floats)
+        # symbols: (the vector K, the numbers with K's symbols in place of floats)
         return trace.on_symbols(self.symbols[1].split)
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
@@ -315,7 +329,7 @@ class Equations:
         """
         at = self.at()
         w, E = self._coordinates(at.x)
-        form = self._split(at.loop.trace)
+        form = self._split(at.loop.trace)  # the change of coordinates x -> (w, E), on symbols
         N = at.loop.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
         return self.function(at.inp, *N, at.loop.lost)
 

@@ -2,15 +2,16 @@
 
 CasADi lists the instructions of an expression in order, common subexpressions taken out; `straight_line` gives
 each value a place of its own, its index in a list, and a language has a pattern for each operation (here and in
-`extras.export.c_text`). Nothing is re-ordered by value, so every language computes the same numbers.
+`extras.export.c_text`). Every language keeps the order of sums and products, and so computes the same numbers.
 
     pattern     one line, or several in a row
-    {a} {b}     the operands;  {c} the third one, of CHOICE
+    {a} {b}     the operands;  {c} the third one, which only CHOICE has: b where a is not 0, else c
     {0} {1}     the values of the lines before it in the pattern
 
-LLVM's language is here, for `void f(double* K, double* inp, double* out)`: second stage of the compiler,
-between `engine.symbols` and `engine.machine`. No operations are fused into multiply-adds, so that the numbers
-of a function do not depend on what else is compiled with it.
+LLVM's language is here, for `void f(double* K, double* inp, double* out)` with the parameters K, the numbers
+inp that change from call to call, and the results out: second stage of the compiler, between `engine.symbols`
+and `engine.machine`. No operations are fused into multiply-adds, so that the numbers of a function do not
+depend on what else is compiled with it.
 """
 
 from __future__ import annotations
@@ -67,6 +68,7 @@ def straight_line(function: SymbolicFunction) -> list[Operation]:
             result.append(Operation(code, (of[0], o[1])))
         elif code in _PATTERNS or code in (ca.OP_INPUT, ca.OP_CONST):
             number = f.instruction_constant(i) if code == ca.OP_CONST else 0.0
+            # _choice: CHOICE for a sum that is one, in CasADi's form (b if a, else 0) + (c if not a, else 0)
             one = _choice(result, of) if code == ca.OP_ADD else Operation(code, of, number)
             # an equal operation before it has the same value, and its place serves for both
             work[o[0]] = places.setdefault(one, len(result))

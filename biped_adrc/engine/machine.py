@@ -111,6 +111,7 @@ def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
+    # never freed: runs hold addresses of their functions
     _ENGINES.append(engine)
     addresses = {name: int(engine.get_function_address(name)) for name in names}
     return LoadedCode(addresses, text)
@@ -122,6 +123,7 @@ def _path(key: str) -> Path:
     Code in it is executed, so the folder has to be the user's own: raises OSError for a relative path, which
     could lead into a folder of somebody else's files.
     """
+    # VARIABLE: name of the environment variable that states another folder
     named = os.environ.get(VARIABLE, "").strip()
     folder = Path(named or user_cache_path("biped_adrc", appauthor=False))
     if not folder.is_absolute():
@@ -138,6 +140,7 @@ def fetch(key: str) -> bytes | None:
         data = _path(key).read_bytes()
     except OSError:
         return None
+    # CHECK = 32: bytes of the checksum at the beginning of the file
     check, code = data[:CHECK], data[CHECK:]
     return code if hashlib.sha256(key.encode() + code).digest() == check else None
 

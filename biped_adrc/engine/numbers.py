@@ -91,4 +91,5 @@ def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> Walke
     """
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
+    # None: no model but `robot` itself
     return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)

@@ -105,6 +105,7 @@ class CompiledLoop(SteppingLoop):
         `tick`."""
         assert self.program is not None
         code, nx = self.program.machine, self.program.nx
+        # numbers of inputs (t, step, t_start, x, zeta, OUTSIDE = 2 forces) and of outputs
         return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:

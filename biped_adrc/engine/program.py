@@ -82,6 +82,7 @@ class Program:
         """Names of the functions that this walker needs, each a method of `Equations`: `tick` in sampled time,
         the last three for the exponential method.
         """
+        # a plant that moves by itself: sample instants are all that is compiled
         if self.numbers.moves:
             return ["tick"]
         split = [] if self.numbers.split is None else ["to", "back", "remainder"]
@@ -171,7 +172,7 @@ def at_rest(layout: Layout) -> Layout:
     and detector of touchdowns, whatever their classes are, become plain rows of numbers that it carries along.
     """
     # the tail has four parts: own, belief of the detector, sensors, line. Here the numbers of the first three
-    # are one row, `own`
+    # are one row, `own`. Layout(None, (k,), k) is that of a row of k numbers
     q, v, s, tail = layout.parts
     line, none = tail.parts[-1], Layout.of(None)
     own = tail.size - line.size
@@ -212,15 +213,16 @@ class CompiledWalker:
         reference: the curve from which readings of the program take errors; None for a program without
         readings. in_python: whether sample instants and impacts are those of `engine.ticks`, in sampled time,
         so that the controller is not compiled. Compiles functions that are neither in memory nor
-        on disk. Raises NotCompiled where a part or the method cannot be compiled, InputError for a method
-        without coordinates.
+        on disk. Raises NotCompiled where a part or the method cannot be compiled, InputError for an
+        exponential method where the walker has no coordinates for it.
         """
+        # all that does not depend on the disturbance, remembered from earlier calls
         still = _still(walker.undisturbed, method, layout, reference, in_python)
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         codes = [push_code(x, n).addresses["push"] for x in push.terms]
-        # of each term the address of its code and how many numbers it has; `view` keeps the bits of these whole
-        # numbers in a table of floats
+        # of each term PART = 2 numbers, the address of its code and how many numbers it has; `view` keeps the
+        # bits of these whole numbers in a table of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
@@ -302,9 +304,10 @@ def _still(
     fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
     # coordinates, numbers in x, motors, rows of the stiff part E (k, p), and how many numbers of x flow
     fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
+    # LEAST_STEP = 1 mm: a shorter contact of the foot is no touchdown
     fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
     if relaxing is not None:
         # `at` counts from the end of x, so its start is negative; lags: index of the first lagging torque
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
     fields |= {name: program.address(name) for name in FUNCTIONS}
-    return _Still(program, tables, fields, {})
+    return _Still(program, tables, fields, {})  # {}: no plan has been made yet

@@ -76,6 +76,7 @@ def simulate_by(
     run_options, why = RunOptions(**options), {}
     if engine == COMPILED:
         try:
+            # with the integration step in the text of a walk that ran away
             return _with_step(run_compiled(walker, x0, mode, method, run_options), method)
         except ModelError as error:
             why = {"why": f"{error}; Pinocchio was used instead"}
@@ -154,6 +155,7 @@ def simulate_compiled(
         for t, *x in strikes:  # one row (t, x-, x+), or none
             outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
             event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
+        # TERMINAL: status -> name of the event function that ends a run so
         if status in TERMINAL:
             event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
         at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
@@ -179,6 +181,7 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail
+    # ONWARD: how long Python goes on [s]; STORE: each so many steps a node is stored
     options = RunOptions(run.t_end + ONWARD, run.t_end, store_every=STORE)
     try:
         result = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)

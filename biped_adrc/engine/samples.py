@@ -113,7 +113,7 @@ class CompiledWalk:
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
             look = compiled.program.reading(step_reading).addresses["reading"]
-            run.keep(walker.max_step_time, 1, look)
+            run.keep(walker.max_step_time, 1, look)  # the nodes of one arc
         assert walker.disturbance is not None
         # addresses (8 bytes a number) where the kernel writes torque and force. The last term of the
         # disturbance is the `AddedForce`: the kernel counts it among the terms only while it is not zero
@@ -174,6 +174,7 @@ class PythonWalk:
         loop: a walker of `with_inputs`, or the `SteppingLoop` of such a walker around another plant. outside
         (p + 2,): the array of torque and force of `with_inputs`.
         """
+        # places: (array to be written, which of the p + 2 inputs go there); all of them into `outside`
         p, places = loop.plant.p, [(outside, slice(None))]
         if isinstance(loop, Walker):
             loop, _ = compiled_plant(loop)  # without the list of its compiled references
@@ -305,7 +306,7 @@ class SampledWalks:
         ends = self._kernels.samples(walks, len(self.all), self.rows.shape[1], *states)
         over = list[tuple[int, ClosedLoop[Any], Arc]]()
         for i, walk in self._in_python():
-            if self.codes[i] == 0:
+            if self.codes[i] == 0:  # the walk goes on; below 0 it has not begun, above it has ended
                 after, status, arcs = walk.sample(self.inputs[i])
                 self.put(i, after, STATUS.index(status))
                 over += [(i, walk.loop, arc) for arc in arcs]

@@ -43,6 +43,7 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
         numbers = tree.dtype.kind == "f" and not exact
         return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
     # such as a robot or a random generator: code that uses one is refused
+    # REALS, LISTS: classes of floats and of lists; HIDDEN: what code must not depend on
     if isinstance(tree, HIDDEN):
         return "hidden", type(tree)
     if is_part(tree):
@@ -67,7 +68,10 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
 
 @once
 def _of_part(part: Any, exact: bool) -> Hashable:
-    """The structure of a part: its class, and the structures of its fields by name."""
+    """The structure of a part: its class, and the structures of its fields and derived numbers by name.
+
+    exact: whether floats count by their values too, as where they are constants in the code.
+    """
     return type(part), *((name, structure(x, exact)) for name, x in content(part).items())
 
 
@@ -117,4 +121,5 @@ def is_library(module: types.ModuleType) -> bool:
     folder may be among the libraries.
     """
     file = getattr(module, "__file__", None)
+    # LIBRARIES: folders of Python and of installed packages; PACKAGE: that of this one
     return file is None or (file.startswith(LIBRARIES) and not file.startswith(PACKAGE))

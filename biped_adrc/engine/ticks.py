@@ -104,8 +104,8 @@ class PythonTicks:
             self.error, result[:] = error, math.nan
 
     def _tick(self, inp: int, result: Array) -> None:
-        """Write x (nx,) after the sample instant to `result`, from (t, step, t_start, x) at the address
-        `inp`."""
+        """Write x (nx,) after the sample instant to `result` but for its last number, the least pivot, which
+        `_called` writes; from (t, step, t_start, x) at the address `inp`."""
         t, step, start, *x = _numbers_at(inp, 3 + self.nx).tolist()
         result[:-1] = self.walker.tick(t, np.array(x), Mode(int(step), start))
 
@@ -145,6 +145,7 @@ class PythonTicks:
             function(K, inp, row)
             t, step, start = _numbers_at(inp, 3).tolist()
             x = _numbers_at(inp, 3 + nx)[3:]
+            # TERMS: number of arrays in the model's terms
             mode, terms = Mode(int(step), start), Reduction._make(parts[:TERMS])
             # the controller evaluates its reference at these q and v, and gets this point without a second call
             # (`known`: its arguments, which are compared by identity, and the point)
@@ -166,6 +167,7 @@ def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ..
     No memory is given out twice, since a controller may keep its inputs. Blocks of rows are allocated at once.
     """
     while True:
+        # BLOCK = 256 sample instants share one array
         block = np.zeros((BLOCK, sum(map(math.prod, shapes))))
         block.setflags(write=False)
         parts = zip(*parts_of(block, shapes), strict=True)

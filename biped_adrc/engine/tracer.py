@@ -101,7 +101,9 @@ class Tracer:
 
     def __init__(self) -> None:
         """Make the table of replacements for functions of NumPy, math and `linear`."""
+        # Hidden: stands for what has no symbols, and raises NotCompiled where a law uses it
         self.solver, random = SymbolicSolver(), Hidden("random numbers")
+        # NumPy's names of functions of one number -> the same functions of one symbol
         scalars = {name: function_of(theirs) for name, theirs in TWINS.items()}
         numpy = {
             **{name: elementwise(function) for name, function in scalars.items()},
@@ -189,6 +191,7 @@ class Tracer:
         if isinstance(value, tuple | list):  # a list that the law changes would be a memory
             inside = [self.on_symbols(part) for part in value]
             return Unchangeable(inside) if type(value) is list else rebuilt(value, inside)
+        # HIDDEN: classes of what is neither number nor structure
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
         if type(value) is dict:

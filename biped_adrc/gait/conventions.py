@@ -105,11 +105,13 @@ def own_convention(biped: Biped) -> Convention:
     """
     n, p, d = biped.n, biped.p, biped.description
     same = AngleMap(np.eye(n), np.zeros(n))
+    # name, coordinates, map to the paper's angles, outputs, sense, row of the phase
     return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, np.array(d.phase))
 
 
 def of_the_paper(biped: Biped) -> bool:
-    """Whether phase and relabelling of a robot are the paper's, with knees (n = 5) or without (n = 3)."""
+    """Whether phase and relabelling (exchange of the legs' coordinates at impact) of a robot are the paper's,
+    with knees (n = 5) or without (n = 3)."""
     if biped.n not in (3, 5):
         return False
     # without knees, the coordinates 2 and 3 of the paper are left out

@@ -119,7 +119,8 @@ class Curve(Shown, ABC):
     def piece(self, s: float) -> Array:
         """Coefficients (3 p, K) [rad] of the piece at s, for p joints: p rows of h, p of dh/ds, p of d2h/ds2.
 
-        A row has the K coefficients of s^0 .. s^(K-1). At a break they are those of the later piece.
+        A row has the K coefficients of s^0 .. s^(K-1). At a break they are those of the later piece: piece j +
+        1 (stacked[j + 1]) begins at breaks[j].
         """
         a = self.stacked[0]
         # np.where, not an index, since s may be a symbol
@@ -185,7 +186,8 @@ class ControlledCurve(Curve):
         search for a gait starts from this curve, with ends and slopes that make it hybrid-invariant.
         """
         inner = np.linspace(0.0, 1.0, degree - 1)  # from alpha_1 to alpha_(M-1)
-        # alpha_1 = alpha_0 + reach dh/ds at s = 0, likewise at s = 1
+        # abscissae: the coefficients of h(s) = s; by the second, alpha_1 = alpha_0 + reach dh/ds at s = 0,
+        # likewise at s = 1
         reach = cls.abscissae(degree)[1]
         ends = begin + reach * first, end - reach * last
         middle = ends[0][:, np.newaxis] * (1.0 - inner) + ends[1][:, np.newaxis] * inner
@@ -318,6 +320,7 @@ def _raised(t: Array, N: Array, k: int, d: int) -> Array:
 
     t: knots. N (., 4): coefficients of all functions of degree d - 1, one row each.
     """
+    # CUBIC = 3, the degree
     result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]

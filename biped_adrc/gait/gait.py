@@ -143,6 +143,7 @@ class Gait(Shown):
             angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
             # the largest gap; rounded, so that of equal gaps a joint is named and not Theta, which is last
             k = int(np.argmax(np.round(np.abs(angles - goals), 9)))
+            # CLOSES = 1e-3
             yield (
                 bool(abs(angles[k] - goals[k]) <= CLOSES),
                 f"{(*d.joints[:p], 'Theta')[k]} at the {end} of the curve is {angles[k]:.6g} rad, expected "
@@ -169,6 +170,7 @@ class Gait(Shown):
         is a path.
         """
         name = f"{self.name}-{self.preset}.json"
+        # CONTROL: control characters, such as a line break
         if CONTROL.search(name) or name != Path(name).name:
             raise GaitError(f"{name!r} is no name of a file; say where to write the gait")
         return name

@@ -94,6 +94,7 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
     orbit keeps the limits, and is then a domain of attraction.
     """
     # zeta is at least V_max / delta^2 (`orbits.lowest`), so that the step passes the highest point of V_zero
+    # PASSING: the step has to pass the highest point of V_zero
     lower = Bound(orbits.lowest, PASSING, orbits.theta_max)
     upper = Bound(math.inf, UNLIMITED, math.nan)
     # sign 1: the lower bound of zeta by a limit, sign -1: the upper one; the strictest of all limits stay
@@ -154,7 +155,8 @@ def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
         """sign * zeta at which the margin is 0, at each theta; -inf where the margin does not limit this end,
         inf where no zeta keeps it. The largest one is the strictest, for either sign.
         """
-        # moving Theta'^2 = gain (delta^2 zeta - V_zero)
+        # the margin is still + moving Theta'^2, in place of F_0 and F_1; moving Theta'^2 = gain (delta^2 zeta -
+        # V_zero)
         gain = 2.0 * moving(theta) / orbits.inertia(theta) ** 2
         A, B = still(theta) - gain * orbits.potential(theta), sign * orbits.delta**2 * gain
         crossing = -A / np.where(B > 0, B, 1.0)

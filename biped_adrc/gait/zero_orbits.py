@@ -96,6 +96,7 @@ class ZeroOrbits(Shown):
         """
         c = zero.constraint
         inertia = series(zero, zero.inertia)
+        # grid: 401 phases from Theta+ to Theta-, at which a change of the sign of I shows
         delta, values = zero.delta, inertia(grid(zero))
         turns = np.flatnonzero(values[1:] * values[:-1] <= 0.0)
         if len(turns) or not delta > 0.0:
@@ -288,6 +289,7 @@ def _highest(potential: Legendre, theta: Array) -> float:
     # the two neighbours of k, within the grid, enclose the zero
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()
+    # _GRID: number of phases in theta
     for one, other in ((theta[max(k - 1, 0)], theta[k]), (theta[k], theta[min(k + 1, _GRID - 1)])):
         if slope(one) * slope(other) < 0:
             return float(brentq(slope, one, other, xtol=1e-14))

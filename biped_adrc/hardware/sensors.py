@@ -191,7 +191,9 @@ class SampledSensors(Sensor):
         return len(self.random) > 0
 
     def start(self, q: Array, v: Array) -> Sensed:
-        """State at the start: angles without noise, and the true rates, as no difference exists yet."""
+        """State at the start: angles without noise, and the true rates, as no difference exists yet (`fresh`
+        is 1).
+        """
         return Sensed(self.rounded(q), v, 1.0, self.random)
 
     def sense(self, w: Sensed, q: Array, v: Array) -> Sensed:
@@ -213,6 +215,7 @@ class SampledSensors(Sensor):
     def impact(self, w: Sensed, q: Array, v: Array, v_model: Array) -> Sensed:
         """State after an impact to q, v: rates from differences become v_model, others v, all without noise."""
         rate = np.where(self.differences > 0, v_model, v)
+        # 1.0 (`fresh`): no difference is taken at the next tick, so that the rate stays
         return Sensed(self.rounded(q), rate, 1.0, w.r)
 
     def reading(self, w: Sensed, q: Array, v: Array) -> tuple[Array, Array]:
@@ -338,7 +341,9 @@ class PitchSensor(Sensor):
         return Pitch(angle, v[-1] + self.drift, w.off + self.turn, r)
 
     def impact(self, w: Pitch, q: Array, v: Array, v_model: Array) -> Pitch:
-        """State after an impact: a gyroscope feels the jump of the rate; the pitch itself does not jump."""
+        """State after an impact, which led to q, v (n,): a gyroscope feels the jump of the rate, v[-1]; the
+        pitch itself does not jump. v_model, the rates by the model's impact, is for encoders and not used
+        here."""
         return w._replace(rate=v[-1] + self.drift)
 
     def reading(self, w: Pitch, q: Array, v: Array) -> tuple[Array, Array]:

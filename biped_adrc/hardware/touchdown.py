@@ -180,6 +180,7 @@ class FaultyTouchdown(Shown, Touchdown):
 
     def start(self) -> Due:
         """State at the start: no touchdown waits; `done` is 1 where no false detection is planned."""
+        # (waits, due, done, r)
         return Due(0.0, 0.0, float(self.false_at is None), self.random)
 
     def touchdown(self, d: Due, other: float, t: float) -> Due:
@@ -299,7 +300,8 @@ class ByForce(Gated):
     needs_force = True
 
     def start(self) -> _Load:
-        """State at the start: the foot was not free yet, so it must lift off before a detection."""
+        """State at the start, all 0: the foot was not free yet, so it must lift off before a detection."""
+        # free, loaded, since, waits, due: neither free nor loaded, and no touchdown waits
         return _Load(0.0, 0.0, 0.0, 0.0, 0.0)
 
     def notice(self, d: _Load, look: Look) -> tuple[_Load, float]:

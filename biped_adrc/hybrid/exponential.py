@@ -118,16 +118,18 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(h: float, A: Array) -> Array:
-    """The `matrices` of the steps h 2^-level [s], level = 0, 1, .., for A (k, k) [1/s].
+    """The six `matrices` of a step (e^(hA), weights of N, ..) for the steps h 2^-level [s], level = 0, 1, ..
 
-    Returns a read-only array (levels, 6, k, k); the number of levels follows from LEVELS and STABLE.
+    A (k, k) [1/s]. Returns a read-only array (levels, 6, k, k): so many levels that RK4, which goes on from the
+    shortest step, is stable.
     """
     return _phi_levels(h, np.asarray(A, dtype=float).tobytes())
 
 
 @lru_cache(maxsize=64)
 def _phi_levels(h: float, data: bytes) -> Array:
-    """Compute `phi_levels` from A as bytes, by which the results can be cached.
+    """The six `matrices` of a step for the steps h 2^-level [s], (levels, 6, k, k). data: the bytes of A (k, k)
+    [1/s], by which the results can be cached.
 
     It goes from the shortest step up, as each level needs the phi-functions of half its step. `short` is the
     first level with |A| h 2^-level <= 1/2, from which on the series holds; longer steps are doubled.
@@ -136,6 +138,8 @@ def _phi_levels(h: float, data: bytes) -> Array:
     A = np.frombuffer(data).reshape(k, k)
     # fastest: largest |pole| [1/s]; size: |hA|, by its largest sum of a row
     fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
+    # at least LEVELS, and the shortest step at most STABLE / fastest: RK4 is stable at that length, and goes
+    # the rest of the way to a break or an event
     levels = max(LEVELS, 1 + math.ceil(math.log2(max(fastest * h / STABLE, 1.0))))
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
     short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0

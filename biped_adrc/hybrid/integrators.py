@@ -143,6 +143,7 @@ class Adaptive(Checked, Solver):
                 raise StepFailed(f"Adaptive at t = {solver.t:.6g} s: {message}")
             # a torque that chatters makes the steps ever shorter; every CROWDED steps their mean is checked
             if count % CROWDED == 0:
+                # so many steps on the average below CROWDED_STEP [s] are given up
                 if solver.t - mark < CROWDED * CROWDED_STEP:
                     raise StepFailed(
                         f"Adaptive at t = {solver.t:.6g} s: the last {CROWDED} steps took "

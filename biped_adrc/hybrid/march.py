@@ -70,7 +70,7 @@ def lagging(r: Run, t: float, x: Array, h: float, dx: Array) -> None:
     """
     theta = r.lag_speed * h
     copy(x, r.stage, r.nx)
-    relax(r, x, weights(theta)[0], r.stage)
+    relax(r, x, weights(theta)[0], r.stage)  # [0]: P(0)
     flow(r, t, r.stage, dx)
     relax_slope(r, x, -min(theta, 3.0) / h if h > 0.0 else 0.0, dx)
 
@@ -119,7 +119,9 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     N_E.
     """
     # stage a is in r.y_a; stage b, and then c, in r.y_b
+    # HALF, HALF_PHI: e^(hA/2), h/2 phi1(hA/2)
     half, half_phi = matrix(r, level, HALF), matrix(r, level, HALF_PHI)
+    # MIDDLE: weight of N(a) + N(b) in E1
     middle, a, b, nw = matrix(r, level, MIDDLE), r.y_a, r.y_b, r.n_slow
     matvec(r, half, y, r.e_half)
     copy(r.e_half, a, r.nx)
@@ -136,6 +138,7 @@ def exponential(r: Run, level: int, t: float, h: float, y: Array, N: Array, out:
     apply_input(r, half_phi, -1.0, N, b)  # c = e^(hA/2) a + h/2 phi1(hA/2) (2 N(b) - N(E))
     remainder(r, t + h, b, r.N_c)
     # E1, the end of the step
+    # FULL_STEP: e^(hA); FIRST, LAST: weights of N(E) and N(c)
     matvec(r, matrix(r, level, FULL_STEP), y, out)
     apply_input(r, matrix(r, level, FIRST), 1.0, N, out)
     apply_input(r, middle, 1.0, r.N_a, out)
@@ -149,9 +152,10 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
     """Take sub-steps of ETD-RK4 from (t, y0) as near as they come to tb [s], or to the zero of an event
     function in (ta, tb] [s], without passing it.
 
-    guard: its number; -1: towards tb alone, with ta = tb. fb: its value at tb. Binary search: a sub-step
-    h 2^-level of each level is taken or left out. One that ends behind the zero is left out, and its end
-    replaces tb. Results: state and slope x_b, dx_b (nx,) at t_b [s]; t_far [s], f_far: tb and fb at the end.
+    guard: its number; it is above zero at ta, and fb, its value at tb, is not. -1: towards tb alone, with
+    ta = tb and fb unused. Binary search: a sub-step h 2^-level of each level is taken or left out. One that
+    ends behind the zero is left out, and its end replaces tb. Results: state and slope x_b, dx_b (nx,) at t_b
+    [s]; t_far [s], f_far: tb and fb at the end.
     """
     # count: length of the sub-steps taken so far, in units of the finest one; now: the time there [s]
     levels, count, now = r.levels, 0, t
@@ -163,7 +167,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
         further = count + (1 << (levels - 1 - level))
         end = t + further * finest
         if end > ta and end >= tb:
-            continue  # too far
+            continue  # too far; with ta = tb a sub-step may end at tb itself, else tb is behind the zero
         exponential(r, level, now, end - now, y, N, trial)
         if end > ta:
             join(r, trial, x)
@@ -325,7 +329,7 @@ def overdue(r: Run, t0: float) -> int:
 
     It is that of an event function, other than the one that has fired, which is at zero or below there and then
     falls (`values` at t0, `after` just behind): two events fell together, or a reset or the start put it there.
-    None where it fell through zero well before the last event (`passed`), so that its own event is over.
+    One that fell through zero well before the last event (`passed`) does not count, as its event is over.
     """
     copy(r.x0, r.x_e, r.nx)
     watch(r, t0, r.x_e, r.tried)
@@ -353,6 +357,7 @@ def lift(r: Run, t0: float, s: float) -> int:
 
     The limit between both is 3.
     """
+    # retake: the step taken again up to a time inside it; `tried` are the event functions there
     retake(r, t0, t0 + 0.5 * (s - t0))
     copy(r.tried, r.after, r.guards)
     retake(r, t0, s)
@@ -362,7 +367,8 @@ def lift(r: Run, t0: float, s: float) -> int:
         if r.values[guard] == 0.0 > w and w < 3.0 * r.after[guard] and accepts(r, guard, t0):
             return EVENT_LIMIT
     copy(r.tried, r.after, r.guards)
-    code = overdue(r, t0) or crossed(r, t0, t0, s)  # the second only if the first is 0, no event
+    # an event at t0 itself; the earliest one in (t0, s] only if the first code is 0, no event
+    code = overdue(r, t0) or crossed(r, t0, t0, s)
     copy(r.after, r.values, r.guards)
     return code
 
@@ -377,6 +383,7 @@ def event(r: Run, t0: float, t1: float) -> int:
     # before: up to here the step has been searched [s]
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
+        # TOGETHER = 1e-6 s: events closer than this are not told apart
         before = min(t0 + TOGETHER, t1)
         code = lift(r, t0, before)
         if code != 0:
@@ -405,7 +412,8 @@ def event(r: Run, t0: float, t1: float) -> int:
 def arm(r: Run) -> None:
     """Set `values` to the event functions at the start of an arc.
 
-    The one that has just fired differs from zero by round-off alone and is set to zero, as `lift` expects.
+    The one that has just fired differs from zero by round-off alone and is set to zero, as `lift`, which looks
+    for events at the start of an arc, expects. armed = 1: the values are set.
     """
     r.t_arc = r.t
     watch(r, r.t, r.x0, r.values)
@@ -425,7 +433,8 @@ def left(t: float) -> float:
 def keep(r: Run, t: float, x: Array, dx: Array) -> None:
     """Store a node (t, x, x') at t [s], unless this run stores none.
 
-    A compiled run whose r.look is not 0 stores signals as nodes, at every step; in Python r.look is 0.
+    r.look is the address of a compiled function that computes signals, 0 for none and in Python. With it the
+    node has t and the signals in place of x and x', and every step is stored, whatever `every` says.
     """
     if r.every > 0 or r.look != 0:
         node(r, t, x, dx)
@@ -478,6 +487,7 @@ def fixed(r: Run, t: float, t1: float, last: int) -> int:
         exponential(r, 0, t, t1 - t, r.y0, r.N0, r.y1)
         join(r, r.y1, x1)
     else:
+        # sub-steps up to (t_b, x_b), as near to t1 as they come; -1 and 0.0: no event is looked for
         halve(r, -1, t, t1, t1, 0.0)
         classical(r, r.t_b, r.x_b, r.dx_b, t1 - r.t_b, x1)
     if not finite(x1, r.moving):
@@ -537,7 +547,8 @@ def through(r: Run, t_next: float) -> int:
     t0 = t = r.t
     skipped, steps, code = 0, 0, 0  # skipped: steps since the last node
     r.limit = left(t_next)
-    # np.ceil gives a float in both engines; math.ceil would give an int, which has only 64 bits when compiled
+    # LANDING = 1e-9: round-off in the count. np.ceil gives a float in both engines; math.ceil would give an
+    # int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t)
     keep(r, t, r.x0, r.dx0)

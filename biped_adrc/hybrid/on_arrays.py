@@ -8,7 +8,8 @@ vectors, and find breaks, which are sample instants and switching times of input
 Symbols: x state of nx numbers, x' its slope; h integration step [s]; y = (w, E) coordinates of the exponential
 method, w (n_slow,) and the stiff part E (k, c), with w' = N_w, E' = A E + N_E; N = (N_w, N_E) the remainder
 (`hybrid.exponential`). r is a `Run`. A node is a stored instant (t, x, x'), an outcome is (x+, mode+) after an
-event.
+event. A guard is an event function with what its event does, a twin the operation of the same name that is
+compiled.
 """
 
 from __future__ import annotations
@@ -108,6 +109,7 @@ class Run:
         t_b, t_far, f_far           where sub-steps towards an event end: results of `march.halve`
     """
 
+    # for a type checker alone: the arrays are set by name when a run is made
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
@@ -241,7 +243,7 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
 def split(r: Run, x: Array, y: Array) -> None:
     """y (nx,) = (w, E) of the state x (nx,)."""
     w, E = r.form.to(x.copy())
-    y[: r.n_slow], r.block(y)[:] = w, E
+    y[: r.n_slow], r.block(y)[:] = w, E  # block: the part of y that is E (k, c), as a view
 
 
 def join(r: Run, y: Array, x: Array) -> None:
@@ -316,7 +318,7 @@ def passed(r: Run, guard: int, fall: float) -> bool:
 def accepts(r: Run, guard: int, te: float) -> bool:
     """Whether the crossing of zero at te [s] in the state r.x_e is an event; its outcome goes into r.accepted.
 
-    It is none where the guard has no status and its reset returns None.
+    It is no event where the guard has no status and its reset returns None.
     """
     # guard: its number. One with a status (`terminal`) ends the run; any other has a reset
     it, x_minus = r.event_functions[guard], r.x_e.copy()

@@ -148,6 +148,7 @@ def run_arcs(
         # an overflow gives no warning, since it ends the run as NOT_FINITE; `handing_out` adds class and line
         # to an exception of the user's code
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+            # finite_part cuts the arc before its first number that is not finite
             flown = finite_part(fly(t, x, mode, event))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
@@ -184,6 +185,7 @@ def finite_part(flown: FlownArc) -> FlownArc:
     read = {name: rows[good] for name, rows in arc.read.items()}
     kept = replace(arc, t=arc.t[good], x=arc.x[good], dx=arc.dx[good], event=None, read=read)
     detail = flown.detail or f"the state or its slope is not finite after t = {kept.t[-1]:.6g} s"
+    # FAILURES: statuses of a run that failed, which say more than NOT_FINITE
     lost = flown.status if flown.status in FAILURES else Status.NOT_FINITE
     return FlownArc(kept, lost, detail)
 
@@ -260,7 +262,7 @@ def flow_arc(
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if result is None:
-        return FlownArc(record.arc(mode, None), status, detail)
+        return FlownArc(record.arc(mode, None), status, detail)  # None: no event
     return FlownArc(record.arc(mode, result.event), result.status, "", result.outcome)
 
 

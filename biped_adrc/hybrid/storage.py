@@ -106,7 +106,7 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
             if not arcs or f"t{len(arcs)}" in data:  # arrays of an arc more than `meta` has
                 raise ValueError(f"there are events of {len(arcs)} arcs")
         settings = dict(meta["settings"])
-        # both may be missing, and are printed as they are where they are there
+        # both may be missing; where they are there, they are printed, so they have to be texts
         if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
             raise ValueError("its method or engine is not text")
         return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
@@ -139,8 +139,8 @@ def _arc(
 
 
 def _check(arcs: Sequence[Arc]) -> None:
-    """Raise ValueError for arrays that form no arcs: no nodes, shapes that do not fit together, no finite
-    floats, times that go back or do not end at the event.
+    """Raise ValueError for arrays that form no arcs: no nodes, shapes that do not fit together, numbers that
+    are no finite floats, times that go back or do not end at the event.
     """
     end = -math.inf
     for i, arc in enumerate(arcs):
@@ -155,6 +155,7 @@ def _check(arcs: Sequence[Arc]) -> None:
             raise ValueError(
                 f"arc {i} has {t.shape} times, states {x.shape} and others that do not fit"
             )
+        # not of `read`: a signal may be NaN, such as the estimate of xi where there is no observer
         if not all(np.isfinite(values).all() for values in (t, x, arc.dx, *states)):
             raise ValueError(f"arc {i} has NaN or infinity")
         if t[0] < end or np.any(np.diff(t) < 0.0) or (arc.event and arc.event.t != t[-1]):

@@ -164,5 +164,7 @@ class HybridSystem(Shown):
         return None
 
     def relaxing(self) -> Relaxing | None:
-        """The entries of x that RK4 has to integrate exactly; None for none."""
+        """The entries of x that relax to others, such as lagging torques to their commands, and that RK4 has to
+        integrate exactly; None for none.
+        """
         return None

@@ -18,7 +18,7 @@ that tree: `pinned` at the stance foot for single support, `floating` for the im
 takes the numbers of a robot from this class. Use it for the plant and for the controller's nominal model alike;
 they are two objects when the model is wrong. Pinocchio counts the angles of the pinned tree from the ground, so
 the methods below pass T q, with the constant matrix T (n, n) of `pinned`, and map forces back by its transpose
-(k.T.T). A prime is a time derivative.
+(k.T.T in the code, where k is `pinned`). A prime is a time derivative.
 
 At an impact the legs exchange their roles. The coordinates are named by role, so both q and v are relabelled:
 the coordinate of the stance hip gets the angle of the former swing hip, and so on. Two joints that change over
@@ -204,7 +204,7 @@ class Biped(Shown):
                 "for either leg, as between torso and thighs, or one between the legs; give the robot other "
                 "joints, or no motors (--actuated '')"
             )
-        return frozen(np.nonzero(ones)[1])
+        return frozen(np.nonzero(ones)[1])  # the column of the only 1 in each row
 
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property

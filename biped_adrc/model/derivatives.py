@@ -56,6 +56,7 @@ def acceleration_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> Acce
 
     The force is B_s u + delta + zeta, a constant here; friction is included where the biped has it.
     """
+    # T q: the coordinates of the tree that Pinocchio has
     pinned, T = biped.pinned, biped.pinned.T
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
     parts = pinned.data.dtau_dq, pinned.data.dtau_dv
@@ -112,6 +113,7 @@ def pose_function(robot: PlanarRobot) -> ca.Function:
     rest: _Symbols = np.zeros(n, dtype=object)
     t, A = turned(robot.A, x), robot.A
     D, _ = robot.inertia_and_bias(x, rest)  # D_s does not depend on the rates
+    # w: the vectors d of all COMs, weighted by the masses and summed; foot: those of the swing foot
     J_m, J_2 = jacobian(A, t, K.w_re, K.w_im), jacobian(A, t, K.foot_re, K.foot_im)
     foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
     return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])

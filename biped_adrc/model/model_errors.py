@@ -95,6 +95,7 @@ class ModelErrors(Checked, Shown):
         """A copy of `biped` with these errors, the plant. Raises ModelError for an unknown body or joint, or
         legs that become unequal.
         """
+        # FACTORS: mass, com, inertia
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in FACTORS}
         wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:

@@ -45,7 +45,7 @@ def physical_checks(biped: Biped) -> tuple[Check, ...]:
     """Check the laws at 20 random states: one `Check` per law, which holds if its relative gap is at most LIMIT
     everywhere. A NaN counts as violated.
     """
-    laws = largest_gaps(biped, 20, 0)
+    laws = largest_gaps(biped, 20, 0)  # 20 states, drawn with the seed 0
     return tuple(at_most(law, "law", gap, LIMIT) for law, gap in laws.items())
 
 

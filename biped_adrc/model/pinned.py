@@ -128,7 +128,7 @@ class PinnedDynamics:
     def centre_of_mass(self, q: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
         """Position [m], velocity [m/s], acceleration [m/s^2] of the COM, each (x, z) (2,); a = q_s'' (n,)."""
         pin.centerOfMass(self.model, self.data, self.T @ q, self.T @ v, self.T @ a)
-        d = self.data
+        d = self.data  # [0]: of the whole robot
         return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()
 
     def mass_jacobian(self, q: Array) -> Array:
@@ -214,7 +214,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
         name: _moved(tree.links[name], origin.get(name, ZERO))
         for name in (joint.child for joint in joints)
     }
-    ground = {"ground": Link("ground", None, ())}
+    ground = {"ground": Link("ground", None, ())}  # without mass and shapes
     return Tree(f"{tree.name}_pinned", {**ground, **links}, tuple(joints), tree.source)
 
 

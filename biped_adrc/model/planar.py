@@ -130,7 +130,9 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
     frame = frame_index(f.model, link)
 
     def place(q: Array) -> Array:
-        """Position (x, z) (2,) [m] of the point from the stance foot."""
+        """Position (x, z) (2,) [m] of the point x_z of the frame from the stance foot, at q (n,) [rad], by
+        Pinocchio on the floating model f.
+        """
         pin.framesForwardKinematics(f.model, f.data, f.configuration(q))
         return np.asarray(f.data.oMf[frame].act(np.array([x_z[0], 0.0, x_z[1]])))[[0, 2]]
 
@@ -142,12 +144,13 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
 
 
 def hip_point(biped: Biped) -> LinkPoint:
-    """The hip as a point in closed form, of no link: `turn` is 0, so `wrench_torque` ignores a moment there."""
+    """The hip as a point in closed form; of no link, so its b is 0 and `wrench_torque` ignores a moment."""
     return _fitted(biped, biped.hip, np.zeros(biped.n))
 
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkPoint:
     """Fit a `LinkPoint` to its place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
+    # POINT_EXACT = 1e-10: smaller parts of d are round-off
     (d,) = fitted(A, place, POINT_EXACT)
     return LinkPoint(np.ascontiguousarray(A), *per_link(d), turn)

@@ -129,6 +129,7 @@ class PlanarRobot:
         Raises ModelError when it is no planar tree of rigid links.
         """
         n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
+        # _EXACT = 1e-11: largest relative difference to Pinocchio
         d = fitted(A, biped.pinned.points, _EXACT)
         # d (n + 2, n): the COMs, then the swing foot, then the hip
         com, rotor = d[:n], np.zeros(n)
@@ -175,9 +176,10 @@ class PlanarRobot:
 
     @property
     def sparse(self) -> PlanarRobot:
-        """A copy whose K, of symbols, has a plain 0 for each entry that is not `present`, so that its terms
-        vanish from the expressions.
+        """A copy whose K, of symbols, has a plain 0 for each entry that is zero in the robot (not `present`),
+        so that its terms vanish from the expressions.
         """
+        # present: for each entry of K whether the robot's own number is not zero
         numbers: tuple[Any, ...] = self.K
         pairs = zip(numbers, self.present, strict=True)
         # single numbers, such as the mass, stay symbols
@@ -276,6 +278,7 @@ class PlanarRobot:
 
     def potential_energy(self, q: Array) -> Array:
         """Potential energy [J], a number, at q (n,) [rad]; zero at the height of the stance foot."""
+        # [1]: the height times the mass, m z_com
         return self.K.gravity * point(turned(self.A, q), self.K.w_re, self.K.w_im)[1]
 
     def impact(self, q: Array, v: Array) -> Impact:

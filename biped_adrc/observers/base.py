@@ -289,7 +289,8 @@ class ChainObserver(Observer):
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """State z after impact, by a policy; MEASURED keeps xi^ and its derivatives, with the legs swapped.
+        """State z after impact, by a policy: NONE leaves z as it is, RELABEL swaps the legs in it, MEASURED
+        also takes y and dy from the measurement, and MODEL starts anew from y, dy and xi.
 
         swap (p,): the relabelling, entries of (x, -x). y, dy, xi: measured position and velocity, and the
         model's disturbance, after impact; with lead = 1 y is a momentum, and dy has no use. Then xi^ is a

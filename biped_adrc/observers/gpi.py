@@ -84,6 +84,7 @@ class InjectedChain(ChainObserver):
     @property
     def gains(self) -> Array:
         """l_(m+1), l_m, ..., l_0 of (17) in physical units (k,): [1/s], [1/s^2], ..., [1/s^k]."""
+        # self.order is k, the number of states
         return self.scaled_gains * self.scale ** np.arange(1, self.order + 1)
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:

@@ -4,9 +4,9 @@
 
 x_1 is a joint's angle, x_2 its velocity, x_3 its disturbance, kappa u the acceleration that the torques give by
 the nominal model, and y the measured angle. w and r are white with the intensities W [rad^2/s^(2 m + 3)] and R
-[rad^2 s]. The estimate of least variance is the observer (17) with the gains of the algebraic Riccati equation,
-which for a chain are known in closed form: the poles are those of a Butterworth filter of order m + 2 with the
-bandwidth
+[rad^2 s]. The estimate of least variance is the observer (17) of the paper with the gains of the algebraic
+Riccati equation, which for a chain are known in closed form: the poles are those of a Butterworth filter of
+order m + 2 with the bandwidth
 
     omega = (W / R)^(1 / (2 (m + 2))).
 
@@ -63,6 +63,7 @@ class KalmanObserver(InjectedChain):
         """Intensity W = R omega^(2 (m + 2)) [rad^2/s^(2 m + 3)] of the noise that drives the
         chain, from bandwidth and R.
         """
+        # self.order is m + 2, the number of states
         return self.measurement * self.scale ** (2 * self.order)
 
     @cached_property
@@ -82,6 +83,7 @@ class KalmanObserver(InjectedChain):
         k, T = self.order, period
         R = self.measurement / T
         Q = accumulated(k) * self.intensity * T ** (2 * k - 1) / R
+        # accumulated: Q of the module for W = T = 1, the scaled states' Q but for W T^(2 k - 1)
         # C = (1, 0, ..) measures the first state, and in units of R / T its noise has the variance 1
         P = solve_discrete_are(Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
         # the gain P C^T / (C P C^T + 1)

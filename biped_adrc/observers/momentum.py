@@ -58,6 +58,7 @@ class MomentumObserver(InjectedChain):
         Raises InputError for others.
         """
         poles = stable_poles(poles, "a momentum observer")
+        # m, scale, poles
         return cls(len(poles) - 1, mean_bandwidth(poles), poles)
 
     @classmethod

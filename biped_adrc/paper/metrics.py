@@ -66,6 +66,7 @@ def distance(o: Outcome) -> float:
     """
     if not o.walked:
         return math.inf
+    # X_STAR (10,): x* as printed
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
 
 
@@ -75,6 +76,7 @@ def error(pair: Pair) -> AtTwoSteps:
     def ratio(npd: Outcome, adrc: Outcome) -> float:
         return peak_ratio((npd, adrc)) if npd.walked and adrc.walked else math.inf
 
+    # at_two: `ratio` of these outcomes, and of those at half the integration step
     return at_two(ratio, *pair)
 
 
@@ -150,6 +152,7 @@ def speed_error(found: PoincareResult | str) -> AtTwoSteps:
     """|Theta' / Theta'* - 1|: relative difference of Theta' before an impact from that of the paper's x*; NaN
     where no cycle was found.
     """
+    # PRINTED_SPEED: Theta' of x* as printed
     return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / PRINTED_SPEED - 1.0), found)
 
 
@@ -226,6 +229,7 @@ def adrc_counts(cell: PushCell) -> float:
     """1 if under this push of the map the walk under ADRC makes all steps and is feasible, or would be but for
     the impulses at impact; else 0.
     """
+    # COUNTED: feasible, or feasible but for the impulses at impact
     return float(cell.adrc.feasibility.outcome in COUNTED)
 
 
@@ -235,9 +239,10 @@ def quotient(pair: tuple[float, float]) -> float:
 
 
 def periods(found: Mapping[str, float]) -> float:
-    """Period of the gait over the time in which a tracking error decays to the least multiplier that the paper
-    prints [1]. Above 1 a tracking error decays in one walking step to less than that multiplier, which then
-    cannot be one of the tracking error. found: what `runs.jumps` returns.
+    """Period of the gait divided by the time in which a tracking error decays, like exp(-K_d t / 2), to the
+    least multiplier that the paper prints (`longest_step`) [1]. Above 1 it decays in one walking step to less
+    than that multiplier, which then cannot be one of the tracking error. found: {"period": [s], ..}, of
+    `runs.jumps`.
     """
     return found["period"] / longest_step(LEAST_PRINTED)
 
@@ -258,14 +263,14 @@ def headline(r: Runs) -> dict[str, Outcome]:
 
 def adrc_push(r: Runs) -> dict[str, Outcome]:
     """The headline run under ADRC alone, a walk of 25 impacts with the push of the user's plan."""
-    return {"ADRC": r.pair("push")[1]}
+    return {"ADRC": r.pair("push")[1]}  # of (NPD, ADRC)
 
 
 def walks(r: Runs) -> dict[str, Outcome]:
     """The walks in which both controllers are compared (pushed, sampled, with a heavier plant), by "controller,
     name of the walk".
     """
-    every = r.pairs("").items()  # every name begins with an empty word
+    every = r.pairs("").items()  # those whose names begin with "": all
     return {f"{c}, {n}": o for n, pair in every for c, o in zip(CONTROLLERS, pair, strict=True)}
 
 
@@ -305,6 +310,7 @@ def pushed(kind: str, r: Runs) -> dict[str, MemberOutcome]:
 def heavier(r: Runs) -> dict[str, Pair]:
     """The walks (NPD, ADRC) with a plant heavier than the controller's model, by preset and kind of change."""
     result = {}
+    # HEAVIER: by name the errors of a plant that is heavier than the model
     for preset, kind in itertools.product(r.plan.presets, HEAVIER):
         # the walks in the plan's own preset have its name left out
         name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
@@ -362,9 +368,12 @@ def below_least(r: Runs) -> dict[str, Start]:
 
 
 def gains(r: Runs) -> dict[str, tuple[float, float]]:
-    """Pairs of the same gain, of the observer of Table I, with m = 7 states for the disturbance and its
-    derivatives, and of one with m = 1, which has either the same bandwidth or the same delay margin; by name.
-    (17) is the observer's equation.
+    """Gains of two observers, by name: (that of Table I, that of one with m = 1 of the same bandwidth or the
+    same delay margin). m is the number of states for the disturbance and its derivatives, 7 in Table I.
+
+    "gain of (17)": the largest |l_k| [1/s^k] by which the observer (17) corrects a state. "gain from
+    measurement": the largest over all frequencies from an error of the angle to the commanded acceleration
+    [1/s^2].
     """
     result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():

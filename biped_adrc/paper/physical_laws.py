@@ -196,6 +196,7 @@ def numerics_laws(preset: str) -> dict[str, float]:
     """
     # of the run at half the integration step the simulated amplitude alone
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
+    # exponential_order: (order, error) for the poles of Table I times a factor
     etd_table, error = exponential_order(preset, 1.0)
     return {
         "tracking error per unit disturbance on a held joint, simulated [s^2]": simulated,

@@ -70,6 +70,7 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
         return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
+    # COARSE = 1 ms
     return PoincareResult(orbit(COARSE), orbit(0.5 * COARSE), delta**2)
 
 
@@ -105,6 +106,7 @@ def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
     chi = x_minus - x_star  # in rows, so that least squares gives the transpose of Phi
     Phi = np.linalg.lstsq(chi[:-1], chi[1:], rcond=None)[0].T
     magnitudes = np.sort(np.abs(np.linalg.eigvals(Phi)))[::-1]
+    # rtol: singular values below this share of the largest count as 0
     return Regression(magnitudes, int(np.linalg.matrix_rank(chi[:-1], rtol=RANK)))
 
 

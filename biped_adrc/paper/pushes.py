@@ -1,19 +1,19 @@
-"""Pushes on the joints under both controllers, NPD (PD with decoupling of the inertia) and ADRC.
+"""Pushes on the joints under the paper's controllers, NPD (PD with decoupling of the inertia) and ADRC.
 
 A member is one combination of the choices that the paper leaves open, such as amplitude and onset of the push
-(`scenarios.Member`); all were declared before any run. What a push does is separated from what the controller
-does anyway: the error of the pushed step is compared with that of the same walking step without a push
-(`Track.away_from`). The walk starts on the orbit of its gait at the pushed step; peaks are taken of an
+(`scenarios.Member`); all members were fixed in a file before any run. What a push does is separated from what
+the controller does anyway: the error of the pushed step is compared with that of the same walking step without
+a push (`Track.away_from`). The walk starts on the orbit of its gait at the pushed step; peaks are taken of an
 interpolant, since the largest error lies between two stored instants ("nodes"). Each number is computed at two
 integration steps, the one used and half of it: a share of 1 or 0.5 says at which.
 
 Symbols: q_b the p joints with motors, q_d their references [rad], error = q_b - q_d; Theta the phase of the
 gait, Theta' its rate [rad/s]; xi the total disturbance of the joints, xi^ its estimate [rad/s^2].
 
-The map of pushes tries a claim of the paper's section VI: in which phase of the step does a push make which
-controller fall? It is over onset, amplitude and joint pattern, with and without a torque limit
+The map of pushes answers the question of the paper's section VI: in which phase of the step does a push make
+which controller fall? It is over onset, amplitude and joint pattern, with and without a torque limit
 (`scenarios.MapPush`). Every walk is made at two integration steps; if the two end differently the cell is
-marginal, and no claim rests on it. The outcomes of a walk:
+marginal, and no verdict on the paper rests on it. The outcomes of a walk:
 
     feasible    makes all steps within friction, torque limits and without scuffing
     but_impact  the same but for the impact, whose impulse asks for more friction
@@ -87,7 +87,9 @@ class Track(NamedTuple):
 
 
 def track(walk: Walk) -> Track:
-    """The `Track` of the first single support of a walk; its rate is NaN unless it ends with an impact."""
+    """The `Track` of the first single support of a walk: tracking error (K, p) [rad] and its derivative over
+    time, and the rate, Theta' [rad/s] before the impact that ends it, NaN unless it ends so.
+    """
     # states over the first single support, and the event that ended it
     arc = walk.trajectory.arcs[0]
     s = walk.signals.of_step(arc.mode.step)
@@ -98,7 +100,8 @@ def track(walk: Walk) -> Track:
 
 @lru_cache(maxsize=8)
 def scene_in(preset: str | None, gait: str) -> RobotAndGait:
-    """The robot RABBIT in a preset (a set of masses) and one of its gaits, read once for many walks."""
+    """The robot RABBIT in a preset (a set of masses; a scenario of the reproduction always names one) and one
+    of its gaits, read once for many walks."""
     # a scenario needs a controller; which one has no effect on robot and gait
     return RobotAndGait.of(scenarios.by_rk4("NPD", str(preset), gait=gait))
 

@@ -97,8 +97,9 @@ class Headline:
 
 
 def _headline(run: Scenario) -> Headline:
-    """Make a headline run at its integration step, at half and at a quarter of it; at a quarter only the two
-    single supports from the push on, since only the peak error in them is used.
+    """Make the headline run of this scenario (25 impacts with a push) at its integration step, at half and at a
+    quarter of it; at a quarter only the two single supports from the push on, since only the peak error in them
+    is used: so few nodes need no thinning.
     """
     walk = sparse(walk_scenario(run))
     # `halved` is the scenario with half the integration step, which may be a default that the walker decides;
@@ -106,7 +107,8 @@ def _headline(run: Scenario) -> Headline:
     half, late = halved(run, walk.walker), {"first_step": run.pushes[0].step, "impacts": 2}
     # the half of the half
     quarter = walk_scenario(halved(half, walk.walker).replace(run=late)).outcome
-    # with half the integration step nodes are kept at half the distance; walk_laws: violated laws of physics
+    # with half the integration step nodes are kept at half the distance, so that the outcomes differ as those
+    # of all nodes would; walk_laws: violated laws of physics
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
     return Headline(outcome, walk.trajectory, walk_laws(walk))
@@ -242,6 +244,7 @@ def bandwidth_with(margin: float, m: int) -> float:
         result = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
         return float(np.log(result / margin))
 
+    # it lies between 10 and 1e6 rad/s
     return float(np.exp(brentq(excess, np.log(10.0), np.log(1e6))))
 
 
@@ -249,6 +252,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     """The numbers of one observer, from closed forms of its loop, and from a walk on gait (a) with a push on
     all joints, of 30 N m.
     """
+    # w: frequencies [rad/s]
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)  # all are real
     # `on_the_recipe` is a member with this push on gait (b)
@@ -273,7 +277,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
     for preset in plan.presets:
         add("members", preset, member_outcomes, scenarios.members(preset))
-    for c in reversed(CONTROLLERS):
+    for c in reversed(CONTROLLERS):  # ADRC takes longer, so it is first
         add("headline", c, _headline, scenarios.pushed_run(plan, c))
         add("engines", c, engines, *scenarios.engine_runs(plan, c))
     add("numerics", plan.preset, numerics_laws, plan.preset)

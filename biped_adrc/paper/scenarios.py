@@ -96,7 +96,8 @@ class Plan:
 
 
 def on_torso(torque: float) -> Push:
-    """A push on the torso, which no motor drives, with this torque [N m] for 0.2 s in single support 19."""
+    """A push on the torso, which no motor drives, with this torque [N m] for 0.2 s in single support 19
+    (a table of admissible.toml)."""
     return Push(torque=torque, **declared()["torso"]["push"])
 
 
@@ -114,7 +115,7 @@ def by_rk4(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the integration step that its controller needs away from pushes: 0.5 ms under NPD,
     0.05 ms under ADRC. values: replace these.
     """
-    h = _STEPS[controller][0]
+    h = _STEPS[controller][0]  # [1] is the fine one around pushes
     return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
@@ -131,7 +132,7 @@ def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scen
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: gait (a) under the plan's pushes, integrated finely around them."""
     # of the single supports in which a push switches, and of those after them
-    fine = _STEPS[controller][1]
+    fine = _STEPS[controller][1]  # [0] is the usual one
     return by_rk4(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
 
@@ -160,6 +161,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     rising = tuple(push.replace(rise=declared()["walks"]["rise"]) for push in plan.pushes)
     first = min(push.step for push in plan.pushes)
     for c in CONTROLLERS:
+        # [1]: the integration step [s] around the edges of a push
         p, fine = plan.preset, _STEPS[c][1]
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = by_rk4(c, preset)
@@ -171,6 +173,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
         sampled: dict[str, Any] = {"hardware.period": 1e-3, "run.h": 1e-3}
         runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, **sampled)
+        # HEAVIER: by name the errors of a plant that is heavier than the model
         for kind, factors in HEAVIER.items():
             runs[f"heavier, {kind} {c}"] = loose(c, p, run=EIGHT, errors=factors)
         if not plan.quick:
@@ -199,11 +202,13 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         for torque in declared()["torso"]["amplitudes"]:
             late = {"first_step": step, "impacts": 4}
-            # only endings and durations of these are used: their integration step, also NPD's, is COARSE
+            # only endings and durations of these are used: their integration step, also NPD's, is COARSE,
+            # longer than that of `loose`, by which small errors need not be resolved either
             run = loose(c, preset, pushes=(on_torso(torque),), run=late).replace({"run.h": COARSE})
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
         # in the plan's own preset the heavier plant is in `base_runs`
         for kind, factors in HEAVIER.items() if preset != plan.preset else ():
+            # EIGHT: eight impacts
             runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, run=EIGHT, errors=factors)
     return runs
 
@@ -235,7 +240,8 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
     """A walk of three impacts that starts after an impact of gait (a) with `speed` [1] times its rates."""
-    # in a scenario `speed` is the share that is added to the rates
+    # in a scenario `speed` is the share that is added to the rates; loose: with the long integration step
+    # COARSE, 1 ms, since only endings and durations of steps are read
     return loose(controller, preset, COARSE, start={"speed": speed - 1.0}, run={"impacts": 3})
 
 
@@ -285,6 +291,7 @@ class Member:
             "pushes": (push,) if pushed else (),
             "run.first_step": push.step,
             "run.impacts": steps["impacts"] if pushed else 1,
+            # SOLVED, RESET: names of the values for Theta'' in (20), and for the observer at an impact
             SOLVED: self.theta == "solved",
             RESET: "measured" if zero else "model",
             "run.h": steps[controller],
@@ -296,7 +303,8 @@ def members(preset: str | None = None) -> tuple[Member, ...]:
     """The combinations that admissible.toml declares, of all presets if None, always in the same order."""
     factors, fraction = declared()["factors"], declared()["fraction"]
     result = []
-    # i, j choose the levels of choices with three of them, k, m those of choices with two
+    # i, j choose the levels of choices with three of them, k, m those of choices with two: `_levels` gives the
+    # number of the level of each choice by name, `factors` has the levels themselves
     for i, j, k, m in itertools.product(*map(range, (3, 3, 2, 2))):
         at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
         chosen = {name: factors[name][level] for name, level in at.items()}
@@ -313,6 +321,7 @@ def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str,
 
 def on_the_recipe(preset: str) -> Member:
     """Gait (b) under a push of 30 N m on all joints, 0.12 s after the impact, with vertical edges."""
+    # 0.0: rise of the push [s]; "model": the observer starts with xi of the model; "solved": Theta'' in (20)
     return Member(preset, 30.0, 0.12, MOTORS, 0.0, "model", "solved", "recipe")
 
 

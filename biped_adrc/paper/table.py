@@ -197,7 +197,7 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     """
     of_claim = cases(said, r)
     word = said.get("word") or word_of_claim(of_claim)
-    # of a check only the text of its limit, such as "<= 0.01"
+    # a check without name and value, made for the text of its limit alone, such as "<= 0.01"
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
     values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
     values |= _function(said["values"])(r) if "values" in said else {}
@@ -242,6 +242,7 @@ def checks(r: Runs, of_claims: list[Claim]) -> list[Check]:
     for said in packaged("biped_adrc.paper", "checks.toml")["check"]:
         for case in cases(said, r):
             text = ": ".join(filter(None, (case.name, said.get("statement"))))
+            # limit(text) makes a `Check` of a value
             result.append(limit(said["limit"])(text, said["kind"], case.figure.value))
     return [*result, *claim_checks(of_claims)]
 

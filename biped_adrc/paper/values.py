@@ -63,9 +63,9 @@ def of_members(r: Runs) -> dict[str, object]:
     """Extremes over all members, and reasons why their walks under ADRC are not feasible.
 
     solved, printed: peak errors of ADRC by the choice of Theta''. npd, adrc: errors that the push adds;
-    npd_rates: changes of Theta' at the impact after it. why: the reasons but for the impulse at impact. apart:
-    number of walks under ADRC with that impulse as the only reason, count: of all members. steps: impacts asked
-    for.
+    npd_rates: changes of Theta' at the impact after it. why: the reasons but for the impulse at impact, which
+    is a claim of its own. apart: number of walks under ADRC with that impulse as the only reason, count: of all
+    members. steps: number of impacts that each walk is asked for.
     """
     # names of limits -> sentences, of a walk that breaks them: IMPULSE is the limit of the impulse at impact
     every = [o for part in r.members.values() for o in part]
@@ -104,6 +104,7 @@ def of_map(r: Runs) -> dict[str, object]:
     # fates: outcomes of ADRC under the known pushes under which NPD is lost
     fates = [c.adrc.feasibility.outcome for c in m.lost_by_npd(r).values()]
     # whether (NPD, ADRC) are lost; a push of the map is (push, walk under NPD, walk under ADRC)
+    # LOST: fell or ended; COUNTED: feasible, or but for the impulses at impact
     lost = [[o.feasibility.outcome in LOST for o in c[1:]] for c in known]
     return {
         "lost": len(fates),
@@ -192,6 +193,8 @@ def of_starts(r: Runs) -> dict[str, object]:
     failing: all starts below the least speed; passing: those above it from which both controllers make all
     impacts. least: the least speed. passed: number of the passing ones, above: of all above the least speed.
     """
+    # s.least: least speed with which the next impact is reached, as a share of the gait's; s.factor: that of
+    # the start over it
     every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]

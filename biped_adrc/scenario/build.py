@@ -213,6 +213,7 @@ def _passive(s: Scenario, scene: RobotAndGait, known: PassiveCycle) -> Walker:
 
     Raises InputError for values that have no effect without motors.
     """
+    # WITHOUT_MOTORS: beginnings of the names of values that have an effect here
     for name in s.dotted():
         if not name.startswith(WITHOUT_MOTORS):
             raise InputError(f"robot '{s.robot.name}' has no motors, so no {name}; leave it out")
@@ -303,6 +304,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     # a value of the user's that neither the plant nor its ground takes is an error
     all_taken("ground", g.own, {**takes(make), **takes(SoftGround)})
     # `construct` calls a class with those values that it takes; h: integration step of the plant
+    # OF_GROUND: values of the record that SoftGround takes
     options = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": g.engine_step})

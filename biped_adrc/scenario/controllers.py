@@ -12,7 +12,8 @@ plain values; `own` are those of its values that it does not declare, for a clas
 parameters of a constructor, `lacking` those that have neither a default nor a value here. Observers are made by
 their poles [rad/s], or by a bandwidth [rad/s] and an order, the number of extended states.
 
-Wrappers go around it: the policy of `contact`, and those of the registry's kind "around" for which the record
+Wrappers go around the controller: the policy of the record `contact` (what the controller does while the
+contact settles after a touchdown), and those of the registry's kind "around" for which the controller's record
 has a number, such as a prediction [s]. A value that nothing takes is an error, since the user expected an
 effect.
 """
@@ -99,6 +100,7 @@ def _made(place: str, c: ControllerRecord, known: Arguments) -> Controller:
         head = at.partition(".")[0]
         if outer and head in _WRAPPERS:
             raise Misfit(f"{place}.{at}", f"{what} is an outer loop; write {place}.inner.{at}")
+        # _AROUND: values that wrappers take; CONTEXT: arguments that the record does not have
         if head not in _AROUND and at not in used:
             others = [*accepted, *(GAINS if "gains" in accepted else ())]
             text = unknown(at, [x for x in others if x not in CONTEXT])
@@ -138,6 +140,7 @@ def _values(
     record leaves out; they are not used beside poles, which already say what bandwidth and order would.
     """
     accepted, o = takes(make), c.observer
+    # OF_POLES: poles, bandwidth and order of an observer
     settings = {name: x for name in OF_POLES if (x := getattr(o, name)) is not None}
     if o.poles is None:
         settings = {**defaults, **settings}
@@ -168,7 +171,7 @@ def _observer(
     class methods, such as "from_poles"). Of those for which no argument is missing, the one that takes the most
     values is called. Observers name the order m.
     """
-    usual = _default(make)
+    usual = _default(make)  # the controller's default observer
     # ways: functions that make an observer of the class `kind`: makers first, then the class itself
     kind = type(usual) if o.name is None else find("observer", o.name).load()
     ways = [*(getattr(kind, name) for name in getattr(kind, "MAKERS", ())), kind]

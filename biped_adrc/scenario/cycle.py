@@ -81,6 +81,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     """
     gait = RobotAndGait.of(s).gait
     # without motors `known_cycle` fixes method and bounds of the run, so these values have no effect either
+    # NO_MAP, FIXED: names of values that have no effect on the map
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
     useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:

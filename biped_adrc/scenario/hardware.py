@@ -88,6 +88,7 @@ class HardwareRecord(Record):
         values = super()._opened(values)  # type: ignore[operator]
         if not isinstance(values, Mapping):
             return values
+        # PROFILES: name of a profile -> values that it fills in
         profile = PROFILES.get(str(values.get("profile")), {})
         # where both have a table, such as encoders, the profile's entries that `values` lacks are filled in too
         own = {name: values[name] for name in profile if name in values}

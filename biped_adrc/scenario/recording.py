@@ -272,7 +272,7 @@ class Walk(Shown):
             raise InputError("an outcome is of a scenario's walk; take signals, or walk_scenario")
         # before_fall: without the nodes of a fall, in which no tracking error is defined
         run, s = self.trajectory, self.signals.before_fall
-        # the walk of a scenario begins at t = 0
+        # the walk of a scenario begins at t = 0; run.before: the states just before the impacts
         times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
         return Outcome(
             self.scenario,
@@ -295,6 +295,7 @@ class Walk(Shown):
         Its status is then INFEASIBLE and its detail says which limit, when, and by how much; without such an
         instant it is the walk itself. limits None: those of the robot's record.
         """
+        # ground: (friction, its two axes), None on the rigid plant
         run, ground = self.trajectory, self._soft_ground()
         # on soft ground the time [s] in each single support at which a foot has slipped too far
         slipped = None if ground is None else slip_times(run, *ground)

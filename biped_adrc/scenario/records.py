@@ -196,6 +196,7 @@ class Record(BaseModel):
         for name in result.keys() - cls.model_fields.keys():
             if isinstance(result[name], Mapping | Record):
                 raise Misfit(name, unknown(name, cls.names()), known=False)
+            # its description, with the unit that the registry states for this part; `taken` reads x by it
             what = cls._of_part(cls.own_value(name), result.get(cls.SHORT))
             result[name] = what.taken(result[name])
         return result
@@ -381,7 +382,7 @@ def converted(what: Described, x: Any) -> Any:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
-        elif tuple in types and what.in_brackets:
+        elif tuple in types and what.in_brackets:  # a list of numbers with a unit, such as lengths
             return tuple(quantity(word, what.unit) for word in x.split(","))
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)

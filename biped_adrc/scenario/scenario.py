@@ -148,12 +148,13 @@ class GroundRecord(OpenRecord):
         """Integration step [s] of the engine of a plant with soft ground; by default short enough for its
         contact.
         """
+        # at most 0.2 ms, and a tenth of the ground's time constant
         usual = min(LONGEST_PLANT_STEP, _RESOLVED * self.time_constant)
         return usual if self.plant_step is None else self.plant_step
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        """Raise Misfit for a range of stones that is none."""
+        """Raise Misfit unless stone_range, if any, is two lengths, the least above 0 and first."""
         ends = self.stone_range
         if ends is not None and not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
             raise Misfit("stone_range", f"is {ends}, expected the least and the largest length [m]")

@@ -175,7 +175,8 @@ class Stepper:
         else:
             self.why = "the plant moves by itself"
         walk: CompiledWalk | PythonWalk | None = None
-        # of the compiled walk the nodes are kept (last argument) only if single supports are to be judged
+        # curve: the gait, from which errors are read; of the compiled walk the nodes are kept (last argument)
+        # only if single supports are to be judged
         if not self.why:
             try:
                 walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.within is not None)
@@ -201,7 +202,10 @@ class Stepper:
         return self.sample
 
     def move(self) -> None:
-        """Move the walks that go on by one sample as `step` does, without its checks; renews `over`."""
+        """Move the walks that go on by one sample as `step` does, without its checks; renews `over`, a list of
+        (number of a walk, judgement of a single support of it that ended in this sample).
+        """
+        # compiled: whether a single support ended in machine code; in_python: (walk, loop, arc) of other ends
         compiled, in_python = self.walks.move()
         self.over = self._judged() if compiled and self.within is not None else []
         self.over += [(i, self._needed(i, loop, arc)) for i, loop, arc in in_python if self.within]
@@ -213,6 +217,7 @@ class Stepper:
         result, within = list[tuple[int, Support]](), cast(Limits, self.within)
         for i, walk, impacts, ended in self.walks.struck():
             walker, plant = walk.compiled.walker, walk.compiled.walker.plant
+            # impacts: those of this walk in the sample; ended: whether it has ended
             # the nodes since the last single support that was judged; n.steps are the numbers of the single
             # supports in them, n.edges the index of the first node of each
             n = Nodes(walk.run.rows(), plant.n, plant.p)
@@ -252,6 +257,7 @@ class Stepper:
         (`within`), for one that was saved by a stepper that does not.
         """
         walker, walk, code = snapshot
+        # at[2]: the state; a row has time and number of the single support before it
         size, expected = len(walk.at[2]), self.walks.rows.shape[1] - 2
         if self.walks.rows.size and size != expected:
             raise InputError(f"the walk has {size} states, expected {expected}")

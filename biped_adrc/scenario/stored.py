@@ -114,6 +114,7 @@ def _signals(arrays: Mapping[str, Array], walker: Walker, trajectory: Trajectory
     """
     rows, plant = sum(len(arc.t) for arc in trajectory.arcs), walker.plant
     # wide: name of a signal -> number of its columns; a signal that is not in it has one number per row
+    # signals with columns x and z, with one per coordinate, with one per joint
     wide = dict.fromkeys(_OF_TWO, 2) | dict.fromkeys(OF_COORDINATES, plant.n)
     estimates = [name for name in arrays if name.startswith("xi")]
     wide |= dict.fromkeys((*OF_JOINTS, *estimates), plant.p)

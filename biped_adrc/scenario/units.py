@@ -40,7 +40,7 @@ SYMBOLS = _WHOLE | {
 """All units by symbol, with prefix and without."""
 
 ANY = "any"
-"""Unit of a value that only a part of the user's own knows."""
+"""Unit of a parameter of the user's own class that states none: any unit is taken."""
 PLAIN = ("", "1", ANY)
 """Units that no message and no label shows."""
 
@@ -78,7 +78,7 @@ def quantity(text: str, unit: str) -> float:
 def own_quantity(text: str, unit: str) -> float | str:
     """Convert a number with its unit, such as "2 mm", to a number in `unit`; any other text stays as it is.
 
-    It reads values that only a part of the user's knows, and these may be texts: so "5" stays a text too.
+    For parameters of the user's own classes, which may be texts: so "5", without a unit, stays a text too.
     Raises ValueError where the unit does not fit. With `ANY` (the result is then in SI units) nothing is
     raised, and a text such as "3 times", whose last word is no unit, stays as it is.
     """

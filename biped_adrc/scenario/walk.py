@@ -132,6 +132,7 @@ def walk(
         walker = shared(walker, slope=getattr(plant, "slope", gait.slope if gait else 0.0))
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
+        # {}: no further values for the plant's constructor
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = fastest_loop(walker, moved, engine, first_step)
         check_start(*start, walker)

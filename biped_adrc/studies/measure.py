@@ -181,6 +181,7 @@ class Limit(Measure):
 
         It is at most MOST_EXCESS; where the bound is 0 it is the distance itself, in the unit of the column.
         """
+        # a bound below 1e-12 counts as 0
         scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
         return min(max(self.sign * (x - self.bound) / scale, 0.0), MOST_EXCESS)
 

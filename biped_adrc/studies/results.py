@@ -261,6 +261,7 @@ class Results(Shown):
         results = dict[tuple[str, str], list[Result]]()
         for result in self.results():
             # walks of a study without a search have no set
+            # NO_WALK: statuses of what was no walk
             if result.at.get("set", "test") == "test" and result.row["status"] not in NO_WALK:
                 where = _name(result.at), str(result.at.get("condition", ""))
                 results.setdefault(where, []).append(result)

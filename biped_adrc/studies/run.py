@@ -112,6 +112,7 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
     # size: how many walks are in memory together, by the longest of them
+    # _AT_ONCE = 160: most impacts in memory together
     size, rows = max(1, _AT_ONCE // max(impacts, default=1)), list[WalkRow]()
     for i in range(0, len(trials), size):
         some = trials[i : i + size]
@@ -209,6 +210,7 @@ def counted(n: Nodes, tracked: Nodes, found: Feasibility, soft: bool = False) ->
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     # totals: largest and rms error, of `tracked`; rms torque, work and net work, of all nodes. The ratio of
     # impulses is None without an impact
+    # OF_TOTALS: columns that are sums over the nodes; JUDGED: those that `Feasibility` has
     return {
         **dict(zip(OF_TOTALS, (*totals(tracked)[:2], *totals(n)[2:]), strict=True)),
         "outcome": outcome,

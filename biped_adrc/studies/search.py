@@ -110,7 +110,7 @@ def _variable(name: str, value: Any) -> Variable:
     beside = keys.pop("when", {})
     when = by_entry(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
-        choices = read_list(name, keys["choices"], 2)
+        choices = read_list(name, keys["choices"], 2)  # two at least
         return Variable.model_validate({**keys, "choices": choices, "when": when})
     return Variable(range=read_range(name, keys), when=when)
 
@@ -293,7 +293,7 @@ def searched(
             new.append(search.judged(base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
         result += sorted(new, key=lambda c: c.number)
-        report(search.ranked(result)[0])
+        report(search.ranked(result)[0])  # the best one so far
         proposals.refine(result)  # to CMA-ES, when TPE's part is spent
     return result
 
@@ -343,6 +343,7 @@ class _Proposals:
         missed limits a number above all of these, and a larger one if no walk was spent on it.
         """
         if any(c.missed) or not c.walked:
+            # _MISSED = 1e30, above every objective
             return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
         return min(self.search.objective.sign * c.objective, _MISSED)
 
@@ -353,6 +354,7 @@ class _Proposals:
         of the best candidate (`fixed`).
         """
         # walked candidates, best first, without the case itself, number 0
+        # TPE's part: the share FIRST_PART of the budget, and at least _SMALLEST of them
         best = [c for c in self.search.ranked(found) if c.number]
         if self.refining or len(best) < max(_SMALLEST, FIRST_PART * self.search.budget):
             return

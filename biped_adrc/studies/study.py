@@ -171,6 +171,7 @@ class Study(Section):
             sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
         samples = 1 if self.draw is None else self.draw.count
+        # named: {"case": .., "condition": ..}; each has as many walks as seeds, one if undrawn or without seeds
         walks = sum(len(self.seeded(self.seeds, named, undrawn)) for _, named in self.sets())
         return walks * samples * math.prod(map(len, self.grid.values()))
 
@@ -246,6 +247,7 @@ class Study(Section):
         """Yield, for each case under each condition, the values that its walks share, by name, and the names
         {"case": .., "condition": ..}. (These are not the sets of walks of a search.)
         """
+        # "": of a study without cases or conditions; `walk_names` leaves such a name out
         for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
             values = self.values_of(case_) | self.conditions.get(condition, {})
             yield values, walk_names(case=case_, condition=condition)
@@ -294,7 +296,8 @@ class Study(Section):
         return frozenset(result)
 
     def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-        """Yield the points that `rehearse` builds of one case under one condition: the values that vary, each.
+        """Yield the points that `rehearse` builds of one case under one condition, each as the values that
+        vary, by name.
 
         values: those that all walks of this case and condition share, by name.
         """
@@ -307,7 +310,7 @@ class Study(Section):
         first = {name: levels[0] for name, levels in axes.items()}
         samples = [{}] if self.draw is None else self.draw.samples()[:MOST_LEVELS]
         # each sample with the first levels; each other level of one axis with the first ones of the others;
-        # then all combinations of the axes that have texts, as two names may not go together
+        # then combinations of the axes that have texts, up to MOST_LEVELS: two names may not go together
         yield from (first | sample for sample in samples)
         for name, levels in axes.items():
             step = math.ceil(len(levels) / MOST_LEVELS)  # of a long axis only each step-th level

@@ -64,6 +64,7 @@ def _environment(package: str) -> Environment:
     environment = Environment(
         loader=loader, autoescape=True, finalize=as_text, trim_blocks=True, lstrip_blocks=True
     )
+    # POLICY: the content security policy
     environment.globals |= {
         "policy": POLICY,
         "style": "report.css",

@@ -17,7 +17,7 @@ The ground is a slope with steps down and up,
 
 The vertical face of a step of the ground ("edge" here) is drawn half way between the footholds on either side
 of it; the walk does not depend on where it is. An arc of a trajectory is one single support; a foothold is
-where its stance foot stands. A placement is a homogeneous transform (4, 4).
+where its stance foot stands, a node a stored instant. A placement is a homogeneous transform (4, 4).
 """
 
 from __future__ import annotations
@@ -72,6 +72,7 @@ class Surface:
 
     def line(self, low: float, high: float) -> Array:
         """Corners (K, 2), x and z [m], of the ground from x = low to high [m]; each edge gives two."""
+        # height(x, True): the level before an edge at x, else the one behind it
         inside = self.edges[(low < self.edges) & (self.edges < high)]
         corners = [(x, self.height(x, before)) for x in inside for before in (True, False)]
         return np.array([(low, self.height(low)), *corners, (high, self.height(high, True))])
@@ -84,6 +85,7 @@ class Surface:
         """
         inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
         cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
+        # True: the level before an edge at b, with which this tile ends
         tops = [((a, self.height(a)), (b, self.height(b, True))) for a, b in pairwise(cuts)]
         return [(np.array(top), math.floor(top[0][0] / TILE) % 2 == 0) for top in tops]
 

@@ -166,9 +166,8 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
             after = m._replace(q=m.q + moved)
         one, other, bare = law.correct(s, m), law.correct(s, after), law.inner.correct(s, after)
         change = np.max(np.abs(bare - law.inner.correct(s, m)))
-        limit = (
-            2e-2 if type(controller) is OutputADRCController else 1e-9
-        )  # q_d moves with q, curved
+        # q_d moves with q, curved
+        limit = 2e-2 if type(controller) is OutputADRCController else 1e-9
         assert np.max(np.abs(other - one)) < limit * change
         away = m._replace(t_step=0.4, q=seen(0.4).q)
         assert np.array_equal(law.output(s, away), law.inner.output(s, away))

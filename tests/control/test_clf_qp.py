@@ -2,8 +2,10 @@
 
 The program chooses y'' = mu with least |mu|^2 + p delta^2 so that V' <= -c V / eps + delta, within limits of
 torque and ground force; V' + c V / eps = psi_0 + psi_1 mu. `decrease` gives V, psi_0 and psi_1, `affine` (`to`)
-u and the ground force as functions of mu, `program` the rows G z <= h of z = (mu, sqrt p delta). `clf_states`
-are measurements at random states about the orbit: errors of `spread` [rad] and 10 times as much [rad/s].
+u and the ground force as functions of mu, `parts` both for a measurement, `program` the rows G z <= h of z =
+(mu, sqrt p delta). `clf_states` are measurements at random states about the orbit: errors of `spread` [rad] and
+10 times as much [rad/s]. c = 1 / (1 + sqrt 3) follows from the Riccati equation; law.relaxation is p, and FREE
+leaves all limits out.
 """
 
 import numpy as np
@@ -52,7 +54,7 @@ def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread)
             return decrease(q[:4] - r.q_d, v[:4] - r.dq_d, law.epsilon).V
 
         rate, (d, _) = (V(h) - V(-h)) / (2 * h), parts(law, m)
-        if d.psi_0 > 0.0:
+        if d.psi_0 > 0.0:  # else mu = 0 already makes V fall fast enough
             size = law.relaxation * (d.psi_1 @ d.psi_1)
             excess = d.psi_0 / (1.0 + size)
             bound = c * d.V / law.epsilon

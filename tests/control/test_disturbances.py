@@ -219,9 +219,9 @@ def sampled(noise, T, h):
 
 
 def test_noise_has_its_power_evenly_below_its_bandwidth_and_none_above():
-    """Of 10 Hz, over 64 s at 64 samples a second: the rms is the amplitude, and the halves below 5 Hz and up to
-    10 Hz have equal shares. The Hann window smears a line by less than 0.1 Hz. Different joints are not
-    correlated.
+    """The noise has a bandwidth of 10 Hz, and is taken over 64 s at 64 samples a second: the rms is the
+    amplitude, and the halves below 5 Hz and up to 10 Hz have equal shares. The Hann window smears a line by
+    less than 0.1 Hz. Different joints are not correlated.
     """
     noise = TorqueNoise([2.0, 0.5], bandwidth=10.0, seed=7)
     h, T = 1.0 / 64.0, 64.0
@@ -237,6 +237,7 @@ def test_noise_has_its_power_evenly_below_its_bandwidth_and_none_above():
 
 
 def test_noise_repeats_by_its_seed_only():
+    """Seed 1 twice gives the same torques, seed 2 others."""
     q = np.zeros(3)
     kept = [
         TorqueNoise([1.0] * 3, bandwidth=5.0, seed=seed).zeta(0.3, 1, 0.0, q, q)
@@ -255,6 +256,7 @@ def test_the_foot_strikes_at_the_height_of_the_ground_below_it(bare, published, 
     and at no node after the swing's highest point was it below that ground before. `bare` is RABBIT without
     rotor inertia, `published` its gait.
     """
+    # a reference that starts at the state after each impact, and goes on past the end of the step
     law = ba.ReferenceReset(ba.NPDController(continued(published.constraint)))
     walker = ba.Walker(bare, law, ground_steps=ground)
     walk = ba.walk(walker, published, 5, ba.RK4(2e-3))

@@ -109,6 +109,7 @@ def test_a_known_force_is_rejected_whatever_it_acts_on(biped, gait, seed):
     itself.
     """
     random = np.random.default_rng(seed)
+    # SLOW: a GPI observer of 500 rad/s; NO_STATE below: no rate, as a momentum has none among the measurements
     zeta = ba.TorqueStep(40.0 * random.normal(size=5))
     q, v = off_orbit(gait, biped, seed)
     idle = Walker(biped, ba.Passive(), zeta)

@@ -227,6 +227,7 @@ def test_a_row_of_a_study_counts_the_infeasible_instants_of_a_barrier(gait):
 
 
 def test_a_controller_without_a_constraint_and_a_zero_tolerance_are_refused(biped):
+    """`Passive` tracks nothing, so the barrier has no path for the foot; a corridor of no width has no room."""
     with pytest.raises(InputError, match="virtual constraint"):
         FootBarrier(ba.Passive(), biped)
     with pytest.raises(InputError, match="tolerance"):

@@ -70,7 +70,9 @@ def test_a_member_ends_at_its_step_length(preset):
 
 
 def test_a_family_comes_back_from_its_file(biped, tmp_path):
-    """The gait of 0.7 m/s and 0.35 m steps, which lies between members that are stored."""
+    """The family read back is equal, and so is its gait of 0.7 m/s and steps of 0.35 m, which lies between the
+    members that are stored.
+    """
     family = load_family("flat", biped)
     family.save(tmp_path / "mine.json")
     again = load_family(tmp_path / "mine.json", biped)
@@ -200,6 +202,7 @@ def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
     push = ba.HipForce(biped, (-14.4, 0.0), steps=(5, 99))
     walk = ba.walk(walker(biped, gait, push, step=0.25), gait, impacts=20)
     assert walk.feasibility.outcome == "feasible"
+    # [2]: the controller's state
     r = walk.walker.split_state(walk.trajectory.arcs[-1].x[-1])[2].own.r
     hip = walk.walker.plant.hip(walk.trajectory.arcs[-1].x[-1][:5])[1]
     assert r == pytest.approx(14.4 * hip, rel=0.1)

@@ -29,7 +29,7 @@ def test_error_matrix_has_the_poles_chosen(poles):
 
 
 def test_table_one_is_what_the_paper_prints():
-    """As whole numbers; and the error matrix of its nine poles is well conditioned.
+    """Rounded to whole numbers the nine poles are those printed, and their error matrix is well conditioned.
 
     The states are scaled by powers of the poles' size: the matrix then has a condition number of 5e6, and
     that of the characteristic polynomial in companion form, with coefficients up to 3e29, one of 3e29.

@@ -90,6 +90,7 @@ def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
     found = []
     for share in (1.0, 0.6):
         x = np.concatenate((*zero.end_state(share * zero.sigma_minus), np.zeros(8)))
+        # strike gives (x+, mode); behind (q, q') x+ has the 8 coefficients of c, a_0 and a_1 of four joints
         found.append(walker.strike(0.0, x, ba.Mode())[0][10:])
     np.testing.assert_allclose(found[0], found[1], atol=1e-10)
     assert np.max(np.abs(found[0])) > 0.1
@@ -116,7 +117,9 @@ def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(
 
 
 def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, published):
-    """Their polynomial is that of a triple root, and gains 10 % off in each direction have a slower pole."""
+    """The polynomial of the loop with the PI's gains is that of a triple root, and gains 10 % off in each
+    direction have a slower pole.
+    """
     response = stride_response(published, bare)
     best = response.gains()
     poles = response.poles(best)

@@ -142,7 +142,9 @@ def test_outputs_that_the_motors_cannot_move_apart(biped, gait, state):
 
 
 def test_outputs_that_do_not_fit_are_refused(biped, gait, state):
-    """Three for four motors; four with the phase among them; a number; three of a function; no numbers."""
+    """Refused are three outputs for four motors, four with the phase among them, a function that returns one
+    number, or three, and one that returns NaN.
+    """
     q, v = state
     phase_itself = np.vstack((np.eye(3, 5), gait.constraint.phase))
     for wrong in (

@@ -100,6 +100,7 @@ def test_on_the_robot_the_error_of_the_predicted_rates_goes_with_the_square_of_t
     for d in (8e-3, 4e-3, 2e-3):
         m = walker.measure(0.0, q, v, ba.Mode())
         law = Predicted(ba.Passive(), d, period=1e-3)
+        # the torques of the ticks that the delay has, all the same
         found = law.ahead(np.tile(u, (round(d / 1e-3), 1)), m)
         exact = {"rtol": 1e-10, "atol": 1e-12}
         x = solve_ivp(flow, (0.0, d), np.concatenate((q, v)), **exact).y[:, -1]
@@ -145,6 +146,7 @@ def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_w
     for k in range(5, 25):
         before, later = (np.searchsorted(arc.t, x - 1e-9) for x in (k * T, k * T + d))
         x, m = arc.x[before], walker.measure(k * T, *np.split(arc.x[before, :10], 2), ba.Mode())
+        # behind q and v stands the law's state, the torques that are on their way
         found = walker.law.ahead(x[10 : 10 + 4 * count].reshape(count, 4), m)
         worst = max(worst, np.max(np.abs(found.v - arc.x[later, 5:10])))
         least = min(least, np.max(np.abs(m.v - arc.x[later, 5:10])))

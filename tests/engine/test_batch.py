@@ -173,8 +173,8 @@ def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
 
 
 def test_a_case_that_does_not_fit_is_an_error(plain):
-    """It is no end of its own run, as above, but raises for the whole batch: the exponential method without an
-    observer, no impacts, a period of 1e-12 s, no threads. An empty batch is none.
+    """It does not end its own run alone, as a fall does, but raises for the whole batch: the exponential method
+    without an observer, no impacts, a period of 1e-12 s, no threads. An empty batch is no error.
     """
     wrong = replace(plain, method=ba.Exponential())
     with pytest.raises(InputError, match="exponential method needs"):

@@ -98,8 +98,8 @@ class Written(ba.Controller):
 
 
 def test_a_controller_that_branches_on_time_runs_in_python_on_a_compiled_model(plant, gait):
-    """It has no machine code, so it is called in Python, with the terms of its model from machine code; the
-    settings of the walk say so and why.
+    """Such a controller has no machine code, so it is called in Python, with the terms of its model from
+    machine code; the settings of the walk say so and why.
     """
     python, compiled = both(plant, gait, Written(), 0.05, disturbance=PUSH)
     assert compiled.settings["engine"] == "compiled model"

@@ -55,9 +55,8 @@ def compare(walker, trajectory, reference):
         column = getattr(expected, field.name)
         assert found.shape == column.shape, field.name
         assert np.array_equal(np.isnan(found), np.isnan(column)), field.name
-        sized = (
-            expected.q if field.name == "error" else column
-        )  # q_b - q_d on the gait is round-off
+        # q_b - q_d on the gait is round-off
+        sized = expected.q if field.name == "error" else column
         size = np.max(np.abs(sized), initial=0.0, where=~np.isnan(sized))
         gap = np.max(np.abs(found - column), initial=0.0, where=~np.isnan(column))
         assert gap <= EXACT * size, (field.name, gap, size)

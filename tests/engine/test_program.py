@@ -82,8 +82,8 @@ def test_terms_and_impact_at_a_thousand_states(robot):
 
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_closed_form_on_numbers_is_pinocchio_s(robot):
-    """The same closed form in Python on numbers (`robot_of`), method by method; those in TUPLES return several
-    terms.
+    """The closed form from which machine code is made, run in Python on numbers (`robot_of`), gives Pinocchio's
+    results, method by method; those in TUPLES return several terms.
     """
     biped = ba.Biped.load(robot)
     planar, random = robot_of(biped), np.random.default_rng(3)
@@ -146,6 +146,7 @@ def test_a_tree_that_is_right_in_one_pose_alone_is_refused(biped, pose):
     """
     robot = robot_of(biped)
     wrong = np.zeros(biped.n)
+    # errors 0.1 (cos a_1, -cos a_0) of the lengths of links 0 and 1: their sum with cos a_0, cos a_1 is 0 here
     wrong[:2] = 0.1 * np.cos(pose * robot.A.sum(axis=1))[1::-1] * (1.0, -1.0)
     off = replace(robot, K=robot.K._replace(foot_re=robot.K.foot_re + wrong))
     with pytest.raises(ModelError, match="the swing foot in absolute angles differs"):

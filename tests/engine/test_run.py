@@ -425,9 +425,9 @@ class Keeping(Controller):
 
 
 def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
-    """Its inputs lie in blocks of 256 sample instants, which must not be used again; all are read-only.
-    `Keeping` keeps them in a list, with the reference now and 0.1 s later, and all are as at their node in the
-    end.
+    """The inputs of a controller in Python lie in blocks of 256 sample instants, which must not be used again;
+    all are read-only. `Keeping` keeps them in a list, with the reference now and 0.1 s later, and all are as at
+    their node in the end.
     """
     reference = Drifting(gait.constraint)
     walker = ba.Walker(biped, Keeping(reference), timing=ba.SampledTime(1e-3))
@@ -446,8 +446,8 @@ def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
 
 
 def test_an_interrupt_is_not_lost(gait, ticked):
-    """Most come while machine code runs, and are raised as the next method is called, before its first line.
-    Alarms after 20 ms and more stand for Ctrl-C; each has to end the walks.
+    """Most interrupts come while machine code runs, and are raised as the next method is called, before its
+    first line. Alarms after 20 ms and more stand for Ctrl-C; each has to end the walks.
     """
     x0 = ticked.initial_state(*gait.start(ticked.plant))
     walk = partial(simulate, ticked, x0, Mode(), ba.RK4(1e-3), t_end=0.2)
@@ -560,7 +560,7 @@ def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, s
 
 
 def test_an_interrupt_within_a_sample_instant_is_raised(gait, ticked):
-    """It ends the program, not only the run as errors do."""
+    """Ctrl-C while a controller in Python runs ends the program, not only the run as errors do."""
     npd = ba.NPDController(gait.constraint)
     walker = replace(ticked, controller=Jumping(npd, raises=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
@@ -772,7 +772,8 @@ class Raising(Controller):
 
 
 def test_a_controller_in_python_that_changes_its_reference(biped, gait):
-    """A copy of the compiled reference with another number runs in Python, and not by the old number."""
+    """`Raising` tracks a curve that it raises by 0.02 t [rad]. A copy of the compiled reference with another
+    number runs in Python, and not by the old number."""
     walker = ba.Walker(biped, Raising(Raised(gait.constraint)), timing=ba.SampledTime(1e-3))
     x0 = walker.initial_state(*gait.start(biped))
     python, compiled = (

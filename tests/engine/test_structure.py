@@ -45,7 +45,9 @@ def value(term):
 
 
 def test_a_class_defined_anew_is_compiled_anew():
-    """As in a notebook cell that is run again: the same name, another factor, and the code follows."""
+    """A class is written again under the same name with another factor, as in a notebook cell that is run
+    again: the machine code has the new factor.
+    """
     own = types.ModuleType("own")
     for factor in (1.25, 1.75):
         exec(f"def f(x): return {factor} * x" + HEAD.format(torque="f(v)"), vars(own))
@@ -104,6 +106,7 @@ def test_the_same_structure_is_compiled_once():
     """Two calls with one key: the function is traced once."""
     made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
+        # `made` counts the calls of the function that would trace it
         generated(once, {"f": lambda: made.append(1) or SymbolicFunction(x, y, y)})
     assert made == [1]
 
@@ -166,8 +169,8 @@ class Linearising(ba.Controller):
 
 
 def test_functions_of_the_package_compile_also_where_it_is_installed(biped, gait, monkeypatch):
-    """As by `pip install .`: the package is then in a folder of libraries (LIBRARIES), and must not be taken
-    for one. The controller is a user's that calls functions of the package.
+    """After `pip install .` the package is in a folder of libraries (LIBRARIES), and must not be taken for one.
+    The controller is a user's that calls functions of the package.
     """
     folder = str(Path(ba.__file__).parents[1])
     monkeypatch.setattr("biped_adrc.engine.structure.LIBRARIES", (*LIBRARIES, folder))

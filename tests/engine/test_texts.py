@@ -56,4 +56,4 @@ def test_without_numba_a_damaged_text_is_refused(damaged, monkeypatch):
     """`find_spec` says here that numba is not installed."""
     monkeypatch.setattr(load, "find_spec", lambda name: None)
     with pytest.raises(ModelError, match=r"demands.ll is damaged .* reinstall biped-adrc"):
-        load.loops.__wrapped__(LOOPS)
+        load.loops.__wrapped__(LOOPS)  # the function without its cache

@@ -41,6 +41,7 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad)
     again.
     """
     loaded, calls = recorded("NPD")
+    # [1:4] of a call: its t, q and v
     for entry in ("t", "q", "v"):
         _, x = loaded.init(loaded.measured(*calls[0][1:4]))
         good = loaded.measured(*calls[1][1:4])
@@ -223,7 +224,7 @@ def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, ga
     """Two states of a controller on the same motion, each with its own torque, part at the rate `growth`, which
     is an eigenvalue of the linear map from tick to tick.
 
-    Of ADRC exponentially, measured over 399 periods of 1 ms; a PD law has no state that could grow.
+    Those of ADRC part exponentially, measured over 399 periods of 1 ms; a PD law has no state that could grow.
     """
     computer = Computer(build(ba.Scenario(name, hardware={"period": 1e-3})))
     law, (q, v) = computer.alone.law, gait.start(biped)

@@ -240,8 +240,8 @@ def test_rounding_of_the_clock_is_no_wrong_step(folder, calls):
 def test_what_is_not_measured_ends_in_the_safe_torque_and_a_touchdown_then_waits(
     folder, loaded, calls
 ):
-    """As in C, the last torque is held for five samples and is then zero. The switch that goes on meanwhile is
-    the touchdown of the first sample that is measured again.
+    """Without a measurement the last torque is held for five samples and is then zero, as in C. The switch that
+    goes on meanwhile is the touchdown of the first sample that is measured again.
     """
     landing = next(i for i, call in enumerate(calls) if call.kind == "touchdown")
     _, x = loaded.init(loaded.measured(*calls[1][1:4]))

@@ -115,7 +115,9 @@ def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
 
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_conventions_place_the_feet_of_a_robot_without_knees(name):
-    """The same for legs of 1 m without a knee: thigh and shin of 0.5 m each, with a straight knee."""
+    """Hip and foot are where the convention's definition (POSES) puts them, for legs of 1 m without a knee: its
+    thigh and shin are 0.5 m each, and its knee is straight.
+    """
     biped = ba.Biped.load("three_link")
     c = convention(name, knees=False)
     for q_own, _ in zip(*random_states(3), strict=True):

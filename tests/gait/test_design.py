@@ -99,7 +99,7 @@ def test_a_step_length_is_met_and_the_impulse_limited(level: DesignedGait) -> No
 
 
 def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> None:
-    """Its slope of 0.06 rad is in the file too, and numbers come back to the last bit."""
+    """The gait's slope of 0.06 rad is in its file too, and numbers come back to the last bit."""
     downhill.gait.save(tmp_path / "downhill.json")
     again = load_gait(tmp_path / "downhill.json", Biped.load("rabbit", "identified-bare"))
     assert again.slope == 0.06

@@ -79,8 +79,9 @@ def test_polynomials_that_are_not_hybrid_invariant(biped, recipe, tmp_path):
 
 
 def test_an_exported_mat_file_has_curves_phase_and_units(gait, tmp_path):
-    """As MATLAB reads it: a row for each motor's joint, FROST's own phase row, and units by name. FROST's hip
-    angles are 2 pi less the paper's, since they count clockwise, and its phase grows where the paper's falls.
+    """The file has, as MATLAB reads it, a row for each motor's joint, FROST's own phase row, and units by name.
+    FROST's hip angles are 2 pi less the paper's, since they count clockwise, and its phase grows where the
+    paper's falls.
     """
     export_gait(gait, tmp_path / "gait.mat", "frost")
     raw = loadmat(tmp_path / "gait.mat")
@@ -259,6 +260,7 @@ def test_gait_of_another_preset(gait):
     ],
 )
 def test_what_is_no_number_is_refused(record, wrong):
+    """wrong: one field of the record and a bad value of it; the error names the field."""
     with pytest.raises(GaitError, match=next(iter(wrong))):
         replace(record, **wrong)
 

@@ -96,6 +96,9 @@ def test_wrong_gait_files_are_refused_by_name(tmp_path, biped, gait, changes):
 
 
 def test_missing_and_unreadable_gaits(tmp_path, biped, gait):
+    """An unknown name is answered with a known one, "published"; no file, a file that is no JSON, and a file in
+    place of a folder are refused.
+    """
     (tmp_path / "text.json").write_text("hello")
     for name, word in (
         ("run", "published"),

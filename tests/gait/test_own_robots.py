@@ -249,6 +249,7 @@ def test_a_fit_that_is_not_exact_closes_with_the_slopes_of_the_impact(step, bipe
 
 @pytest.mark.parametrize("kind", ["mat", "json"])
 def test_samples_in_files(step, kind, biped, gait, tmp_path):
+    """Samples t, q, v of a step in a file give the gait that was walked, which names the file as its source."""
     path = tmp_path / f"step.{kind}"
     if kind == "mat":
         savemat(path, step._asdict())

@@ -25,6 +25,10 @@ EDGE = 1e-6  # share of a step over which end slopes are taken
 
 
 def test_inverse_kinematics_inverts_the_forward_kinematics(biped):
+    """From hip and feet of 200 random poses (LENGTH is that of thigh and shin) it finds the angles q again.
+    Hips count from the torso q5, which the feet do not determine; a leg's angle and its knee do not depend on
+    it.
+    """
     rng = np.random.default_rng(0)
     for q in rng.uniform([2.7, 2.7, -1.5, -1.5, -0.3], [3.7, 3.7, -0.02, -0.02, 0.3], (200, 5)):
         hip, foot = biped.hip(q), biped.swing_foot(q)
@@ -53,7 +57,9 @@ def test_the_feet_and_the_hip_follow_the_recipe(biped):
 
 
 def test_the_step_ends_in_the_pose_of_x_star_and_starts_in_it_relabelled(any_biped):
-    """So that the gait closes in its angles. The published x* has three decimals, hence 5e-4."""
+    """The pose at the end is that of x*, at the start that one relabelled, so that the gait closes in its
+    angles. The published x* has three decimals, hence 5e-4.
+    """
     pose = onto_section(any_biped, X_STAR[:5])
     constraint, _ = recipe_constraint(any_biped, fit_to_x_star(any_biped))
     end, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_minus)
@@ -83,6 +89,7 @@ def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_bi
 
 
 def test_the_design_reproduces_the_stored_file(biped):
+    """Curves, ends of the phase and provenance of gait (b) designed anew are those in the package's file."""
     stored, designed = load_gait("recipe", biped), design_recipe_gait(biped)
     a, b = stored.constraint, designed.constraint
     np.testing.assert_allclose(a.curve.coefficients, b.curve.coefficients, atol=1e-8)

@@ -176,7 +176,9 @@ def test_the_rimless_wheel_has_its_closed_forms(slope):
 
 
 def test_the_lower_end_of_a_curve_that_only_falls_is_a_start_from_rest():
-    """Released beyond the vertical: no V_max to pass, and a finite duration, that of the simulation."""
+    """A wheel that starts beyond the vertical has no V_max to pass: it walks from rest, zeta = 0, in a finite
+    time, that of the simulation.
+    """
     biped, constraint = wheel(0.2)
     constraint = dataclasses.replace(constraint, theta_plus=math.pi - 0.1)
     orbits = orbits_of(biped, constraint)
@@ -189,7 +191,9 @@ def test_the_lower_end_of_a_curve_that_only_falls_is_a_start_from_rest():
 
 
 def test_a_spoke_pushes_along_itself():
-    """The hub flies off when rate^2 > g cos x, first at the end; friction asked for is tan(alpha), always."""
+    """The hub flies off when rate^2 > g cos x, x the angle of the spoke (1 m) from the vertical: first at the
+    end. The friction asked for is tan(alpha), always, with 2 alpha the angle between spokes.
+    """
     slope = 0.2
     orbits = orbits_of(*wheel(slope))
     upper = domain(orbits, DomainLimits(slope=slope)).upper
@@ -271,6 +275,7 @@ def test_report_says_what_does_not_hold(bare, published):
     assert good.walkable
     assert good.text() == REPORT
     o, star = good.orbits, good.zeta_star
+    # steps from k zeta* until zeta is within 1e-3 zeta* of zeta*; `iterate` agrees
     assert [o.steps_to(k * star, 1e-3) for k in (1.0009, 1.0011, 2.0)] == [0, 1, 19]
     assert (
         abs(o.iterate(2.0 * star, 19)[-1] / star - 1.0)

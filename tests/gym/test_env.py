@@ -116,7 +116,7 @@ def test_an_action_of_kind_added_is_added_to_the_torque_of_the_controller(values
     for given in (np.zeros(4), action):
         env.reset(seed=0)
         env.step(-action)
-        torques.append(env.step(given)[0][18:22])
+        torques.append(env.step(given)[0][18:22])  # u of the observation
     assert np.allclose(torques[1] - torques[0], 150.0 * action, rtol=0.0, atol=1e-9)
 
 
@@ -240,6 +240,7 @@ def test_a_learner_sees_what_the_robots_computer_logs():
     """
     hardware = {"profile": "rabbit", "touchdown": {"name": "kinematics"}}
     s = ba.Scenario("NPD", hardware=hardware, run={"impacts": 2})
+    # alive, a part of the reward, has no effect here
     rows, *_, infos = walked(made(scenario=s, action="added", alive=2.0), 0, 999)
     log = logged(ba.walk_scenario(s))
     assert len(log.t) == len(rows) == 554  # the first one is of the reset there

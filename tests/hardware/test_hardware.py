@@ -41,7 +41,7 @@ def steady(rate):
 
 
 def test_a_count_is_never_further_off_than_half_of_one():
-    """Of 100 counts a turn: readings are whole counts, at most pi / 100 rad off; without counts a reading is
+    """With 100 counts a turn, readings are whole counts, at most pi / 100 rad off; without counts a reading is
     the angle itself.
     """
     rounded = Sensors(counts=100.0).sampled(3, 3, T).rounded
@@ -67,9 +67,12 @@ def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
     """The joint rests until 0 and then turns at 1 rad/s."""
     tau = 5e-3
 
+    # T / 2: at the first tick, t = 0, the joint still rests
+
     def path(t):
         return (np.zeros(2), np.zeros(2)) if t <= T / 2 else (np.full(2, t - 0.0), np.ones(2))
 
+    # column 2 of (q1, q2, v1, v2): the rate of the first joint
     rate = ticks(Sensors(filter_time=tau), path, 30)[:, 2]
     assert np.allclose(rate, 1.0 - np.exp(-np.arange(30) * T / tau), rtol=0.0, atol=1e-12)
 
@@ -268,8 +271,10 @@ def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, sh
         correct=lambda s, m: s, output=lambda s, m: new, predict=lambda s, m, u: fed.append(u) or s
     )
     loop = SimpleNamespace(law=law, calls=law, saturate=lambda u: u, bounded=lambda u: u)
+    # no rate limit, no lag, and the fraction 0.3 of a period
     motors = TorqueLine(None, 0.0, 0.3)
     k = SimpleNamespace(known=known, motors=motors)
+    # queue, torque of lagging motors, waiting torque, torque that acts now
     line = Line(np.zeros((0, 2)), None, np.zeros(2), old)
     _, line = semantics.decided(loop, k, np.zeros(0), None, line)
     np.testing.assert_allclose(fed[0], share * new + (1.0 - share) * old)

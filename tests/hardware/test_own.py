@@ -164,6 +164,7 @@ def test_a_sensor_of_one_s_own_has_no_noise_and_its_computer_is_that_of_the_othe
         tilted,
         True,
     )
+    # argument of on_computer: the software of the sensors before it, None where there is none
     pitch = PitchSensor(noise=1e-3)
     both = ba.Sensors(velocity="differences") + pitch
     assert both.on_computer(None) == ba.Sensors(velocity="gyro")

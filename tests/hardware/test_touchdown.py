@@ -97,6 +97,7 @@ def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, ga
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
     arc = walked.arcs[1]
+    # nodes just before and just after the first tick of the arc
     before, after = ticks(arc)[0][0], ticks(arc)[1][0]
     t, x = arc.t[before], arc.x[before]
     assert 0.0 <= t - event.t < T
@@ -189,8 +190,9 @@ def test_missed_ones_come_with_their_probability():
 
 
 def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
-    """Up to one tick of 1 ms; the speed of the foot is taken at the touchdown, by differences, which leaves 0.1
-    to 0.2 ms. The foot is below the height for the first time at the notice.
+    """The notice is early by height over speed, up to one tick of 1 ms; the speed of the foot is taken at the
+    touchdown, by differences, which leaves 0.1 to 0.2 ms. The foot is below the height for the first time at
+    the notice.
     """
     height = 4e-3
     system = walker(biped, gait, ByKinematics(height=height))
@@ -214,6 +216,7 @@ def test_by_kinematics_the_height_is_over_a_ground_that_falls_ahead(slope):
     leaf, x = ByKinematics(slope=slope), 0.4
     d, found = np.inf, []
     for above in (2e-3, 1e-3, -1e-3):
+        # 1.0: 1 s since the last detection; the numbers behind the place are not looked at
         look = Look(0.0, 1.0, np.array([x, above - math.tan(slope) * x]), 0.0, 0.0, 1.0, 0.0)
         d, fires = leaf.notice(d, look)
         found.append(fires)
@@ -267,7 +270,7 @@ def test_by_force_of_a_push_is_newton_s_law(biped, gait):
     system = walker(biped, gait, ByForce(), disturbance=push)
     x = system.initial_state(*gait.start(biped))
     q, v = x[:5], x[5:10]
-    x[-4:] = [10.0, -20.0, 5.0, 15.0]
+    x[-4:] = [10.0, -20.0, 5.0, 15.0]  # torques that act
     stance, swing = system.foot_forces(0.1, q, v, semantics.parts(system, x).tail, Mode())
     a = system.flow(0.1, x, Mode())[5:10]
     slip = 1e-5

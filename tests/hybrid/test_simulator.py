@@ -405,7 +405,7 @@ def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(metho
 
 
 def test_a_run_that_cannot_begin_or_end_is_refused():
-    """A start of NaN, an end after the 0th event, no duration, an end at NaN, a negative step."""
+    """A start of NaN, an end after the 0th event, no duration, an end at NaN, a negative step: all refused."""
     for wrong in (
         lambda: simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0),
         lambda: go(Timer(lambda t: 1.0), stop_after=("g", 0)),

@@ -209,7 +209,8 @@ def test_arrays_that_are_no_log_are_named_by_the_row(arrays, said):
 def test_what_lies_at_the_limits_is_a_log(biped):
     """A row may be half a period late or early, and come soon after a touchdown; the clock is even to 0.1 % of
     the period (0.9991, not 0.9989). An angle may change by half a turn, and by more at a touchdown; two turns
-    and 100 times the peak torque of 150 N m are plausible.
+    and 100 times the peak torque of 150 N m are plausible. log_of(ways): six rows with these times between
+    them, in units of 1/64 s.
     """
     logs = [log_of((1, 1, x, 1, 1)) for x in (1.5, 0.5, 0.9991, 1.0009, 0.9989, 1.0011)]
     assert [x.period for x in logs] == [1.0 / 64.0] * 6
@@ -260,8 +261,8 @@ def test_a_log_of_one_window_is_compared_with_the_model_and_a_shorter_one_is_not
     [("none", "continuous time and has no sample"), ("ideal", "t = 0 s, before")],
 )
 def test_a_walk_without_sample_instants_has_no_log(hardware, said):
-    """Neither one in continuous time nor one that starts at 1e5 rad/s and is ended at t = 0, before it has a
-    sample.
+    """Neither a walk in continuous time has a log, nor one that starts at 1e5 rad/s and is ended at t = 0,
+    before it has a sample.
     """
     walk = ba.walk_scenario(ba.Scenario("NPD", hardware=hardware, start={"v5": 1e5}))
     with pytest.raises(InputError, match=said):

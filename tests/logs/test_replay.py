@@ -275,5 +275,6 @@ def test_another_period_is_resampled_and_said(log):
     ],
 )
 def test_what_cannot_be_replayed_is_refused(log, call, said):
+    """A robot without motors, a gait that does not exist, and a log with three angles of five."""
     with pytest.raises(InputError, match=said):
         call(log)

@@ -92,7 +92,9 @@ def test_the_split_of_any_number_of_motors_is_the_system_solved_whole(p):
 
 
 def test_the_velocity_of_the_swing_foot_is_its_slope(biped):
-    """By central differences of its place; that the place is right is shown in gait/test_conventions.py."""
+    """The velocity is compared with central differences of the foot's place; that the place is right is shown
+    in gait/test_conventions.py.
+    """
     h = 1e-6
     for q, v in states(biped.n, 20):
         slope = (biped.swing_foot(q + h * v) - biped.swing_foot(q - h * v)) / (2 * h)

@@ -28,8 +28,10 @@ def test_the_energies_are_those_of_the_bodies_one_by_one(biped):
     bodies = biped.description.presets[biped.preset].bodies
     q, v = random.uniform(-1.0, 1.0, (2, 5))
     T = V = 0.0
+    # bodies()[2]: the matrix A of the absolute angles a = A q
     rates = biped.pinned.bodies()[2] @ v
-    # links hang from the stance foot: shin, thigh, torso, swing thigh, swing shin
+    # links hang from the stance foot: shin, thigh, torso, swing thigh, swing shin. root: (link, length) of
+    # those between foot and link s; m, c, J: mass, COM and inertia
     for name, rate, (root, s) in zip(
         ("shin", "thigh", "torso", "thigh", "shin"), rates, ROOTS, strict=True
     ):

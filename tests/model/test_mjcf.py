@@ -71,7 +71,7 @@ def projected(path, biped, q, v):
 
 def test_inertia_and_bias_are_those_of_mujoco(own):
     """D_s and Omega of the derived robot against `projected`: MuJoCo's own mass matrix and bias with the stance
-    ankle held at rest. Of Gymnasium's Walker2d and of a robot of this file with other axes, gears and soles.
+    ankle held at rest. The robots are Gymnasium's Walker2d and one of this file with other axes, gears, soles.
     """
     for path in (WALKER2D, own):
         derived = derive(path)
@@ -120,10 +120,8 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     """
     derived = derive(own)
     d = derived.biped.description
-    assert (d.peak_torque, derived.biped.armature) == (
-        30.0,
-        0.03,
-    )  # 60 N m times -1 to 0.5, the weakest
+    # 60 N m times -1 to 0.5, the weakest
+    assert (d.peak_torque, derived.biped.armature) == (30.0, 0.03)
     assert d.ranges["left_knee"] == pytest.approx((-2.0 * np.pi / 3.0, 0.0))
     assert d.viscous["right_hip"] == 0.2
     assert (d.static["right_knee"], d.static.get("right_hip", 0.0)) == (0.3, 0.0)
@@ -200,9 +198,8 @@ def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
     biped = derive(path).biped
     assert biped.description.feet == ("r_foot", "l_foot")
     q = np.array([0.2, -0.3, 0.1])
-    foot = [0.1 + 0.6j, 0.1 + 0.6j] * np.exp(
-        1j * (q[:2] + q[2])
-    )  # x - i z of either foot from the hip
+    # x - i z of either foot from the hip
+    foot = [0.1 + 0.6j, 0.1 + 0.6j] * np.exp(1j * (q[:2] + q[2]))
     np.testing.assert_allclose(biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], atol=1e-12)
 
 

@@ -270,7 +270,9 @@ def test_a_base_that_slides_on_a_slope_turns_the_zero_of_the_pitch(urdf):
 
 
 def test_light_carriages_of_a_base_are_left_out_by_name(urdf):
-    """Two of 0.054 kg on a robot of 11 kg; two of 0.056 kg are more than 1 % of it."""
+    """Two carriages of 0.054 kg on a robot of 11 kg are left out and named; two of 0.056 kg are more than 1 %
+    of it, and are refused.
+    """
 
     def carried(m):
         text = two_legs(SLIDES)
@@ -508,7 +510,9 @@ def check_compass(own):
 
 
 def test_a_sole_is_a_point_at_its_ankle_unless_its_joint_is_named(urdf):
-    """The foot keeps its mass; its joint is welded, and that is said."""
+    """The foot keeps its mass; its joint is welded, and a note for each foot, the left one first, says so. With
+    the joints of the feet named among the motors, the point of the sole has to be named too.
+    """
     axis = '<axis xyz="0 1 0"/><limit effort="30" velocity="8"/>'
     text = two_legs().replace('_tip" type="fixed">', f'_tip" type="revolute">{axis}')
     for side in ("left", "right"):
@@ -525,7 +529,9 @@ def test_a_sole_is_a_point_at_its_ankle_unless_its_joint_is_named(urdf):
 
 
 def test_parts_of_a_urdf_that_are_left_out_are_in_the_notes(urdf):
-    """Tags with how often each occurs, and the joint of the base, which the package makes anew."""
+    """The notes have the tags, with how often each occurs, and the joint of the base, which the package makes
+    anew.
+    """
     text = two_legs('<link name="world"/><gazebo/><gazebo/>' + top("planar")).replace(
         '<link name="left_foot"/>', '<link name="left_foot"><collision/></link>'
     )
@@ -548,6 +554,7 @@ def test_guesses_are_said_and_laws_hold(urdf):
     assert d.peak_torque == 150.0
     assert derived.broken == ()
     said = "\n".join(note.text for note in derived.notes)
+    # balls are drawn, as the links have no shapes
     for part in ("base_x", "right_toe", "150 N m", "balls"):
         assert part in said
     assert derived.biped.mass == pytest.approx(32.0)
@@ -746,6 +753,7 @@ def test_what_a_urdf_states_of_its_joints_is_read_said_and_written(urdf, tmp_pat
         text = text[:at] + limit + text[text.index("/>", at) + 2 :]
     text = text.replace('name="q1_right" type="continuous"', 'name="q1_right" type="revolute"')
     derived, free = derive(urdf(text)), (-math.inf, math.inf)
+    # [1]: the joints of odd single supports, in which the left leg stands as in the file
     assert {j.name: (j.speed, j.range) for j in derived.biped.motor_joints[1]} == {
         "q2_left": (7.0, (-1.5, 2.0)),
         "q2_right": (math.inf, free),

@@ -88,6 +88,7 @@ def test_the_default_preset_is_what_the_urdf_says(biped):
 
 
 def test_unknown_names_are_answered_with_the_known_ones(biped):
+    """An unknown robot, preset or joint: the message has a known one; of a frame and a body it has the name."""
     for make, known in (
         (lambda: ba.Biped.load("atlas"), "rabbit"),
         (lambda: ba.Biped.load("rabbit", "heavy"), "tac2003"),
@@ -160,7 +161,7 @@ def test_bad_robot_record_is_refused(tmp_path, old, new, message):
 
 
 def test_a_robot_of_links_into_one_folder_loads(tmp_path):
-    """As installers make them that link files instead of copying."""
+    """URDF and robot.toml are links to files elsewhere, as made by installers that link instead of copying."""
     for name in ("floating.urdf", "robot.toml"):
         (tmp_path / name).symlink_to(data_folder("urdf") / "rabbit" / name)
     assert ba.Biped.load(tmp_path / "robot.toml").n == 5
@@ -184,7 +185,9 @@ def test_a_name_of_a_robot_is_no_way_out_of_the_package(tmp_path, biped):
 
 
 def test_twins_that_differ_are_named(biped):
-    """A knee in another place; one that turns in the other sense is relabelled with its sign."""
+    """A knee in another place than its twin is refused; one that turns in the other sense is relabelled with
+    its sign.
+    """
     d, tree = biped.description, biped.tree
 
     def changed(**change):

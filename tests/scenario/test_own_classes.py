@@ -36,7 +36,7 @@ def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
 
 
 def test_an_own_controller_and_its_gain_are_taken_on_the_command_line(own: str) -> None:
-    """Its gain is in the stored scenario like a value of the package's own."""
+    """The gain of the class Mine is in the stored scenario like a value of the package's own."""
     name = f"{own}:Mine"
     done = command(
         "simulate", "--controller", name, "--set", "controller.gain=0.5", "--impacts", "1", "--engine",
@@ -51,6 +51,7 @@ def test_an_own_controller_and_its_gain_are_taken_on_the_command_line(own: str) 
 def test_a_push_of_ones_own_and_an_observer_of_the_package_are_built_by_their_names(
     own: str,
 ) -> None:
+    """The scenario's torque, epsilon and order reach the constructors of both classes."""
     push = build(ba.Scenario(pushes=[{"shape": f"{own}:Shove", "torque": 3.0}])).disturbance
     assert type(push).__name__ == "Shove"
     assert push.amplitude[0] == 3.0
@@ -80,8 +81,8 @@ def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, name: str) -> 
 
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
-    """In any case of letters. Names that are taken, read as module:Class or are empty, kinds that there are
-    not, and what is no class are refused.
+    """The name is found in any case of letters. Names that are taken, read as module:Class or are empty, kinds
+    that do not exist, and what is no class are refused.
     """
     monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     Mine = registry.find("controller", f"{own}:Mine").load()
@@ -162,7 +163,9 @@ def test_a_controller_is_made_of_the_scenarios_values_and_of_its_own_defaults() 
 
 
 def test_a_robot_and_a_gait_may_come_from_functions_of_ones_own(own: str, tmp_path) -> None:
-    """By module:function, called with preset and friction, and with the robot."""
+    """Both are named by module:function; that of the robot is called with preset and friction, that of the gait
+    with the robot.
+    """
     (tmp_path / f"{own}_parts.py").write_text(
         "import biped_adrc as ba\n"
         "def robot(preset=None, friction=False):\n"

@@ -193,8 +193,8 @@ def test_inputs_act_on_a_plant_that_moves_by_itself(s):
 
 
 def test_signals_are_read_where_the_walks_are():
-    """The same signals by machine code and, for a method that chooses its steps, by Python. The two walks are
-    pushed with U and -U, so that a mix-up of walks would show in their torques.
+    """Read by a Stepper, signals are the same by machine code and, for a method that chooses its steps, by
+    Python. The two walks are pushed with U and -U, so that a mix-up of walks would show in their torques.
     """
     found = []
     for s in (NPD, NPD.replace(run={"method": "adaptive"})):

@@ -36,7 +36,9 @@ def test_a_factor_out_of_range_is_refused(prefix):
 
 
 def test_decimal_prefixes_are_exact():
-    """The same float as that of the number in seconds: a factor 1e-3 would be off by one bit for some."""
+    """A text in ms or us gives the same float as the number written in seconds: a factor 1e-3 would be off by
+    one bit for some.
+    """
     for k in range(1, 2000):
         assert quantity(f"{k / 100} ms", "s") == float(f"{k / 100}e-3")
         assert quantity(f"{k} us", "s") == float(f"{k}e-6")

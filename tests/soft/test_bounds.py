@@ -68,6 +68,7 @@ def test_the_bounds_are_the_loops(made, plant, gait):
     """
     parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
     arc = run_of(made(*parts), gait, 0.05).arcs[0]
+    # as shares of the robot's peak torque, 150 N m, and of the rate that the bound counts in
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
     fast = np.max(np.abs(arc.x[:, 5:10]) / RUNAWAY_RATE, axis=1)
     for bound, course in (("runaway_torque", peak), ("runaway_speed", fast)):

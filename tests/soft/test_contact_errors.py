@@ -61,4 +61,5 @@ def test_an_error_is_counted_to_the_touchdown_or_the_push_before_it(at, onset, w
 
 
 def test_nothing_pushed_is_no_number():
+    """A walk without a push has no error under a push."""
     assert contact_errors(walk()).pushed_error is None

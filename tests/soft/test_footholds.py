@@ -69,8 +69,9 @@ def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, leve
 
 def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
     """Until the foot is at the ground (below 5.5 mm, more than 0.35 s after its start) the motion is that on
-    level ground, bit for bit. Column 17 is the level under the swing foot: it changes once the foot is ahead of
-    the stance foot, where it is high enough.
+    level ground, bit for bit; before 0.2 s it is low since it has just left the ground. Columns are q, q' (10),
+    touchdown and base (5), number of the single support, levels. Column 17 is the level under the swing foot:
+    it changes once the foot is ahead of the stance foot, where it is high enough.
     """
     for step in (ba.StepDown(2, 5e-3), StepUp(2, 5e-3)):
         _, run = walked(walker_on(biped, gait, step), gait, 2)
@@ -87,7 +88,7 @@ def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
 
 
 def test_a_step_up_that_is_not_cleared_is_not_there(biped, gait, level):
-    """A step of 0.2 m is higher than the foot, which strikes the level behind it, as without the step."""
+    """A step of 0.2 m is higher than the foot, which lands on the level from which it came, as without it."""
     _, run = walked(walker_on(biped, gait, StepUp(1, 0.2)), gait, 1)
     np.testing.assert_array_equal(run.arcs[0].x[:, :10], level[1].arcs[0].x[:, :10])
 
@@ -122,6 +123,7 @@ def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
         ba.Scenario("NPD", run={"impacts": 3, "seed": 4}, ground={"rms": 2e-3}, **SOFT)
     )
     assert walk.trajectory.status is ba.Status.COMPLETED
+    # (x, z) of the stance foot, then of the other, at the end of each single support
     feet = [arc.read["foot_place"][-1] for arc in walk.trajectory.arcs]
     falls = [foot[1] - foot[3] for foot in feet]
     np.testing.assert_allclose(falls, [walk.walker.drop(k) for k in (1, 2, 3)], atol=5e-4)

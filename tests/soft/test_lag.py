@@ -56,7 +56,7 @@ def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
     rows = []
     for plant in plants:
         row = plant.start(0.0, *gait.start(biped))
-        row[12] += 9.0
+        row[12] += 9.0  # z of the base
         for k in range(10):
             row = plant.engine.moved(k * 1e-3, row, U, None, (k + 1) * 1e-3)
         rows.append(row[:5])
@@ -111,6 +111,7 @@ def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
     row = plant.advance(0.0, plant.start(0.0, *gait.start(biped)), u, None, 2e-3).row
     found = plant.forces()
     u_m, still = u * (1.0 - np.exp(-2e-3 / TAU)), Load(np.zeros(5), np.zeros(2))
+    # [:15]: without u_m, which ideal motors do not have
     expected = ideal.footing(row[:15], u_m, still).force
     np.testing.assert_allclose(found, expected, rtol=1e-6)
     np.testing.assert_allclose(plant.footing(row, u, still).force, expected, rtol=1e-6)

@@ -1,4 +1,5 @@
-"""Leapfrog around MuJoCo's Euler method, against closed forms and against RK4."""
+"""Leapfrog, against closed forms and against RK4: MuJoCo's Euler method between two shifts of the
+positions, half a step forwards before it and half a step back after it."""
 
 from __future__ import annotations
 
@@ -54,7 +55,7 @@ def test_free_fall_is_exact(biped, gait):
     """z = z_0 - g t^2 / 2; without the shifts it would be off by g h t / 2."""
     plant, q = MuJoCoPlant(biped, h=1e-4, integrator="leapfrog"), gait.start(biped)[0]
     row = plant.start(0.0, q, np.zeros(5))
-    row[12] += 9.0
+    row[12] += 9.0  # z of the base [m]
     fallen = plant.engine.moved(0.0, row, np.zeros(4), None, 0.05)
     g = biped.description.gravity
     assert fallen[12] == pytest.approx(row[12] - g * 0.05**2 / 2.0, abs=1e-12)
@@ -89,6 +90,7 @@ def test_leapfrog_goes_through_a_touchdown_as_with_a_sixteenth_of_the_step(biped
     def feet(h, integrator):
         engine, row, found = MuJoCoPlant(biped, h=h, integrator=integrator).engine, x[:15], []
         for k in range(20):
+            # under the last torques of that state, x[-4:], and no load; [1]: the swing foot
             row = engine.moved(k * 1e-3, row, x[-4:], None, (k + 1) * 1e-3)
             found.append(engine.points()[1])
         return 1e3 * np.array(found)

@@ -65,6 +65,7 @@ def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
     loop = under_npd(plant, gait, disturbance=ba.HipForce(biped, force))
     (arc,) = with_readings(loop, run_of(loop, gait, 0.1)).arcs
     a, b, t = 100, len(arc.t) - 1, arc.t
+    # spans: weights of the trapezoidal rule
     impulse = spans(t[a:]) @ feet_of(arc)[0][a:].sum(axis=1)
     outside = np.array([0.0, biped.weight]) - force
     change = momentum(loop, arc, b) - momentum(loop, arc, a)
@@ -95,12 +96,15 @@ def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
     np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], atol=1e-5)
     shin = v @ [1.0, 0.0, 1.0, 0.0, 1.0]  # rate of the stance shin, counter-clockwise
     centre = np.array([-shin * 0.05, 0.0])  # rolls forwards where it turns clockwise
+    # numbers 13 and 14 of a state are the velocity (x, z) of the base
     rolling = state + np.array([*np.zeros(13), *centre])
     np.testing.assert_allclose(plant.footing(rolling, np.zeros(4), STILL).speed[0], 0.0, atol=1e-12)
 
 
 def test_a_block_that_slides_to_rest():
-    """With v' = -mu g: slip (v0^2 - s^2) / (2 mu g) until v = s."""
+    """With v' = -mu g: slip (v0^2 - s^2) / (2 mu g) until v = s, the speed up to which a foot counts as
+    sticking. At rest the stance foot has half the friction that it could have; the other foot is free.
+    """
     mu, g, v0, mass, s = 0.3, 9.81, 0.4, 30.0, 5e-3
     t = np.linspace(0.0, 0.5, 20001)
     v = np.maximum(0.0, v0 - mu * g * t)

@@ -73,7 +73,7 @@ def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plan
     """
     q, v = gait.start(plant.biped)
     f, random = plant.biped.floating, np.random.default_rng(5)
-    speed = (f.velocity_map(q)[:, :5] @ v)[f.base]
+    speed = (f.velocity_map(q)[:, :5] @ v)[f.base]  # of the base, with the stance foot at rest
     own = np.array([0.0, *f.configuration(q)[f.base], *speed])
     u = random.normal(size=4)
     load = Load(random.normal(size=5), random.normal(size=2))
@@ -123,7 +123,7 @@ def walk(plant, gait):
 
 
 def test_feedback_linearisation_walks(walk):
-    """Periods near the rigid one, 0.416 s: contact takes a time constant or two."""
+    """The periods are near that on rigid ground, 0.416 s: contact takes a time constant or two."""
     assert walk.status is ba.Status.COMPLETED
     assert [arc.mode.step for arc in walk.arcs] == [1, 2, 3]
     times = [event.t for event in walk.events("foot_strike")]
@@ -131,7 +131,9 @@ def test_feedback_linearisation_walks(walk):
 
 
 def test_the_same_walk_bit_for_bit(plant, gait, walk):
-    """In the same engine again, whatever it did before, and in a new one: its work space is no state."""
+    """The walk is the same in the same engine again, whatever that did before, and in a new one: the work space
+    of an engine is no state.
+    """
     law = ba.NPDController(gait.constraint)
     again = run_of(loop_on(plant, law), gait, impacts=1)
     np.testing.assert_array_equal(again.arcs[0].x, walk.arcs[0].x)

@@ -75,11 +75,13 @@ def test_its_signals_are_of_the_plant_that_walked(made):
     """xi = q_b'' - kappa u with the q'' of MuJoCo; forces of the ground are in its cone of friction 0.6."""
     x, walker = made.signals, made.walker
     assert np.allclose(x.xi, x.xi_external + x.xi_nominal, rtol=1e-9, atol=1e-7)
+    # some rows with a later one behind them: at a jump a time stands twice
     rows = np.flatnonzero(np.diff(x.t) > 0.0)[5:400:40]
     for k in rows:
         kappa = walker.plant.reduction(x.q[k], x.v[k]).kappa
         dv = (x.v[k + 1, :4] - x.v[k, :4]) / (x.t[k + 1] - x.t[k])
         assert np.allclose(x.xi[k], dv - kappa @ x.u[k], atol=1e-6)
+    # of the second single support, without the transient after its touchdown and the instant of the next one
     late = (x.step == 2) & (x.t > x.t[x.step == 2][0] + 0.05) & (x.t < x.t[-1] - 2e-3)
     F = x.ground_reaction[late]
     assert np.min(F[:, 1]) > 0.0

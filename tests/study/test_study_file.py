@@ -386,7 +386,7 @@ def test_there_is_no_interval_over_declared_walks(tmp_path):
         assert math.isnan(line.feasible.low)
         assert math.isnan(line.median.low)
         assert line.ratio is None or (math.isnan(line.ratio.p) and math.isnan(line.ratio.ratio.low))
-    assert found.table()[2].ratio.ratio.value == 0.5
+    assert found.table()[2].ratio.ratio.value == 0.5  # line 2 is of case b under x, line 0 of a
 
 
 def test_tables_come_back_to_the_last_bit(tmp_path):

@@ -106,6 +106,7 @@ def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
 
 
 def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
+    """The page's loads have the push of step 2 from 0.1 to 0.2 s on its joints, and zero at all other times."""
     gait = load_gait("published", biped)
     push = TorquePulse([30.0, 0.0, -20.0, 0.0, 5.0], step=2, start=0.1, stop=0.2)
     made = walk_of(Walker(biped, NPDController(gait.constraint), push), gait, 2, RK4(2e-3))

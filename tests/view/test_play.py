@@ -246,7 +246,9 @@ def test_a_slider_ends_where_its_controller_refuses_more() -> None:
 
 
 def test_a_fallen_robot_gets_up_again_and_the_timeline_goes_back(browser: Chrome) -> None:
-    """Number 3 of the line is t = 0.03 s. A key goes 1 ms on from there, and the line ends there now."""
+    """Number 3 of the timeline is t = 0.03 s. The walk goes back there, a key moves it on by 1 ms, and the
+    timeline then ends at number 3.
+    """
     fallen = """
 play.push({ force: [-300, 0], seconds: 1 });
 while (play.walking[0].walks) play.sample();
@@ -338,6 +340,7 @@ def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Ch
     ActionChains(browser).release().perform()
     until(browser, "return page.last.hand === null")
     keys(browser, "-", "-")
+    # of 4 s, the plots show the share 2 rate, at most all
     until(browser, "return rate === 0.2 && element('shown').textContent === ', last 1.6 s'")
     keys(browser, "+", "+", " ")
     until(browser, "return page.last.walks[0].support.number > 2")
@@ -437,8 +440,9 @@ return { walks: play.walks, error, torque };
 
 
 def test_the_stations_show_what_they_say(browser: Chrome) -> None:
-    """Errors [rad] after the push, with the words of tour.toml: some milliradians, a fraction, the
-    limit hit.
+    """Errors [rad] after the push are what tour.toml says: some milliradians under NPD and with order 1, a
+    fraction of these under ADRC and with order 3. With encoders the torque is at its limit and the walk ends;
+    with a lower bandwidth it goes on.
     """
     titles = [station["title"] for station in tour()]
 

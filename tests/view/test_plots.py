@@ -316,10 +316,11 @@ def test_a_box_is_the_line_along_its_longest_edge() -> None:
 
 
 def test_zero_dynamics_are_drawn_over_the_domain_or_up_to_the_orbit() -> None:
-    """Up to WIDE times the orbit where the domain has no end; from the lowest zeta to the orbit if it is
-    empty.
+    """The axis shows the domain of zeta, up to WIDE times the orbit where the domain has no end; if it is
+    empty, from the lowest zeta, here 7, to the orbit, here 20.
     """
 
+    # ends of the axis for a domain from low to high
     def drawn(low: float, high: float) -> tuple[float, float]:
         class Domain(tuple[SimpleNamespace, SimpleNamespace]):
             empty = low > high

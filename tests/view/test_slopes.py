@@ -109,7 +109,7 @@ def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]
     is not finite has no arrow.
     """
     view = SideView(WalkScene.of(walks["slope"]))
-    drawn = DrawnWalk(Figure().subplots(), view, 1.0, 1)
+    drawn = DrawnWalk(Figure().subplots(), view, 1.0, 1)  # opaque, in the first layer
     weight = walks["slope"].walker.plant.weight
     for force, arrow, words in (
         ([0.0, weight], [0.0, 0.4], ""),
@@ -117,6 +117,7 @@ def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]
         ([0.0, -4.0 * weight], [0.0, -1.2], f"{4.0 * weight:.3g} N, arrow cut"),
         ([np.inf, 0.0], [0.0, 0.0], "no finite force, arrow cut"),
     ):
+        # arrow 0, of the stance foot, from the origin
         vector, said = drawn._arrow(0, np.zeros(2), np.array(force))
         np.testing.assert_allclose(vector, arrow, atol=1e-12)
         assert said == words
@@ -139,7 +140,8 @@ def test_stones_are_drawn_where_the_next_foot_has_to_land() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) -> None:
-    """And the stance foot stays where the swing foot came down, on the ground, from the first step to the last.
+    """Each link is drawn where Pinocchio puts it, and the stance foot stays where the swing foot came down, on
+    the ground, from the first step to the last.
 
     At the end the robot is more than 1 m on, and more than 20 mm lower.
     """
@@ -198,7 +200,8 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
 # -- passive walks ---------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", ["compass", "wheel"])
 def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
-    """It is constant in single support. An impact leaves the potential energy and takes some kinetic energy.
+    """The energy is constant in single support. An impact leaves the potential energy and takes some kinetic
+    energy.
 
     Each takes as much as its certificate says, and no less than 0.5 J.
     """

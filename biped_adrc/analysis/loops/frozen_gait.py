@@ -15,12 +15,15 @@ The configuration is frozen: a controller that samples at 1 kHz sees it move by 
 period.
 
 The same is done for robots whose trunk and legs are lighter or heavier than the model: both lighter, both
-heavier, and one lighter with the other heavier, four robots in all. In `analysis.observer` an error of the
-model is one factor on kappa. Here, as in a walk, it is a matrix: L of the robot times the inverse of L of the
-model, with L (p, p) = (1 - H_b - H_N A_N) kappa the gain from u to the second derivative of the tracking error.
-This matrix is not diagonal, so an error of the model couples the joints, and the reference, which moves with
-the phase Theta of the gait, is a part of it. H_b and H_N are the columns of H for q_b and q_N in the
-reference's q_d'' = drift + H q'', and A_N those of the unactuated row, q_N'' = A_N q_b'' + a_N.
+heavier, and one lighter with the other heavier, four robots in all. The reference of q_b moves with the phase
+Theta of the gait, q_d'' = drift + [H_b H_N] q'', and the unactuated row is q_N'' = A_N q_b'' + a_N. So the gain
+from u to the second derivative of the tracking error q_b - q_d is
+
+    L = (1 - H_b - H_N A_N) kappa       (p, p)
+
+In `analysis.observer` an error of the model is one factor on kappa. Here, as in a walk, it is a matrix: L of
+the robot times the inverse of L of the model. It is not diagonal, so an error of the model couples the joints,
+and it depends on the reference, through H.
 
 `tick_matrices` linearises the sample instant (tick) of a walker at the same phases:
 
@@ -99,10 +102,11 @@ class FrozenGait(Shown):
         """Linearise the plant, and its like with other inertias, at phases of the gait's orbit.
 
         model: robot on which the orbit is computed, the plant itself when None. phases: shares of the step's
-        time [1]; the nearest node of the orbit is taken. spread: share [1] by which masses and inertias of the
-        four other robots differ (`_robots`); 0 for the plant alone. Raises GaitError for a gait without a
-        periodic orbit, InputError for a spread that is not between 0 and 1.
+        time [1]; the nearest stored instant (node) of the orbit is taken. spread: share [1] by which masses
+        and inertias of the four other robots differ (`_robots`); 0 for the plant alone. Raises GaitError for
+        a gait without a periodic orbit, InputError for a spread that is not between 0 and 1.
         """
+        # below 1, since no mass may become zero
         check_positive(1.0 - spread, f"the spread of inertias is {spread}")
         orbit = ZeroDynamics.of(plant if model is None else model, gait.constraint).cycle
         # times of the orbit's nodes, each in the middle of its weight
@@ -190,6 +194,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     # ticked(t, x, mode) -> x after the tick, J; it is made once, for the first point
     result, ticked = [], None
     for point in points:
+        # TICKS_BEFORE = 2: after these each sensor has a difference of its angles
         x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
         J = np.zeros((0, 0))
         layout = twin.layout_of(x)
@@ -219,6 +224,7 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     # shape: columns over their largest entries, alike: pairs of proportional columns, first: first of each kind
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]
+    # _SAME = 1e-12: columns that differ by less count as equal
     alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < _SAME
     first = np.argmax(alike, axis=1) if k else np.zeros(0, dtype=int)
     some = np.flatnonzero((first == np.arange(k)) & (largest != 0.0))

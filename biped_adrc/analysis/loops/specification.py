@@ -136,8 +136,8 @@ class Specification(Shown):
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
     def columns(self) -> dict[str, float]:
-        """All numbers by name, none of them NaN: stable [0 or 1], growth [1/s], delay_margin [s],
-        disk_margin [1], ripple [N m].
+        """All numbers by name, none of them NaN: stable [0 or 1], growth [1/s] of the mode that decays least,
+        negative where stable, delay_margin [s], disk_margin [1], ripple [N m].
         """
         margins = {name: getattr(self, name) for name in ("delay_margin", "disk_margin", "ripple")}
         return {"stable": float(self.stable), "growth": self.worst.growth, **margins}
@@ -161,6 +161,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     walker in continuous time or one that detects touchdowns, GaitError for a gait without a periodic orbit,
     NotFiniteError where a method has no finite derivative on the gait.
     """
+    # without its parts that have no derivative: limits, counts, noise, pushes; and without motors
     twin = linear_twin(walker)
     assert isinstance(twin.timing, SampledTime)
     if isinstance(gait, Gait):
@@ -169,6 +170,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     lag = 0.0 if walker.motors is None else walker.motors.lag
     # the new axis is that of the robots: the tick is the same for all of them
     tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
+    # of each point its A (robots, 2 n, 2 n) and B (robots, 2 n, p), (q, q')' = A (q, q') + B u
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
     loops = WalkerLoops(tick, A, B, T, delay, lag, slow)
     # sensors add their errors to those of `exact`, which are none
@@ -196,6 +198,7 @@ def balanced_bound(M: ComplexArray) -> Array:
     d = np.ones((p, len(M)))
     # a: squares of the scaled entries; f: norm of column i over that of row i, by which the squares of the row
     # are multiplied and those of the column divided: both norms are then equal. 1e-300: no division by zero
+    # BALANCED sweeps over all rows
     for i in [*range(p)] * BALANCED:
         f = np.sqrt((a[:, i].sum(0) + 1e-300) / (a[i].sum(0) + 1e-300))
         a[i] *= f
@@ -219,7 +222,11 @@ def structured_value(M: ComplexArray) -> float:
         return d[:, np.newaxis] * M / d
 
     def smooth(x: Array, power: float) -> tuple[float, Array]:
-        """log of (sum sigma^power)^(1/power), sigma of scaled M, at log d = (x, 0); its gradient (p - 1,)."""
+        """log of (sum sigma^power)^(1/power), sigma the singular values of diag(d) M diag(d)^-1 (`scaled`), at
+        log d = (x, 0); its gradient (p - 1,) by x.
+
+        A smooth bound of log sigma_max from above, closer the larger the power is.
+        """
         U, sigma, V = np.linalg.svd(scaled(x))
         weight = (sigma / sigma[0]) ** power
         slope = np.abs(U) ** 2 @ weight - (np.abs(V) ** 2).T @ weight
@@ -228,6 +235,7 @@ def structured_value(M: ComplexArray) -> float:
 
     # from a smooth norm to ones that are nearer to sigma_max, each from the minimum of the one before
     x = np.zeros(p - 1)
+    # _SMOOTH: powers 8, 64, 512, each search from the result of the one before
     for power in _SMOOTH:
         x = minimize(smooth, x, args=(power,), jac=True, method="BFGS").x
     return float(np.linalg.norm(scaled(x), 2))
@@ -241,7 +249,7 @@ def disk_margin(S: ComplexArray) -> float:
     """
     M = S - 0.5 * np.eye(S.shape[1])
     # mu is at most the Frobenius norm and at least the spectral radius: so a matrix whose norm is below the
-    # largest radius cannot have the largest mu
+    # largest radius (of the TOP = 50 matrices of largest norm) cannot have the largest mu
     rough = np.linalg.norm(M, axis=(-2, -1))
     radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))
     M = M[rough >= (1.0 - 1e-9) * radius]  # 1e-9 for round-off

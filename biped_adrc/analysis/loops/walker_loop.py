@@ -131,7 +131,7 @@ class WalkerLoops:
     @cached_property
     def rates(self) -> ComplexArray:
         """s = log(lambda) / T [1/s] of all modes, without an unknown delay; see `modes`."""
-        return self.modes(0.0)
+        return self.modes(0.0)  # 0 s of unknown delay
 
     def modes(self, unknown: float) -> ComplexArray:
         """s = log(lambda) / T [1/s] of all modes, as many as entries of X, with an unknown delay [s] in all
@@ -179,7 +179,8 @@ class WalkerLoops:
         """The smallest unknown delay [s] with which a mode of one loop grows, at most `most` [s].
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
-        unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
+        unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not,
+        which is sooner found if the margin is just below `most`.
         """
         from scipy.optimize import brentq  # here: half a second, which other analyses save
 
@@ -187,6 +188,7 @@ class WalkerLoops:
         while tried[-1] < most:
             tried.append(1.25 * tried[-1])
         pairs = [(low, min(high, most)) for low, high in itertools.pairwise(tried) if low < most]
+        # growth of the fastest growing mode at a delay [1/s], below 0 if stable
         growth = cache(self.growth)
         # the pair of delays between which it becomes unstable; (most, most) where it does not up to `most`
         if upwards:
@@ -234,6 +236,7 @@ class WalkerLoops:
         # of the inputs w only the first m, errors of (q, q'), are used
         m = len(errors)
         values, left, right = eig(M, left=True)
+        # _rates: s = log(lambda) / T of the eigenvalues, by which the gait's own modes are found
         # `one` projects on mode i along all others: after this its eigenvalue is 0, and no error reaches it
         for i in np.flatnonzero(np.abs(self._rates(values)) <= self.slow):
             one = np.outer(right[:, i], left[:, i].conj()) / (left[:, i].conj() @ right[:, i])

@@ -118,15 +118,16 @@ class OnHardware:
 
     @cached_property
     def weakest(self) -> tuple[float, float]:
-        """The ratio among KAPPA_RATIOS with the largest spectral radius of the sampled loop; that radius."""
+        """The ratio of the robot's kappa to the model's, of KAPPA_RATIOS (0.8, 1, 1.25), with the largest
+        spectral radius of the sampled loop; that radius.
+        """
         radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
         return max(radii.items(), key=lambda found: found[1])
 
     @cached_property
     def obstacle(self) -> str:
-        """The criterion that excludes this observer: "stability", "ripple", or "" where it is allowed.
-
-        See the module; "ripple" also where it is NaN.
+        """The criterion that excludes this observer: "stability" (of the loop with the weakest kappa), "ripple"
+        (rms torque of one count above the share SHARE = 0.1 of the torque limit, or NaN), or "" for none.
         """
         if not self.weakest[1] < 1.0:
             return "stability"
@@ -143,12 +144,13 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
 
     gains: K_p and K_d, of which those of the first joint count. m: order of the disturbance model. Only the
     lowest range counts: a loop that is unstable at some bandwidth and stable again above it would be a bad
-    recommendation.
+    recommendation. The bandwidth is NaN where none is allowed.
     """
 
     def candidate(w: float) -> OnHardware:
         return OnHardware(hardware, GPIObserver.from_bandwidth(float(w), m), gains)
 
+    # LEAST, MOST, BANDS: 120 bandwidths from 10 to 2e4 rad/s
     bands = np.geomspace(LEAST, MOST, BANDS)
     # from the first allowed bandwidth on, so that last_true begins with one that holds
     allowed = dropwhile(lambda w: candidate(w).obstacle, bands)
@@ -167,5 +169,5 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
 def without_observer(gains: Gains) -> float:
     """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
     K_p, K_d = first_gains(gains)
-    s = 1j * REJECTED  # i times the frequency
+    s = 1j * REJECTED  # i w at 5 Hz
     return float(1.0 / abs(s**2 + K_d * s + K_p))

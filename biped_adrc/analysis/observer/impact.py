@@ -82,6 +82,8 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
     # dt = dTheta / Theta'; `cumulative` integrates over Theta from the start of the step to each node
     t = zero.cumulative @ (1.0 / (orbit.v @ gait.constraint.phase))  # of the nodes [s]
+    # polynomials in time, one per joint; of their derivatives only DERIVATIVES = 3 are smooth enough to be used
+    # DEGREE = 20, of the polynomials in time
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
     def chain(time: float, q: Array, v: Array) -> Array:
@@ -125,11 +127,13 @@ def impact_peak(
     A = observer.error_system().A
     rates = np.abs(np.real(observer.poles))
     # from 1 % of the fastest time constant on
+    # INSTANTS, LONG: 400 instants up to 8 time constants of the slowest pole
     later = np.geomspace(0.01 / rates.max(), LONG / rates.min(), INSTANTS)
     values = np.array([expm(A * t) @ E for t in (0.0, *later)])
     e_1, e_2 = values[:, 0], values[:, 1] * w
     e_3 = values[:, 2] * w**2 if k > 2 else np.zeros_like(e_1)
-    # acceleration that the errors cost; kappa^-1 makes it a torque. The order is that of ImpactPeak
+    # a: acceleration that the errors cost; impact.inertia is kappa^-1, which makes it a torque. The order is
+    # that of ImpactPeak
     a = gains.K_p * e_1 + gains.K_d * e_2 + e_3
     peaks = (float(np.max(np.abs(x))) for x in (e_1, e_2, e_3, a @ impact.inertia.T))
     return ImpactPeak(*peaks)

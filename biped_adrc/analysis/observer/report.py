@@ -267,6 +267,7 @@ def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -
     """The first frequency [rad/s] from `low` to `high` at which |response| is 3 dB below its value at `low`;
     `high` if there is none.
     """
+    # GRID: number of frequencies
     grid = np.geomspace(low, high, GRID)
     level = np.abs(response(grid))
     below = np.flatnonzero(level < level[0] / np.sqrt(2.0))

@@ -105,6 +105,7 @@ def sample(r: Run) -> int:
 
     Impacts in between are made. Returns the code.
     """
+    # MOST_ARCS = 100 in one sample
     for _ in range(MOST_ARCS):
         r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
@@ -123,7 +124,7 @@ def look(r: Run, law: int, out: Array) -> None:
     """Compute out = law(t, step, t_start, x, zeta, force) at the time and state of the run, with the inputs
     that a sample instant there would get; law: address of the function.
     """
-    lower(r)
+    lower(r)  # sets r.drop, the ground's fall in this single support
     r.limit = math.inf  # an input that switches now has its value after the switch
     measure(r, r.x0)
     call(law, r.K, r.inp, out)
@@ -133,7 +134,8 @@ def look(r: Run, law: int, out: Array) -> None:
 def push(r: Run, x: float, z: float) -> None:
     """Set `force`, the force from outside on the trunk, to (x, z) [N].
 
-    Where it jumps, a row of `nodes` just before is kept. `force` is the last term of the disturbance: n_parts
+    Where it jumps, a row of `nodes` just before is kept, if the run stores signals (r.look, the address of the
+    function that computes them, is not 0). `force` is the last term of the disturbance: n_parts
     counts it only while it is not zero.
     """
     F = r.force

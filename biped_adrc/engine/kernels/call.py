@@ -11,6 +11,7 @@ signatures (int, float, Run, Ints, Array), so numba compiles none of them for th
 
 An intrinsic is a function whose instructions are written here, in place of numba: numba calls it with the types
 of the arguments, and it returns its signature and a function `codegen` that writes LLVM's instructions.
+typingctx and context are numba's own and not read; a `builder` of llvmlite appends instructions, on values x.
 """
 
 from __future__ import annotations
@@ -71,6 +72,7 @@ def unit(function: _Function) -> _Function:
     # strings, by `from __future__ import annotations`; without it Run would be the class of Python, no pointer
     *arguments, result = (_TYPES[hint] for hint in function.__annotations__.values())
     symbol, signature = f"biped_adrc.{function.__name__}", result(*arguments)
+    # _TYPES: annotation -> numba's type; UNITS: all units, which `load` compiles
     UNITS[function.__name__] = symbol, signature, function
     return types.ExternalFunction(symbol, signature)
 
@@ -92,7 +94,7 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
 
 @intrinsic
 def shift(typingctx: object, pointer: Type, i: Type) -> Generated:
-    """Intrinsic: the pointer to entry i of the vector at `pointer`, as `&pointer[i]` in C."""
+    """Intrinsic: the pointer to entry i of the vector at `pointer`, as &pointer[i] in C (`gep` in LLVM)."""
     signature = pointer(pointer, types.int64)
     return signature, lambda context, builder, signature, x: builder.gep(x[0], [x[1]])
 

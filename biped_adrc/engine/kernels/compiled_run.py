@@ -1,12 +1,12 @@
 """A compiled run in memory: its block of cells of 8 bytes by name, and the status for each code of its end.
 
-`engine.program` gives addresses, tables (vectors) and fields by name; `plan` lays them out as `record` says. A
-plan is a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of the
-block.
+The block holds the numbers of the run, its vectors ("tables") and the addresses of its functions.
+`engine.program` has them by name; `plan` puts each into its cell, whose place `record` says. A plan is the
+block of a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of it.
 
 In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
 the state (q, q', and the states of the other parts), and zeta (n,) [N m] the disturbance. An arc is the flow
-between two impacts, a tick a sample instant.
+between two impacts, a tick a sample instant, a node a stored instant.
 """
 
 from __future__ import annotations
@@ -69,6 +69,7 @@ class CompiledRun:
 
     def __setitem__(self, name: str, value: float) -> None:
         """Set the field `name`: a number, or the address of a vector."""
+        # the same memory, read as floats or as whole numbers
         where = self.numbers if KINDS[name] == "float" else self.cells
         where[PLACES[name]] = value
 
@@ -118,7 +119,7 @@ class CompiledRun:
         self._keep_in(np.empty((arcs * math.ceil(rows), int(self["width"]))))
 
     def _keep_in(self, nodes: Array) -> None:
-        """Set the array to which the run writes its nodes."""
+        """Set the array to which the run writes its nodes; room: how many nodes fit."""
         self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
 
     def rows(self) -> Array:

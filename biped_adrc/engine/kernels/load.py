@@ -40,6 +40,7 @@ WRITER = f"{_HERE}.write"
 
 def kernels() -> Any:
     """The functions of the compiled march that Python calls, by name: `stride`, `samples` and `looks`."""
+    # numbers of their arguments
     return compiled(FILES, stride=3, samples=7, looks=5)
 
 
@@ -60,9 +61,10 @@ _PROGRAMS: dict[tuple[str, ...], SimpleNamespace] = {}
 
 
 def _loaded(files: tuple[str, ...], arguments: Mapping[str, int]) -> SimpleNamespace:
-    """Load the units of these modules, compiled if need be, as functions of ctypes; arguments: name of each
-    unit that Python calls -> how many arguments it takes.
+    """Load the units of the modules `files`, compiled if need be, as functions of ctypes; arguments: name of
+    each unit that Python calls -> how many arguments it takes.
     """
+    # `loops` is their text for LLVM, `at` the address of each unit
     at = load_or_compile(loops(files), [*arguments]).addresses
     calls = {x: CFUNCTYPE(c_int64, *[c_void_p] * size)(at[x]) for x, size in arguments.items()}
     return SimpleNamespace(**calls)
@@ -82,6 +84,7 @@ def loops(files: tuple[str, ...] = FILES) -> str:
             f"{text_file(files)} is damaged or does not fit the sources beside it, and numba, which writes it "
             "anew, is not installed; reinstall biped-adrc, or run pip install numba"
         )
+    # WRITER: the module that writes the text
     key = hash_of(sources((*files, WRITER)), version("numba"))
     code = fetch(key)
     if code is None:

@@ -10,7 +10,8 @@ Symbols: x (nx,) state, its first n numbers the angles q [rad], then their rates
 disturbance [N m]; h integration step [s]. y = (w, E) are the coordinates of the exponential method, ETD-RK4: w
 the slow states, E (k, p) the stiff ones, E' = A E + N_E, w' = N_w; rows and indices count from 0.
 `values` are the event functions at the start of an integration step, `after` those at its end, `tried` those at
-a time in between; x0 and x1 the states at both ends, with the slopes dx0 and dx1. A guard is an event function.
+a time in between; x0 and x1 the states at both ends, with the slopes dx0 and dx1. A guard is an event function,
+an arc the flow from one event to the next.
 """
 
 from __future__ import annotations
@@ -62,6 +63,7 @@ def matrix(r: Run, level: int, which: int) -> Array:
     """One of the six matrices (k, k) of ETD-RK4 for a step of length h 2^-level; `which`: HALF, HALF_PHI, .. of
     `hybrid.constants`.
     """
+    # MATRICES: how many matrices a level has
     return shift(r.phi, (MATRICES * level + which) * r.k * r.k)
 
 
@@ -96,8 +98,8 @@ def broken(r: Run) -> int:
 
 @inner
 def note(r: Run, out: Array, pivot: float) -> None:
-    """Make a function's result `out` NaN where its least pivot is not positive, and note the status in
-    r.lost."""
+    """Note the status in r.lost where a function's least pivot is not positive, and make the first number of
+    its result `out` NaN: one is enough to end the run as not finite."""
     if pivot <= 0.0:
         r.lost = SINGULAR if pivot == 0.0 else RAN_AWAY
         out[0] = math.nan
@@ -130,6 +132,7 @@ def load_of(r: Run) -> None:
     for i in range(size):
         r.load[i] = 0.0
     for k in range(r.n_parts):
+        # PART = 2 numbers for each term: address, and how many parameters it has
         call(r.parts[PART * k], K, r.inp, r.one)
         add(r.load, 1.0, r.one, r.load, size)
         K = shift(K, r.parts[PART * k + 1])  # to the numbers of the next term
@@ -176,7 +179,10 @@ def relax(r: Run, x: Array, weight: float, out: Array) -> None:
 
 @inner
 def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
-    """Set the slopes of lagging torques to `steep` [1/s] times their distance from the command in x (nx,)."""
+    """Set the slopes of lagging torques in dx (nx,) to `steep` [1/s] times their distance from the command in x
+    (nx,).
+    """
+    # from index r.lags on x has the p torques of the motors, at its end the p commands
     for i in range(r.p):
         dx[r.lags + i] = steep * (x[r.lags + i] - x[r.nx - r.p + i])
 
@@ -188,6 +194,7 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
 
     The disturbance depends on (q, v), so where there is one, x is computed from y for it first.
     """
+    # inp: t, step, t_start, then x (or y) from place 3 on, then zeta, which `disturb` leaves in r.load
     inp = r.inp
     if r.n_parts > 0:
         call(r.back, r.K, y, r.out)
@@ -226,7 +233,7 @@ def watch(r: Run, t: float, q: Array, out: Array) -> None:
 @inner
 def passed(r: Run, guard: int, fall: float) -> bool:
     """Whether a guard that is below zero at the start of an arc was so before the last event too, and is no
-    event.
+    event. `fall`, how much it falls in the first step, is asked for by Python's twin alone.
 
     False for a walk: its clearance alone may be below zero without an event, and of that `accepts` decides.
     """
@@ -238,6 +245,7 @@ def accepts(r: Run, guard: int, te: float) -> bool:
     """Whether the zero that was found at te [s] is an event: a touchdown less than r.least_step ahead of the
     stance foot is none, as of a leg without knees in mid-swing. `tried` has the values there.
     """
+    # FOOT_X: place of the swing foot's x, which `watch` puts behind the event functions
     return guard != FOOT_STRIKE or r.tried[FOOT_X] > r.least_step
 
 
@@ -368,7 +376,7 @@ def due(r: Run) -> int:
     """
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
     if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
-        measure(r, x)
+        measure(r, x)  # writes the inputs of `tick`
         out[0] = math.nan  # what stays where Python is interrupted
         call(r.tick, r.K, r.inp, out)
         note(r, out, out[nx])  # the least pivot; behind it stands q''
@@ -394,7 +402,9 @@ def due(r: Run) -> int:
 def measure(r: Run, x: Array) -> None:
     """Write the inputs of a sample instant at r.t in x (nx,) to `inp`: (t, step, t_start, x, zeta, force)."""
     copy(x, shift(r.inp, 3), r.nx)
+    # limit: just before the next switching time, so that the disturbance has its value from before
     disturb(r, min(r.t, r.limit))
+    # OUTSIDE = 2: the force from outside stands behind zeta
     copy(r.load, shift(r.inp, 3 + r.nx), r.n + OUTSIDE)
 
 
@@ -402,7 +412,8 @@ def measure(r: Run, x: Array) -> None:
 # The march names both, so the compiled text needs them; runs with SciPy's solvers never come here.
 @inner
 def solve(r: Run, t_next: float) -> float:
-    """Returns r.t, a step of no length, by which the march would end as STEP_FAILED."""
+    """Returns r.t, a step of no length, by which the march would end as STEP_FAILED: SciPy's solvers, for which
+    this operation is, run in Python alone."""
     return r.t
 
 

@@ -89,7 +89,7 @@ def written(files: tuple[str, ...]) -> str:
     llvm = re.sub("numba_nextafter", "nextafter", str(linked))
     # what would raise an error in Python is never called, but would be missing where the text is linked
     llvm = _ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", llvm)
-    # hints too, with other arguments in each LLVM
+    # hints to the optimiser are left out, as each version of LLVM writes them in another way: HINTS too
     llvm = re.sub(r"^.*@llvm\.lifetime\..*\n", "", llvm, flags=re.MULTILINE)
     llvm = re.sub(r"^(attributes #\d+ = ).*$", r"\1{ nounwind }", llvm, flags=re.MULTILINE)
     return f"{HINTS.sub('', llvm)}\ndeclare void @llvm.trap()\n"

@@ -80,7 +80,11 @@ class Computer:
 
     @cached_property
     def sensors(self) -> Sensor | None:
-        """`differences`, wrapped in `Noticed` where touchdowns are detected; None if rates are measured."""
+        """`differences`, wrapped in `Noticed` where touchdowns are detected; None if rates are measured.
+
+        At a touchdown `Noticed` takes differences with the old names of the legs, then relabels them: q+ = R q-
+        + offset.
+        """
         if self.differences is None or self.walker.touchdown is None:
             return self.differences
         return Noticed(self.differences, self.robot.R, self.robot.offset)
@@ -110,7 +114,9 @@ class Computer:
 
     @property
     def held(self) -> HeldParts:
-        """The parts of `alone` that keep numbers between sample instants: sensors and motors."""
+        """What keeps numbers between sample instants, sensors and motors, in `alone`: the walker with nothing
+        but what runs on the computer.
+        """
         assert self.alone.held is not None
         return self.alone.held
 

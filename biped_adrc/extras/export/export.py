@@ -166,6 +166,7 @@ def contents() -> str:
 
 def _machine() -> str:
     """FMI 2.0's name for a folder of binaries of this machine; empty where it has none."""
+    # MACHINES: (system, processor) -> FMI's name of the folder of a binary
     return MACHINES.get((platform.system(), platform.machine()), "")
 
 

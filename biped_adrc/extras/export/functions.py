@@ -56,7 +56,8 @@ class Inputs:
     @cached_property
     def at(self) -> SymbolicInstant:
         """An instant on symbols; its inputs are (t, last, step, start) as in _FIRST, then x = (q, v, x_c)."""
-        # `last` is read by `_released` alone; Mode is (step, start)
+        # last: time of the previous sample instant, read by `_released` alone; Mode is (step, start)
+        # _HEAD: number of the inputs before x
         inp = Vector("inp", _HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.nx)
@@ -91,6 +92,7 @@ def init(computer: Computer) -> SymbolicFunction:
 def step(computer: Computer) -> SymbolicFunction:
     """Trace the function that returns x_c after a sample instant, u (p,) [N m] and lost."""
     inputs = Inputs(computer)
+    # _released: x in which the torque that waited for a fraction of the period acts, if that time is over
     at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)  # the lines that a walk runs; no second text of the law for C
     sent = semantics.parts(at.loop, x).tail.line.sent  # u: the torque that goes to the motors now
@@ -182,6 +184,7 @@ def functions(computer: Computer) -> Functions:
 def fields_of(computer: Computer) -> tuple[Field, ...]:
     """The fields of x_c in its order; a field of length 0 is left out later."""
     n, p, line = computer.robot.n, computer.robot.p, computer.held.line
+    # parts of x: q, v, s, tail. A Field has name, length and words; `double`: also where the others are floats
     s, sensors = computer.layout.parts[2], computer.sensors
     sensed = (
         Field("angle", n, "angles of the sample instant before [rad]", double=True),
@@ -230,6 +233,8 @@ def _named(
 ) -> CFunction:
     """Give a function the names in C of its inputs and `outputs`; an output with an empty name is dropped."""
     kept = [i for i, name in enumerate(outputs) if name]
+    # t, time of the last sample instant, number and start of the single support come first (_FIRST). True: a
+    # double even where the other numbers are floats, since a difference of times or angles needs all digits
     inputs = [
         *(Entry(name, double) for name, double in _FIRST.items()),
         *(Entry(f"m->q[{i}]", True) for i in range(n)),

@@ -96,6 +96,7 @@ def source_of(
     bad = [names[i] for i in used if values[i] != values[i]]  # NaN alone differs from itself
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
+    # ARGUMENTS: function -> its arguments in C besides x, m and next
     traced = zip(ARGUMENTS, functions_.all, strict=True)
     written = {name: c_text(f, used) for name, f in traced}
     words = {

@@ -5,6 +5,7 @@
     observation, reward, terminated, truncated, info = env.step(action)
     envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
+A condition is a named set of values of a scenario, in conditions.toml: a kind of disturbance.
 A step of the environment is one sample of the walk (not a walking step), from one sample instant to the next
 (1 ms by default); a sample in which the foot strikes ends at the impact, where the clock restarts. The module
 `stage` defines observation and reward.
@@ -88,7 +89,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     ):
         """Make the walk, which `reset` begins, and Gymnasium's spaces; arguments as in the class."""
         task, self.render_mode = LearnerTask.of(scenario, condition, **values), render_mode
-        self.stage = Stage(task, 1, render_mode is not None)
+        self.stage = Stage(task, 1, render_mode is not None)  # of one walk
         self.observation_space, self.action_space = spaces_of(self.stage)
         self.picture = Picture(self.stage) if render_mode else None
 
@@ -102,6 +103,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         """
         super().reset(seed=seed)  # restarts Gymnasium's generator of random numbers, np_random
         check_options(options)
+        # MOST_SEED: largest seed that a file of results can hold
         self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
         return self.stage.observations()[0], self._info()
 
@@ -209,7 +211,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         stage, again = self.stage, self.over
         stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         for i in np.flatnonzero(again):
-            self._begin(int(i), None)
+            self._begin(int(i), None)  # None: with a seed that is drawn
         fallen, late = stage.ended()
         rewards = stage.rewards()
         rewards[again] = 0.0
@@ -218,7 +220,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
 
     def _infos(self) -> dict[str, Any]:
         """The arrays (N,) of `Stage.infos` by name, and for each Gymnasium's mask `_name` of the walks that
-        have this entry: all.
+        have this entry: all (`there` is all true).
         """
         result = self.stage.infos()
         return result | dict.fromkeys([f"_{name}" for name in result], self.there)
@@ -276,6 +278,7 @@ class Picture:
             return WIDTH / 2 + self.scale * (x - x_0), below
 
         reach = WIDTH / 2 / self.scale
+        # TILE: length of a tile of the ground [m]
         for k in range(math.floor((x_0 - reach) / TILE), math.ceil((x_0 + reach) / TILE)):
             tile = [pixel(x, level(x)) for x in (k * TILE, (k + 1) * TILE)]
             pen.line(tile, fill=GREY if k % 2 else TRUNK, width=4)

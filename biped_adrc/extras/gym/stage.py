@@ -94,6 +94,7 @@ class LearnerTask(Checked, Shown):
             )
         # mine: values of the controller that the scenario sets
         mine = flat({"controller": self.scenario.controller.record()})
+        # TORQUES: the action is all of the torque
         if self.action == TORQUES and mine:
             raise InputError(
                 f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "
@@ -117,7 +118,7 @@ class LearnerTask(Checked, Shown):
             return cls(scenario.replace(record), **how)
         ground = record.get("ground", RIGID)
         plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
-        # there: the conditions that a walk on this plant can have
+        # there: the conditions that a walk on this plant can have; those that set OF_RIGID need the rigid one
         there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
         name = condition or "nothing"
         if name not in there:
@@ -169,9 +170,10 @@ class Stage:
         self.cost = task.effort / (p * self.limits.torque**2)
         # a run ends as RAN_AWAY above the rate v, so no observation can be higher
         v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
-        # bounds of q, q', e and e'; e is a difference of two angles
+        # bounds of q (TURNS = 4 pi rad), q', e and e'; e is a difference of two angles
         measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
         self.highest = np.concatenate((*measured, np.full(p, self.limits.torque), [2.0 * TURNS]))
+        # 4: feasible, friction, normal force and torque, see the class
         self.lowest, self.needs = -self.highest, np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
@@ -196,7 +198,7 @@ class Stage:
         # the last two inputs are a force from outside, which stays zero
         np.multiply(actions, self.limits.torque, out=self.stepper.walks.inputs[:, :-2])
         self.stepper.move()
-        self._seen = np.zeros(0)
+        self._seen = np.zeros(0)  # so that `view` is computed anew
         for i, support in self.stepper.over:  # single supports that have ended in this sample
             feasible, friction, normal, torque = self.needs[i]
             self.needs[i] = (
@@ -245,6 +247,7 @@ class Stage:
         """
         run, view = self.task.scenario.run, self.view
         fallen = self.stepper.walks.codes != 0
+        # FALLEN_FROM = 1e-9 s is for the round-off of times
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= view[:, self.first + 1] >= run.first_step + run.impacts
         return fallen, late > fallen  # of truth values: late and not fallen
@@ -254,6 +257,7 @@ class Stage:
         `needs` (feasible, friction [1], normal_force [N], peak_torque [N m]), and text of the status.
         """
         at, rows = self.view[:, self.first :], self.needs.T.copy()
+        # _NAMES: text of each status, by its code
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),
@@ -306,6 +310,7 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
         q_seen, v_seen = k.reading(k.sense(tail.sensors, q, v), q, v)
         state, line = true._replace(q=q_seen, v=v_seen), tail.line
     r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(tail.line)
+    # at: time and single support; paid: the reward's 1 / (1 + |e|^2 / e_1^2), e_1 = _NEAR, and |u|^2
     return LearnerView(
         q=state.q,
         v=state.v,

@@ -102,6 +102,7 @@ def relabel_legs(
     function is its own inverse.
     """
     # R (n, n): matrix of the exchange, q+ = R q- + offset, v+ = R v-; `swap` is that of the torques
+    # LEGS: values of `contact`, 1 and 2; with 2 the legs are exchanged
     other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
     q, v = np.where(other, turned, q), np.where(other, v @ biped.R.T, v)
@@ -133,6 +134,7 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
     """
     known, result = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
     for at, text in enumerate(head):
+        # _COLUMN: name of a column and its unit in brackets
         match = _COLUMN.fullmatch(text)
         if match is None or match[1] not in known:
             continue  # a column that the log does not use
@@ -158,7 +160,7 @@ def _factor(column: str, name: str, unit: str | None) -> float:
 
     column: its heading in the file, for messages.
     """
-    expected = _UNITS[name[0]]
+    expected = _UNITS[name[0]]  # by the first letter: t, q, v or u
     if not unit:
         raise InputError(
             f"column '{column}' has no unit, expected one in brackets, as '{name} [{expected}]'"
@@ -229,6 +231,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
     """
     # `[:1]` in the loops below: the first wrong number is reported
     t, step, q, u, v = log
+    # MOST_ANGLE: two turns
     for k, i in np.argwhere(np.abs(q) > MOST_ANGLE)[:1]:
         raise InputError(
             f"{names[k]} has q{i + 1} = {q[k, i]:g} rad, expected at most two turns; if the column is in "
@@ -240,6 +243,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
             f"{names[k + 1]} has q{i + 1} = {q[k + 1, i]:g} rad, after {q[k, i]:g} rad, expected angles "
             "that go on without a jump; add or take away whole turns"
         )
+    # MOST_TORQUE = 100 times the peak torque
     most = MOST_TORQUE * biped.description.peak_torque
     for k, i in np.argwhere(np.abs(u) > most)[:1]:
         raise InputError(
@@ -271,10 +275,12 @@ def _check_rate(turned: Array, integral: Array, i: int) -> None:
 
     turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
     """
+    # LEAST_MOTION = 0.002 rad: with less motion nothing can be said
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
         return  # too little motion for a verdict
     square = float(integral @ integral)
     ratio = float(turned @ integral) / square if square > 0.0 else math.inf
+    # RATIOS: from 0.5 to 2
     if not RATIOS[0] <= ratio <= RATIOS[1]:
         raise InputError(
             f"q{i + 1} changes by {ratio:.3g} times what v{i + 1} says, expected 1; look at the units, "

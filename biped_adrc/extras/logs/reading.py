@@ -51,6 +51,7 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
     # r of two digits: of equal fits `min` takes the first, so the log as it stands goes before the others
     ahead, least, words = min(fits, key=lambda fit: (fit[0], round(fit[1], 2)))
     lands = ", and the swing foot lands behind the stance foot" if behind else ""
+    # POOR: r above which no reading fits; FITS: times by which r of another reading has to be smaller
     off = f"the log is {r:.0%} off the model's balance of momentum{lands}"
     if least > POOR:
         return (f"{off}; look at the order, signs and units of its columns, and at its noise",)
@@ -66,10 +67,12 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     touchdown in the log it is taken to land in front, so that a walk and its mirror image look alike.
     """
     # `half` rows on each side of a window are needed for differences; all lie in one single support
+    # HALF = 0.01 s: half the interval of a difference; WINDOW = 0.04 s
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
     begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]
     begins = begins[:: len(begins) // 60 + 1]  # evenly over a long log
+    # (q, v, u) with the legs exchanged in all rows, as if leg 2 stood in each
     other = relabel_legs(np.full(len(log.t), 2.0), log.q, log.rates, log.u, biped)
     readings = {
         "": (log.q, log.u),

@@ -345,6 +345,8 @@ def _row(x: ReplaySignals, rows: NDArray[np.bool_]) -> ReplayRow:
     """The `ReplayRow` of the single support whose samples are `rows` (K,), a mask."""
     contact = rows & (x.in_contact > 0.5)
     outside, apart = x.zeta_estimate[rows & ~contact], (x.torque - x.u)[rows]
+    # number of the single support, of its samples; torque beyond the model, rms outside contact and largest in
+    # it; rms of the residual; rms and largest difference of the controller's torque from that of the log
     return ReplayRow(
         int(x.step[rows][0]),
         int(np.count_nonzero(rows)),

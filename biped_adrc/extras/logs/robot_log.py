@@ -8,7 +8,8 @@ The q (n,) [rad] are the coordinates, v (n,) [rad/s] their rates, u (p,) [N m] t
 joints have the names (labels) of the package, by stance and swing leg, which exchange at a touchdown. Rows of
 one single support are one period apart; the first row of the next may come earlier. `log_file` reads and writes
 logs, also with names by the robot's own legs; `logged` makes the log that the computer of a simulated robot
-would have written, so that estimates can be compared with the true values.
+would have written, so that estimates can be compared with the true values. An arc of a trajectory is one single
+support, a node of it a stored instant.
 """
 
 from __future__ import annotations
@@ -83,7 +84,7 @@ class RobotLog(Shown):
 
     @property
     def rates(self) -> Array:
-        """v (K, n) [rad/s], zero where no rate was measured."""
+        """v (K, n) [rad/s], zero where no rate was measured: `__post_init__` has put zeros for None."""
         return np.asarray(self.v)
 
     @property
@@ -103,6 +104,7 @@ class RobotLog(Shown):
 
     def even(self, period: float) -> bool:
         """Whether the rows of every single support are `period` [s] apart, to the share EVEN of it."""
+        # _ways: times between neighbouring rows of one single support
         return bool(np.all(np.abs(self._ways - period) <= EVEN * period))
 
     def resampled(self, period: float) -> RobotLog:
@@ -127,6 +129,7 @@ class RobotLog(Shown):
         # impulse (K + 1, p) [N m s] from the first row until each edge of a row; at: the new times; the last
         # period may end early
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
+        # EVEN: share of a period by which the last new row may be late
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
         edges = np.append(t, t[-1] + self.period)
         impulse = np.cumsum(u * np.diff(edges)[:, np.newaxis], axis=0)
@@ -188,13 +191,15 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             "grow; leave doubled rows out"
         )
     period = float(np.median(ways[same])) if np.count_nonzero(same) > 1 else math.nan
+    # plausible periods; others are times in another unit
     if not SHORTEST_PERIOD <= period <= LONGEST_PERIOD:
         raise InputError(
             f"the log has {len(t)} rows that are {period:g} s apart, expected three of one single support or "
             f"more, {SHORTEST_PERIOD} to {LONGEST_PERIOD} s apart; if its times are in another unit, say so in "
             "the name of the column, as 't [ms]'"
         )
-    # a row after a touchdown may come early, since the clock may restart there
+    # GAP: share of a period by which a row may be early or late; after a touchdown it may be earlier, since the
+    # clock may restart there
     late = ways > (1.0 + GAP) * period
     for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:
         raise InputError(

@@ -99,7 +99,8 @@ class MuJoCoEngine:
         row.take(self.rates, out=self.qvel, mode="clip")
         self.warnings[:] = 0
         if self.planes:
-            # own[6:8], the heights of the ground, in the row (q, q', own)
+            # own[6:8], the heights of the ground, in the row (q, q', own); depth: of a plane below the ground,
+            # by the radius of the feet
             first = 2 * self.biped.n + 6
             self.model.geom_pos[self.planes, 2] = self.depth + row[first : first + 2]
 

@@ -67,6 +67,7 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
 
 def _shape(visual: Visual) -> ET.Element:
     """A visual shape of the URDF as an MJCF element <geom>, without mass and contact."""
+    # SHARES: factors from sizes of URDF to those of MJCF, which are half lengths and radii
     size = np.multiply(visual.size, SHARES[visual.shape])
     place = {"pos": text(visual.origin), "size": text(size), "rgba": text(visual.rgba)}
     alone = {"type": visual.shape, "mass": "0", "group": "1"}

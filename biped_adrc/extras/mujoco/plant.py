@@ -18,14 +18,14 @@ external load that acts in the middle of this time. A load has generalised force
 the stance foot fixed, and their resultant F (2,) [N]. In MuJoCo, where the base floats, the load's generalised
 forces f are
 
-    f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot fixed
+    f_base = F,   f_q = zeta - J^T F,   J = d(base)/dq (2, n) with the stance foot fixed
 
 The row alone decides what follows, since MuJoCo's warm starts are off.
 
 On steps of the ground each foot has a plane of its own. The plane of the stance foot rests. That of the swing
 foot has the height of this foot's last foothold, until a sample instant at which the foot is ahead of the
 stance foot and above its next foothold; from then on it has that height. So a plane only moves under a foot in
-the air and gives no kick; a foot that does not clear a step up strikes the level behind the step.
+the air and gives no kick; a foot that does not clear a step up lands on the lower level from which it came.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ class MuJoCoPlant(Checked, Shown):
     @cached_property
     def out(self) -> tuple[float, float]:
         """Unit vector (x, z) out of the ground."""
-        x, z = ground_axes(self.slope)[1].tolist()
+        x, z = ground_axes(self.slope)[1].tolist()  # [0] is the one along the ground
         return x, z
 
     @cached_property
@@ -224,7 +224,8 @@ class MuJoCoPlant(Checked, Shown):
         """
         engine = self.engine
         after = engine.moved(t, row, u, load, until)
-        # own is a view, through which `look_ahead` changes `after`
+        # points: places of stance foot, swing foot and hip. own is a view, through which `look_ahead`, which
+        # moves the plane of the swing foot, changes `after`
         own, points = after[2 * self.n :], engine.points()
         result = self.contacts(until, own, points)
         if self.ground_steps and not result:
@@ -299,9 +300,10 @@ class MuJoCoPlant(Checked, Shown):
             return (Contact("stance_foot_in_the_air", ends=Status.INFEASIBLE),)
         if t - own[0] > self.max_step_time:
             return (Contact("step_too_long", ends=Status.STALLED),)
+        # TOUCHING = 1e-6 m, so that round-off does not decide
         if x * swing[0] + z * (swing[2] - ahead) > TOUCHING or swing[0] - stance[0] <= self.ahead:
             return ()
-        force = self.forces()[1]
+        force = self.forces()[1]  # (x, z) on the swing foot
         if force[1] <= self.touchdown_force:
             return ()
         # soft contact has no impulse at one instant: that of one integration step stands for it

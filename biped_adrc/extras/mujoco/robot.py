@@ -52,7 +52,8 @@ def model_of(root: ET.Element) -> MuJoCoModel:
 
 def pinned_mjcf(biped: Biped, h: float) -> ET.Element:
     """MJCF of the robot pinned at its stance foot, without contact; h [s]: MuJoCo's integration step."""
-    tree = biped.pinned_tree
+    tree = biped.pinned_tree  # hangs from the link "ground" by the joints of its stance foot
+    # {}: no options beside those of every robot
     root, world = _world(biped, h, {}, {"contact": "disable"})
     _add(world, tree, tree.joints_below("ground"), biped)
     return root
@@ -68,14 +69,17 @@ def floating_mjcf(
     """
     d = biped.description
     contact = {"cone": "elliptic", "impratio": text(ground.impratio)}
+    # root: the element <mujoco>, world: its <worldbody>; {}: MuJoCo's usual flags
     root, world = _world(biped, h, contact, {})
     joints = {joint.name: joint for joint in biped.tree.joints}
-    # place (x, 0, z) of the planes, and the rotation by the slope about y as a quaternion (w, x, y, z)
+    # place (x, 0, z) of the planes, along the normal ground_axes(..)[1] = (x, z) of the ground, and rotation by
+    # the slope about y as a quaternion (w, x, y, z)
     below = -ground.foot_radius * np.insert(ground_axes(slope)[1], 1, 0.0)
     tilt = np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0
     for name in planes:
         plane = {"name": name, "type": "plane", "pos": text(below), "quat": text(tilt)}
         ET.SubElement(world, "geom", plane | {"size": "0 0 1"} | NO_CONTACT)
+    # the trunk, which moves by the joints of the base and the pitch, and below it all that it carries
     _add(world, biped.tree, [joints[name] for name in (*d.base, d.unactuated)], biped)
     bodies = {body.get("name"): body for body in world.iter("body")}
     radius, pairs = text(ground.foot_radius), ET.SubElement(root, "contact")
@@ -139,6 +143,7 @@ def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) 
     for joint in joints:
         if joint.type == "fixed":
             continue
+        # _KINDS: type of a joint -> MuJoCo's type
         own = {"name": joint.name, "type": _KINDS[joint.type], "axis": text(joint.axis)}
         if joint.name in d.actuated:
             # inertia of the motors' rotors, seen at the joints [kg m^2]

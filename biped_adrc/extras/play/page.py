@@ -165,11 +165,13 @@ def laid_out(walk: PageWalk) -> WalkScene:
     """Scene of a walk at its start, for the viewer, with as much ground and as many footprints as are visible
     at the same time.
 
-    Its trajectory is artificial: PRINTS arcs with the state of the start, one for each footprint, as the viewer
-    draws one for each single support. The page moves the footprints along with the walk.
+    Its trajectory is artificial: PRINTS arcs (single supports) with the state of the start, one for each
+    footprint, as the viewer draws one for each single support. The page moves the footprints along with the
+    walk.
     """
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
+    # _AROUND = 4 m of ground before and behind the robot
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
     slope = walk.walker.ground_slope
@@ -209,6 +211,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
 def hand_commands() -> list[str]:
     """Commands of the viewer Meshcat that draw the arrow of the hand's force and the line of its spring."""
     window = draw.MemoryWindow("hand")
+    # 0.15 m towards the camera, so that no link covers them
     window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
     # in the colour of torques from outside, and opaque; the line has two points
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)

@@ -82,6 +82,7 @@ class Slider(NamedTuple):
         ones.
         """
         decades = 10.0 ** np.arange(-9, 9)
+        # ROUND: first two digits of the round values, 10 to 80
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
         values = known[(known >= self.low) & (known <= self.high)] if self.log else even
@@ -108,15 +109,17 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     # Gains that s leaves out are those of Table II of the paper
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
+    # ELSEWHERE: parameters that have one of the usual sliders, or that no slider can set
     c = s.controller
     values = {f"controller.{k}": getattr(c, k) or float(getattr(TABLE_II, k)) for k in GAINS}
+    # _USUAL: the sliders of every walk; OBSERVER: how the observer's names begin
     for one in _USUAL:
         also_here = also if one.name.startswith(OBSERVER) else {}
         yield one._replace(also=also_here, value=values.get(one.name))
     for name, parameter in takes(find("controller", c.name).load()).items():
         x = c.own.get(name, parameter.default)
         if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
-            # a tenth to ten times the value; sorted, since it may be negative
+            # a tenth to ten times the value, sorted, since it may be negative; logarithmic if it is positive
             low, high = sorted((0.1 * x, 10.0 * x)) if x else (-1.0, 1.0)
             yield Slider(f"controller.{name}", low, high, x > 0.0, value=x)
 
@@ -131,11 +134,13 @@ def sliders(
     """
     # moved: indices of the numbers that a slider changes already
     result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
+    # offered: candidates for this scenario; with_forms: one of them, and the forms of the numbers it changes
     for one in offered(s, order):
         try:
             one, forms = with_forms(one, base, numbers)
-        except BipedError:
+        except BipedError:  # the walk cannot have this slider, so the page goes without it
             continue
+        # at_base: its value at the start is the one whose forms give the numbers of the walk
         if forms and moved.isdisjoint(forms):
             moved |= forms.keys()
             result[one.name] = at_base(one, base, forms), forms
@@ -168,6 +173,7 @@ def end(one: Slider, x: float, numbers: _Numbers) -> float:
     """
     # x becomes the value tried last: the first one that the walk accepts, or else the present value
     ways = np.geomspace if one.log else np.linspace
+    # CLOSER = 8 values are tried as another end
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
             numbers_at(one, numbers, (x := float(f"{y:.2g}"),))
@@ -210,8 +216,10 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
     s (3,): powers first, then a + b s and, with k = 0, a + b tan s.
     """
     with np.errstate(all="ignore"):
+        # POWERS: exponents k that are tried
         for k in POWERS if np.all(s > 0.0) else ():
             # b follows from the last value, the other two have to agree
+            # _EXACT = 1e-12: largest relative error of a form
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < _EXACT):
                 yield 0.0, float(y[2] / s[2] ** k), k
         for k, f in ((1, s), (0, np.tan(s))):
@@ -224,17 +232,18 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
 def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
     """The slider with its unit, and with the value at which its forms give the numbers `base` (N,) of the walk.
 
-    The range is extended to this value. It is None for a table without it, and stays where the form has no
-    inverse.
+    The range is extended to this value. A table without it gives the value None; where the form has no inverse,
+    the slider stays as it is.
     """
     # the first form is solved for s: all of them give the same
     unit = Scenario.field_of(one.name).unit.replace("^2", "²")
     one = one._replace(unit="" if unit == "1" else unit)
     place, form = next(iter(forms.items()))
-    if isinstance(form, list):
+    if isinstance(form, list):  # the numbers at the values of the slider's table
         rows = np.array([*forms.values()]).T
         same = [x for x, row in zip(one.table, rows, strict=True) if np.all(row == base[[*forms]])]
         return one._replace(value=same[0] if same else None)
+    # number = a + b s^k, with tan s in place of s^k for k = 0
     a, b, k = form
     y = (base[place] - a) / b
     x = float(np.arctan(y) if k == 0 else y ** (1.0 / k))

@@ -148,7 +148,7 @@ class PageWalk:
 
         Raises InputError for values that give the machine code another structure.
         """
-        s = self.rubbed.replace(values)
+        s = self.rubbed.replace(values)  # the scenario, with joint friction if the robot has some
         # with the hand of the present walker
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = walk_code(s, self.scene, walker, self.x)
@@ -172,7 +172,8 @@ class PageWalk:
         """Sliders of the walk by name, without that of the delay: (slider, name of each parameter that it
         changes -> dependence on the slider's value, a `Form`).
         """
-        # order: m of the observer; a slider that also changes cells without a name is left out
+        # order: m of the observer; a slider that also changes cells without a name is left out. rubbed: the
+        # scenario with joint friction; at: all cells of the block for other values of it
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
         result = {
@@ -189,7 +190,8 @@ class PageWalk:
         if rubbing:
             s = self.scenario
             share = 1.0 + s.errors.friction if s.hardware.friction else 0.0
-            # from 0 to 3 times the robot's friction; share: that of the scenario, with which the walk begins
+            # from 0 to 3 times the robot's friction, linear, in units of 1; share: that of the scenario, with
+            # which the walk begins; True: for both walks of the page
             one = Slider(FRICTION, 0.0, 3.0, False, "×", 1.0, share, True)
             result[FRICTION] = one, cast(dict[str, Form], rubbing)
         return result
@@ -201,8 +203,9 @@ class PageWalk:
         low, high = self.delays
         if low == high:
             return {}
-        # away from both ends, at which the machine code has another structure
+        # away from both ends, at which the machine code has another structure; False: not logarithmic
         inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
+        # at(values): all cells of the block for these values of the scenario
         return forms_of(inside, self.numbers, numbers_at(inside, self.at))
 
     @property
@@ -219,6 +222,7 @@ def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> Com
     """Compile a walker that has a hand, for states of the layout of x (nx,), with the scenario's method of
     integration and the errors of its signals from the gait. Raises NotCompiled.
     """
+    # [0]: the method; [1] would be a finer step where a push switches. 0.0: the run begins at 0 s
     method = methods_of(s.run, walker)[0]
     return CompiledWalker.of(walker, method, walker.layout_of(x), 0.0, scene.walked.constraint)
 
@@ -262,7 +266,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     joints      for each drawn joint the index of its coordinate, or -1, -2 for x and z of the trunk
     exchanged   whether legs are drawn with exchanged names, in odd and in even single supports
     spring      stiffness [N/m] and damping [N s/m] of the hand's spring
-    places      name of a field of the block -> its cell; struck: code of an arc that ends in an impact
+    places      name of a field of the block -> its cell; struck: code of a flow that ends in an impact
     status      text of each status, by code; signals: `signal_places`
     """
     structures = [one for result in walks.values() for one in result]
@@ -271,6 +275,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
     feet = plant.description.stance_foot, plant.description.swing_foot
+    # SPRING: stiffness and damping between mouse and point; STRUCK: code of an impact
     return {
         "code": packed(web.code),
         "functions": web.functions,
@@ -288,6 +293,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
         "spring": SPRING,
         "places": PLACES,
         "struck": STRUCK,
+        # name and first words of the text of each status
         "status": [(x.name.lower().replace("_", " "), x.value.split(";")[0]) for x in STATUS],
         "signals": signal_places(first),
     }
@@ -329,6 +335,7 @@ def structure_numbers(
 
     found: result of `PageWalk.sliders` of the first variant; its indices are found here by name.
     """
+    # start: (state, time, number of the single support, its start, end of the run), here all times 0 s
     s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
     # the machine code has full friction; the walk begins with the share of its slider
     if FRICTION in found:
@@ -351,6 +358,7 @@ def structure_numbers(
         "slope": walk.walker.ground_slope,
         "limits": {"friction": known.friction, "torque": known.torque if limit is None else limit},
         "hand": hand_places(walk.code),
+        # of each slider its table (none for the delay), and pairs (index in the block, form)
         "sliders": moved | {DELAY: ((), [*walk.delay().items()])},
     }
 
@@ -402,10 +410,12 @@ def trunk_of(plant: Biped) -> str:
     """
     # at a posture without symmetry, the link's origin and the base agree only if they are the same point
     q = np.random.default_rng(0).standard_normal(plant.n)
+    # values: of all joints of the URDF by name, with the stance foot at (0, 0)
     # k: the link's origin from the stance foot; base: place (x, z) of the floating base
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])
+    # _SAME = 1e-9 m
     if np.max(np.abs(point(turned(k.A, q), k.re, k.im) - base)) > _SAME:
         raise InputError(
             f"robot '{plant.description.name}' is drawn from a base that is not the origin of its trunk "
@@ -428,6 +438,7 @@ def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
     `WebWalker.observe`, found by one evaluation at the start of the walk.
     """
     h = walk.scene.walked.constraint
+    # the last argument: the reference, from its arguments s (the controller's state) and m (the measurement)
     result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
     ends = np.cumsum([np.size(part) for part in result]).tolist()
     return dict(zip(result._fields, zip([0, *ends[:-1]], ends, strict=True), strict=True))

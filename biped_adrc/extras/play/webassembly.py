@@ -58,7 +58,8 @@ def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
     Each has to be compiled with a reference, from which its signals take the error. Raises InputError for a
     walker with the exponential method, whose product with matrices is no function of this form.
     """
-    # the functions of the loops have the first numbers
+    # names: text of functions -> its name; numbers: function -> its number, the first ones being the loops'
+    # _LOOPS: the kernels' functions, which have the first numbers
     laws = _Laws({}, {name: k for k, name in enumerate(_LOOPS, 1)})
     modules = [_walker(one, laws) for one in walkers]
     code = web_module({name: text for text, name in laws.names.items()}, tuple(laws.numbers))

@@ -198,6 +198,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     mu, mu_i = kept * limits.friction, kept * limits.impulse_friction
     weights, legs, speeds = "of the weight", "of the leg", "of sqrt(g leg)"
     ratio = (k.sigma(k.q_plus, k.v_plus) / k.sigma(x.q, k.dq)) ** 2  # delta^2
+    # steps from 0.05 to 1.2 of the leg are searched
     rows = [
         Bounded("the normal force", F_N, limits.normal_force, infinite, weights),
         Bounded("friction", mu * F_N - F_T, 0.0, infinite, weights),
@@ -229,6 +230,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
     ]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
+    # LATE: name of the row where no clearance is asked for
     name = LATE if limits.clearance is None else "foot clearance"
     rows.append(Bounded(name, height, 0.0, infinite, legs))
     for joint, (low, high) in limits.ranges.items():
@@ -257,6 +259,7 @@ def _objective(k: SymbolicStep) -> ca.MX:
             return calm
         case Objective.TRANSPORT:
             # |x| as sqrt(x^2 + e^2) - e, which has a derivative at 0
+            # _SMOOTH: width of the smoothed |power|
             power = ca.sum1(ca.sqrt((u * k.node.v_b) ** 2 + _SMOOTH**2) - _SMOOTH)
             work = ca.sum2(power * k.dt) * k.limits.torque
             return work / (k.biped.weight * k.length) + CALM * calm
@@ -294,7 +297,7 @@ def solve_nlp(
         "print_time": False,
         "show_eval_warnings": False,
         "ipopt.print_level": 0,
-        "ipopt.sb": "yes",
+        "ipopt.sb": "yes",  # no banner
         "ipopt.max_iter": MAX_ITERATIONS,
         "ipopt.max_wall_time": MAX_SECONDS,
         "ipopt.mu_strategy": strategy,
@@ -343,6 +346,7 @@ def relaxed(
     softened = NonlinearProgram(ca.vertcat(programme.x, slack), cost, tuple(rows))
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
+    # slacks of 1 at first; "monotone": the more robust way in which IPOPT lowers its barrier
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
     # a slack above _MISSED = 1e-5 is a limit that cannot be kept
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}

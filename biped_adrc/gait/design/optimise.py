@@ -119,7 +119,11 @@ def apart(
         bounds[:, biped.description.joint_index(joint)] = ends
 
     def miss(q: Array) -> Array:
-        """Weighted residuals (n + 3,): of foot (2,) and hip (x alone) [m], and of the angles (n,) [rad]."""
+        """Weighted residuals (n + 3,): of foot (2,) and hip (x alone) [m], and of the angles (n,) [rad].
+
+        The foot, to be at `target`, counts most; then the hip, to be half way; least that the angles stay near
+        those of the first guess, `near`.
+        """
         t = turned(robot.A, q)
         foot, hip = np.array(point(t, K.foot_re, K.foot_im)), point(t, K.hip_re, K.hip_im)
         return np.concatenate(
@@ -215,10 +219,13 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
     programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
+    # ASKED: rows of speed and step length, which may miss by SPEED = 5e-5
     allowed = dict.fromkeys(ASKED, SPEED)
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
+    # LATE: row on the swing foot where no clearance is asked for
     allowed[LATE] = np.inf
     result = programme.missed(stacked(x))
+    # _EXACT = 1e-6 for all other rows
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
     return programme.in_words(missed)
 
@@ -317,13 +324,17 @@ def _bounds(
 ) -> Bounds:
     """Lower and upper bounds (nx,) of the decision vector.
 
-    Rates are positive, coefficients stay within WINDING of the guess (angles repeat every 2 pi), the unknown
-    `peak` is fixed at 1 less the reserve unless it is the objective, and a requested pre-impact state is fixed.
+    Rates are positive, and coefficients stay within WINDING of the guess (angles repeat every 2 pi). The
+    unknown `peak`, the bound on |torque| over the torque limit [1], is fixed at 1 less the reserve; if it is
+    the objective it is free between 0 and that. A requested pre-impact state is fixed.
     All other unknowns are free.
     """
+    # rate, rates: |Theta'| just before the impact and at the nodes; alpha: coefficients; q, slope: q- and
+    # dq_b/dTheta just before the impact
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
     one, all_nodes = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
+    # SLOWEST, FASTEST: bounds of |Theta'|, 0.02 and 60 rad/s
     low = Unknowns[Array](*(-part for part in free))._replace(
         rate=SLOWEST * one,
         rates=SLOWEST * all_nodes,

@@ -1,9 +1,9 @@
 """The request for a gait: speed, step length, slope, objective, and the limits that its step must keep.
 
-`GaitRequest` is checked when it is made, before anything is computed; it also defines the stages in which it
-is solved and the name of its gait. `StepLimits` may leave friction and torque to the robot's record;
-`StepLimits.of` fills them in as `RobotLimits`. Used by `analysis.gait_design`, by the command line and by the
-modules of this folder.
+`GaitRequest` is checked when it is made, before anything is computed. It also has its `stages`, easier requests
+whose gaits are the first guesses of the optimisation, and the name of its gait. `StepLimits` may leave friction
+and torque to the robot's record; `StepLimits.of` fills them in as `RobotLimits`. Used by
+`analysis.gait_design`, by the command line and by the modules of this folder.
 """
 
 from __future__ import annotations

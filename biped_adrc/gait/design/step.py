@@ -118,6 +118,7 @@ def node_function(robot: PlanarRobot, phase: Array, degree: int, direction: floa
     """
     n, K = robot.n, robot.K  # K: the robot's constants here, not the number of nodes
     p, M = n - 1, degree
+    # s, r: one symbol each, the phase and |Theta'|
     alpha, theta, s, r = (ca.SX.sym(*a) for a in (("a", p * (M + 1)), ("t", 2), ("s"), ("r")))
     basis = [ca.SX.sym(f"b{k}", M + 1) for k in range(3)]
     span, c_b, c_N = theta[1] - theta[0], phase[:p], phase[p]

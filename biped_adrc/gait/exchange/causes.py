@@ -45,11 +45,15 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
     s = poses(samples, biped, layout, degree, slope)[0]
 
     def orbit(make: Callable[[float], Biped], k: float) -> ZeroDynamics:
-        """The zero dynamics of the robot make(k), on the curves that are fitted to the samples for it."""
+        """The zero dynamics of the robot make(k), the one that factor k changes, on the curves (of this degree)
+        that are fitted to the samples s for it.
+        """
         return ZeroDynamics.of(make(k), fit(s, make(k), degree))
 
     def late(log_k: float, make: Callable[[float], Biped]) -> float:
-        """log(period of that robot / duration of the samples); 0 at the factor that is searched."""
+        """log(period of the robot make(k) / duration of the samples s), k = exp(log_k); 0 at the factor k that
+        is searched.
+        """
         k = math.exp(min(max(log_k, -_WIDE), _WIDE))  # factors from 1/10 to 10
         return math.log(orbit(make, k).cycle.period / float(s.t[-1] - s.t[0]))
 
@@ -68,6 +72,7 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
             k = math.exp(newton(late, 0.0, x1=0.05, tol=1e-6, args=(make,)))
             found[name] = _distance(s, orbit(make, k)), k
     best = min((gap for gap, _ in found.values()), default=math.inf)
+    # EXPLAINS = 5e-3 rad
     if best > EXPLAINS:
         return "; no other gravity, length of the legs or mass of one body alone explains them"
     # CLEARLY = 3: also those that fit not much worse than the best one

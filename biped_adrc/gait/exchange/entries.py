@@ -11,7 +11,7 @@ FROST (ayonga/frost-dev), a MATLAB program that designs gaits, returns a step fr
 users save it as an array of structs or as cells, at any depth of a file:
 
     gait(1).tspan           t (1, K) [s]
-    gait(1).states.x, .dx   q', v' (n + 2, K), the base's position first [m, rad]
+    gait(1).states.x, .dx   q and v, one instant per column, (n + 2, K), the base's position first [m, rad]
     gait(1).params.a..., p  Bezier coefficients, column below column [rad], and their phase at end and start
 
 An impact in such a file has no course over time, so it is not counted as a step. FROST's parameters may run

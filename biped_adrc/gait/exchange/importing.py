@@ -174,6 +174,7 @@ def read_record(
             except (KeyError, IndexError, ValueError, TypeError):
                 absent.append(theirs)
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
+        # REQUIRED: the entries without a default
         absent += [key for key in REQUIRED if not samples and key not in entries]
         if absent:
             more = f" and {len(known) - _SHOWN} more" if len(known) > _SHOWN else ""
@@ -183,6 +184,7 @@ def read_record(
             )
         own = entries.get("convention")
         # without a statement these two are in the robot's own coordinates: gaits of this package, and samples
+        # STORED: format of a gait that this package wrote
         stored = result.get("format") == STORED or samples
         convention_ = own or convention or (OWN if stored else usual)
         # no convention, or two different ones
@@ -277,6 +279,7 @@ def import_gait(
     # for samples: what the provenance says of them, and the gait's name
     source, title = "arrays", "samples"
     if isinstance(gait, str | Path):
+        # usual: the convention of a file that states none; None for a robot of the paper: it has to be stated
         title, usual = Path(gait).stem, None if of_the_paper(biped) else OWN
         gait, convention, source = read_record(gait, convention, names, usual)
     # the convention in which the numbers are to be read; OWN: the robot's own coordinates
@@ -298,9 +301,8 @@ def import_gait(
         """Whether the numbers are a gait in this convention for this robot; slopes: whether they also have to
         close through its impact in dq/dTheta.
         """
-        with suppress(
-            GaitError, InputError
-        ):  # `attempt` raises one of these where they are no gait
+        # `attempt` raises one of these where they are no gait
+        with suppress(GaitError, InputError):
             return bool(attempt(convention, robot, slopes))  # a Gait counts as True
         return False
 
@@ -357,6 +359,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
         q, v = q + foot_down(biped, q, record.slope)[0], to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))
+        # RATES = 1e-2 rad/s
         if not gap[joint] <= RATES:
             raise GaitError(
                 f"gait '{record.name}': v_minus of {biped.description.joints[joint]} is {gap[joint]:.3g} rad/s "
@@ -365,6 +368,7 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
             )
         gait = replace(gait, q_minus=q, v_minus=v)
     if record.q_minus is None or record.period is None:
+        # {}: no provenance, as only state and period of this gait are used
         orbit = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
         gait = replace(gait, period=orbit.period)
         if record.q_minus is None:

@@ -150,6 +150,7 @@ def foot_down(biped: Biped, q: Array, slope: float) -> tuple[Array, dict[str, st
     on it, or further away than NEAR: rounded digits do not explain that, and `Gait.check` then refuses the
     gait. slope [rad]: of the ground, positive downhill.
     """
+    # [1]: unit vector out of the ground
     height = float(ground_axes(slope)[1] @ biped.swing_foot(q))
     if not CLOSES < abs(height) <= NEAR:
         return np.zeros(len(q)), {}
@@ -186,6 +187,7 @@ def onto_ground(
 
 def mapped(curve: Curve, A: Array, b: Array) -> Curve:
     """The curve A h(s) + b, of the same kind and degree as h = `curve`; A (rows, p), b (rows,) [rad]."""
+    # shifted(b) returns the coefficients of the curve plus b, of which a curve is made again
     return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
 
 
@@ -207,6 +209,7 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     ends = np.array([plus, minus]) + float(row @ to_paper.b)
     # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
+    # _PARALLEL = 1e-12
     if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
     # by the pose in the middle of the step, s = 0.5
@@ -244,6 +247,7 @@ def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
         return all_coordinates(curve, outputs, c, (plus, minus))
     # curves of all coordinates leave nothing open, so their phase has to be the straight line of the range
     gap = max(abs(curve(s)[0] @ c - plus - s * (minus - plus)) for s in np.linspace(0.0, 1.0, 21))
+    # CLOSES = 1e-3 rad
     if gap > CLOSES:
         raise record.error(
             f"the phase c q(s) of the curves is {gap:.3g} rad from a straight line from theta_plus to "

@@ -136,6 +136,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], str]:
     apart = {pair: len(urdf.bodies_between(body.tree, pair)) - 1 for pair in combinations(ends, 2)}
     most = max(apart.values(), default=0)
     farthest = [pair for pair, count in apart.items() if count == most]
+    # FOOT_NAMES: foot, feet, toe, sole
     named = tuple(end for end in ends if FOOT_NAMES.search(end))
     for guesses, why in (
         (farthest, f"the two ends with the most joints between them, {most}"),
@@ -160,6 +161,7 @@ def _on_point(
     a tip, for an ankle that is one of `actuated`, and for a link that is not called a foot.
     """
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
+    # _AWAY = 1e-6 m
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
         return body
     # len > 1: a single joint between both feet is no ankle
@@ -185,6 +187,7 @@ def _upright(body: PlanarBase, feet: tuple[str, str]) -> tuple[PlanarBase, tuple
     bodies, tree = urdf.bodies_between(body.tree, feet), body.tree
     # one body in the middle where their number is odd, twice here; two where it is even
     middle = [*bodies[(len(bodies) - 1) // 2], *bodies[len(bodies) // 2]]
+    # nothing to do for a trunk in the middle, or beside the way, such as a torso that the hip link carries
     if body.trunk in middle or not any(body.trunk in links for links in bodies):
         return body, feet
     if body.trunk in feet:
@@ -232,6 +235,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
             f"other way round, feet=('{feet[1]}', '{feet[0]}')"
         )
     # swing[-1]: of the joints of the swing leg alone the one nearest to the trunk
+    # _AWAY = 1e-6 m
     here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
     link = meet if here and _keeps_its_origin(tree, meet, feet[0]) else swing[-1].child
     return link, f"hip: the origin of '{link}', where '{swing[-1].name}' joins the legs"
@@ -257,6 +261,7 @@ def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
     lie at the link's origin. Other links keep their frames.
     """
     outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
+    # [::2]: x and z of (x, y, z); _AWAY: 1e-6 m
     return all(math.hypot(*joint.origin[::2]) < _AWAY for joint in outwards)
 
 

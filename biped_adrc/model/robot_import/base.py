@@ -148,6 +148,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     robot = sum(masses.values())  # what the pitch carries, as the other masses were popped
     # the slide nearer to x first; two slides are parallel where the determinant of their axes (x, z) is 0
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
+    # PLANAR = 1e-4: at most so parallel
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
     plane = plane and set(slides) <= set(carriers) and len(tops) == 1
     if not plane or sum(heavy.values()) > LIGHT * robot:
@@ -192,6 +193,7 @@ def added(
         Joint(z, "prismatic", cart, lift, zero, (0.0, 0.0, 1.0)),
         Joint(pitch, "revolute", lift, root, zero, axis),
     )
+    # three links without mass and shapes
     links = {name: Link(name, None, ()) for name in (world, cart, lift)} | carried
     text = f"base: '{x}', '{z}' and pitch '{pitch}' (axis {axis[1]:+g} y) put above '{root}'"
     tree = replace(tree, links=links, joints=joints + tree.joints)

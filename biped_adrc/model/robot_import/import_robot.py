@@ -99,6 +99,7 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
         balls = [Visual("sphere", (radius,), com, rgba)]
         ends = ends or [com]
     for end in ends:
+        # radius: a share of the rod's length; shares: places of the balls of a rod, from its start to its end
         radius, shares = _RADIUS * math.hypot(*end), np.linspace(0.0, 1.0, _BALLS).tolist()
         x, y, z = end
         if z and not x and not y:

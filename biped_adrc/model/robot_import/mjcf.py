@@ -69,6 +69,7 @@ def read_mjcf(path: Path) -> Contents:
     # a joint whose motors have no limit is left out
     torques = {name: e for name, j in hinges.items() if (e := _torque(m, j)) < math.inf}
     viscous, static, rotor = map(by_joint, (m.dof_damping, m.dof_frictionloss, m.dof_armature))
+    # orientation of each body in the world, by its name
     turns = dict(zip(names, d.xmat.reshape(-1, 3, 3).copy(), strict=True))
     tree, notes = _tree(m, d, names, path), _notes(m, hinges)
     return Contents(tree, torques, viscous, static, rotor, turns, notes)
@@ -89,6 +90,7 @@ def _compiled(model: Any, path: Path) -> Any:
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
         # that would drop the turn of a turned body, and the place of a body without joints
+        # _TURNS: attributes that turn a body's frame
         if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
     for element in (*root.iterfind("compiler"), *bodies):
@@ -123,10 +125,11 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             axis = vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
                 raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
+            # FREELY: no range
             ends = _range(m, j) if kind == "revolute" else FREELY
             origin = vector(place - above)
             joints.append(Joint(name, kind, parent, child, origin, axis, range=ends))
-            links[child] = Link(child, None, ())
+            links[child] = Link(child, None, ())  # a mass follows below, for the body's own link
             above, parent = place, child
         places.append(above)
         if m.body_mass[b] > 0.0:

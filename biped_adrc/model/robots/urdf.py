@@ -2,8 +2,8 @@
 
 Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So a file is
 read by `urdf_reader`, which checks it; a parameter set or a model error changes this tree, `pinned.reroot`
-turns it round, so that it hangs from a foot, and Pinocchio gets the text that `to_xml` writes. All records are
-frozen: a change makes a new tree.
+turns it round, so that it hangs from a foot, and Pinocchio gets the text that `to_xml` writes. All data classes
+here are frozen: a change makes a new tree.
 
 The legs exchange their roles at impact: the same configuration gets the coordinates of the next walking step.
 
@@ -11,9 +11,10 @@ The legs exchange their roles at impact: the same configuration gets the coordin
 
 q (n,) [rad] are the coordinates, v = q' [rad/s], - and + stand for just before and just after the impact. Links
 of one leg have twins in the other; the trunk, which is the torso and carries the legs, and any other link are
-their own twins. With a = A q the absolute angles of the links, and P the matrix that exchanges twins in a,
-R solves A R = P A. So R is a permutation for hips that count from a torso, and a combination for a hip that
-counts from the other leg. r is not zero for robots with spokes; it comes from the record.
+their own twins. With a = A q the absolute angles of the links, and P the matrix that exchanges twins in a, R
+solves A R = P A. So R is a permutation for hips that count from a torso, and a combination for a hip that
+counts from the other leg. r is the angle between two legs that are spokes of one rigid wheel, and zero for
+other robots; the file robot.toml of the robot states it.
 
 This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
 not, and `evened` takes the mean of legs that nearly are. Twins are paired along the way from foot to foot,
@@ -271,7 +272,7 @@ def check_inertial(inertial: Inertial, where: str) -> None:
     rod has moments that are zero, which is right: D_s of the whole robot must be definite, not the inertia of
     each body. Moments are scaled, so that tiny bodies do not underflow. where: file and link, for the message.
     """
-    J = np.array(inertial.inertia)[SYMMETRIC]
+    J = np.array(inertial.inertia)[SYMMETRIC]  # (3, 3) from the six moments
     size = float(np.sum(np.abs(J)))
     fits = 0.0 < inertial.mass < math.inf and size < math.inf
     # `or 1.0`: a point mass has the size 0; -1 fails the test below
@@ -362,6 +363,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     # row by row the angle of the twin
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
+    # _EXACT = 1e-9
     R = np.where(np.abs(R) < _EXACT, 0.0, R)
     # + 0.0 turns -0.0 into 0.0
     R = np.where(np.abs(R - np.round(R)) < _EXACT, np.round(R), R) + 0.0
@@ -388,6 +390,7 @@ def unlike(tree: Tree, feet: tuple[str, str]) -> dict[tuple[str, str], float]:
         a, b = (_in_plane(tree, link) for link in pair)
         # lengths of the four parts, of the difference and of either twin
         gap, *sizes = (np.sqrt(np.add.reduceat(x * x, starts)) for x in (a - b, a, b))
+        # _LEAST = 1e-6: no division by numbers near zero; _EXACT = 1e-9
         gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), _LEAST)))
     return {pair: gap for pair, gap in gaps.items() if gap > _EXACT}
 

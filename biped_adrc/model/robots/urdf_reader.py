@@ -3,13 +3,13 @@
 The rest of the package works with parallel frames (`urdf.Joint`). With R_p the rotation of the parent's
 frame at zero angles and (x, R) the origin of a joint in it,
 
-    R_c = R_p R,   x' = R_p x,   n' = R_c n                          (joints)
-    c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
+    R_c = R_p R,   x_w = R_p x,   n_w = R_c n                        (joints)
+    c_w = R_c c,   I_w = (R_c R_i) I (R_c R_i)^T                     (bodies)
 
-In parallel axes the joint has the place x' and the axis n', the child the COM c' and the moments I'; n, c and I
-are those in the file, in the child's frame, and R_i is the rotation of its <inertial>. R_c, the rotation of a
-link from its axes in the file to those of the world, is called its turn. So a leg that hangs down by an origin
-of rpy = (0, pi, 0) becomes a leg that points along -z. Angles keep their names,
+In parallel axes the joint has the place x_w and the axis n_w, the child the COM c_w and the moments I_w; n, c
+and I are those in the file, in the child's frame, and R_i is the rotation of its <inertial>. R_c, the rotation
+of a link from its axes in the file to those of the world, is called its turn. So a leg that hangs down by an
+origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles keep their names,
 senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv. Where the joints turn about
 another horizontal axis than y, the whole robot is turned about z until they do. Shapes that are meshes or stand
 oblique after the turn are not kept: the tree has upright primitives only.
@@ -238,13 +238,15 @@ def _by_joint(joints: list[ET.Element], tag: str, key: str) -> dict[str, float]:
         element = joint.find(tag)
         if element is not None and key in element.attrib:
             where = f"{_place_of(joint)} <{tag}>"
+            # one number, no default, at least 0
             values[joint.get("name", "")] = _numbers(element, key, "", 1, where, 0.0)[0]
     return values
 
 
 # -- frames ----------------------------------------------------------------------------------------
 def _ends(joint: ET.Element) -> tuple[str, str]:
-    """Names of the parent and the child link of a joint."""
+    """Names of the parent and the child link of a joint: the attribute `link` of its elements <parent> and
+    <child>. Raises ModelError where one is missing."""
     where = _place_of(joint)
     parent, child = (
         _name(_required(joint, role, where), f"{where}: ", "link") for role in ("parent", "child")
@@ -293,12 +295,14 @@ def _yaw(
             # sin(yaw) is 0 for an axis along y; the turn is modulo pi, as y and -y will both do
             x, y, z = _joint(joint, turns, *pair).axis
             yaw = (math.atan2(x, y) + 0.5 * math.pi) % math.pi - 0.5 * math.pi
+            # PLANAR = 1e-4: largest deviation of an axis
             return yaw if abs(z) < PLANAR and abs(math.sin(yaw)) > PLANAR else 0.0
     return 0.0
 
 
 def _clean(turn: Array) -> Array:
     """The turn (3, 3) with 0 for entries that are round-off of pi, so that right angles are exact."""
+    # _ROUND_OFF = 1e-15
     return np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
 
 
@@ -352,6 +356,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
     flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
+    # _SLENDER: moments of a slender link, in place of a body that has one about y alone
     return Inertial(mass, com, tuple((yy * _SLENDER if flat else moments).tolist()))
 
 
@@ -366,6 +371,7 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     # the permutation of axes next to the turn; a cylinder must only have its axis along z
     axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
     oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
+    # _UPRIGHT = 1e-6
     if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"

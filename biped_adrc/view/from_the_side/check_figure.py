@@ -32,6 +32,7 @@ def check_figure(biped: Biped) -> Figure:
     """
     d, tree, leg = biped.description, biped.tree, robot_of(biped).leg
     # q (n,) with the swing foot this far ahead, on level ground (slope 0), without limits of angles ({})
+    # _STEP = 0.6 of the leg
     q = apart(biped, _STEP * leg, 0.0, {})
     places = link_placements(tree, joint_values(biped, q))
     stance, swing = legs(biped)
@@ -51,6 +52,7 @@ def check_figure(biped: Biped) -> Figure:
                 ends.append(com)
             for end in ends:
                 axes.plot(*zip(_at(places[name]), end, strict=True), color=colour, lw=2.5)
+        # bent arrows in the senses of the joints, of this radius [m]
         _senses(axes, biped, places, 0.07 * leg)
         points = {
             "stance foot": np.zeros(2),
@@ -58,6 +60,7 @@ def check_figure(biped: Biped) -> Figure:
             "hip": biped.hip(q),
         }
         for text, point in points.items():
+            # 1: to the right of the point; 4.0 and -12.0: how far to the right and upwards, in points of type
             axes.plot(*point, "s", color="black", ms=5, zorder=5)
             _write(axes, point, text, 1, "black", 4.0, -12.0)
         axes.set_aspect("equal")
@@ -79,6 +82,7 @@ def _senses(axes: Axes, biped: Biped, places: dict[str, Array], radius: float) -
         # a rotation about +y is clockwise in the picture, which has x to the right and z up
         bend = bent_arrow(-joints[name].axis[1] * radius * (1.0 + 0.5 * k))
         axes.add_patch(Polygon(centre + bend, color=TORQUE, alpha=0.7, zorder=4))
+        # to the right for the swing leg, legs()[1], else to the left; at one place the names are stacked
         side = 1 if joints[name].child in legs(biped)[1] else -1
         _write(axes, centre, f"q{i + 1} {name}", side, TORQUE, 30.0, 14.0 * k)
 

@@ -58,6 +58,7 @@ def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[
 
 def wrapped(words: str, width: float) -> str:
     """Break a text in letters of 11 points into lines of at most `width` [px]; its own line breaks stay."""
+    # LETTER: width of a letter [px]
     return "\n".join(textwrap.fill(line, int(width / LETTER)) for line in words.split("\n"))
 
 
@@ -91,11 +92,12 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
 
     The limits stay as they are where the hip's position is not finite, as in a walk that has diverged.
     """
-    x = float(view.points(t)[0])
+    x = float(view.points(t)[0])  # of the hip
     if not math.isfinite(x):
         return
     z = view.scene.level(x)
     axes.set_xlim(x - left, x + right)
+    # SOLE: ground shown below the foot [m]; HEADROOM: height shown over the robot's
     axes.set_ylim(z - SOLE, z + HEADROOM * view.height)
 
 

@@ -64,6 +64,7 @@ def write_moving_picture(path: Path, walks: Mapping[str, Drawable], clip: Clip) 
     pace = "" if clip.slower == 1.0 else f"{clip.slower:g} times slower"
     with style():
         images = draw.frames(*moving_figure(walks, pace, clip.apart), times)
+    # whether a walk ended early within the picture: the last frame then stays, so that the reason can be read
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     write_bytes(path, encoded(images, fps, REST if badly else 0.0))
 
@@ -75,7 +76,7 @@ def _times(walks: Mapping[str, Drawable], clip: Clip, rate: float) -> Array:
     last frame, in which the reason is read.
     """
     first = min(walk.trajectory.t_start for walk in walks.values())
-    # the clip's times, or from the first start to the last end
+    # the clip's times, or from the first start (the third argument) to the last end
     start, stop = clip.part(first, max(walk.trajectory.t_end for walk in walks.values()), first)
     check_frames((stop - start) * rate)
     # round-off in the product does not add a frame
@@ -94,6 +95,7 @@ def moving_figure(
     side by side, in panels as high as the tallest robot needs, and not over one another.
     """
     groups = [{name: walk} for name, walk in walks.items()] if apart else [walks]
+    # widths of the picture [px] and what it shows [m], side by side or over one another
     width, shown = (WIDE, PANEL) if apart else (WIDTH, SHOWN)
     share, panels = 1.0 / len(groups), []
     views = [[SideView(WalkScene.of(walk)) for walk in group.values()] for group in groups]
@@ -103,6 +105,7 @@ def moving_figure(
     figure = draw.blank(width, share * width * tallest / shown)
     for k, group in enumerate(groups):
         axes = figure.add_axes((k * share, 0.0, share, 1.0))
+        # 0.5, 0.6: share of the panel's width to the left of the hip, which the picture follows
         panels.append(_Panel(axes, group, views[k], pace, 0.5 if apart else 0.6, shown))
 
     def show(t: float) -> None:
@@ -148,6 +151,7 @@ class _Panel:
 
     def show(self, t: float) -> None:
         """Draw the walks at t [s], later than at the last call, and the caption of that time."""
+        # around: metres of ground shown to the left and to the right of the hip
         draw.follow(self.axes, self.last, t, *self.around)
         for walk in self.drawn:
             walk.show(t)
@@ -164,7 +168,8 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     The palette is made from about eight of the frames and from bands of the colours MARKED. fps [1/s]: frames
     per second. rest [s]: how much longer the last frame is shown.
     """
-    # every third row of some frames
+    # every third row of some frames, to save time; MARKED: colours of the robot, of arrows and texts, which
+    # bands of their own bring into the palette even where few pixels have them
     some = [frame[::3] for frame in frames[:: max(1, len(frames) // 8)]]
     height, width, _ = some[0].shape
     bands = [np.full((height // 4, width, 3), ImageColor.getrgb(c), np.uint8) for c in MARKED]
@@ -205,6 +210,7 @@ def strip(axes: Axes, walk: Drawable, clip: Clip) -> Axes:
     """
     scene = WalkScene.of(walk)
     run = scene.trajectory
+    # the last argument: where a strip without times begins, at the start of the last arc but one
     start, stop = clip.part(run.t_start, run.t_end, float(run.arcs[-2:][0].t[0]))
     view = SideView(scene)
     times = np.linspace(start, stop, POSES)
@@ -231,7 +237,7 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
         mine = [s for s, r in zip(segments, roles, strict=True) if r == role]
-        # matplotlib leaves "_" out of the legend
+        # the trunk has no name in LOOKS, and goes by its link's; matplotlib leaves "_" out of the legend
         text = (name or view.scene.biped.description.trunk) if named and mine else "_"
         lines = LineCollection(mine, colors=colour, linewidths=width, linestyles=dash, label=text)
         lines.set(alpha=0.25 + 0.75 * darkness, capstyle="round", zorder=3)

@@ -121,6 +121,7 @@ class SideView:
 
     def points(self, t: float) -> Array:
         """x and z [m] of the hip and of the swing foot at t [s], (4,)."""
+        # i: number of the single support, from 0; q (n,): the robot's coordinates
         i, q = self.scene.posture(t)
         return self.scene.points(i, t, q)
 

@@ -1,10 +1,10 @@
 """Objects of the scene in Meshcat: robots from their URDF, ground, footprints, traces, arrows, cameras.
 
 Meshcat's scene is a tree of nodes with paths; an object hangs at a node and moves with it. The tree
-here mirrors that of the URDF, a node for each joint, so the player moves a link by one joint value
-and links stay together between frames. Every `add_` function draws below its argument `node`;
-`MemoryWindow` collects Meshcat's commands for it, and `view` writes them into the page.
-The player is player.js in the page: it moves, scales, fills in and colours at run time what is drawn here once.
+here mirrors that of the URDF, a node for each joint. The player, player.js in the page, moves, scales, fills in
+and colours at run time what is drawn here once: a link by one joint value, so links stay together between
+frames. Every `add_` function draws below its argument `node`; `MemoryWindow` stands in for Meshcat's window and
+collects the commands that draw; `view` writes them into the page.
 Lengths are in [m]. y points away from the camera; a placement is a homogeneous transform (4, 4).
 
 The feet are points in the model and balls in the URDF: the ground is drawn one radius below the footholds, the
@@ -89,6 +89,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
                 # `visual_links` has the names of the first ones
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
                 part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
+                # UPRIGHT: turns Meshcat's cylinders, along y, to z as in the URDF
                 upright = UPRIGHT if visual.shape == "cylinder" else np.eye(3)
                 part.set_transform(placed(R=R) @ placed(visual.origin, upright))
 
@@ -117,7 +118,8 @@ def leg_visuals(biped: Biped) -> list[list[str]]:
 
 
 def visual_links(tree: Tree) -> list[tuple[str, str]]:
-    """(path below the robot's node, name of the link) of every primitive, of a wheel only of one spoke."""
+    """(path below the robot's node, name of the link) of every primitive; a wheel has those of one
+    spoke, as its URDF draws one alone."""
     return [
         (f"{joint_path(tree, joint)}/visual_{k}", joint.child)
         for joint in tree.joints
@@ -167,7 +169,9 @@ def add_arrow(node: SceneNode, rgb: _Colour, opacity: float) -> None:
     turns it, scales the shaft and moves the head to its end.
     """
     shaft, head = node["shaft"]["body"], node["head"]["body"]
+    # height and radius [m]; `placed` lifts each by half its height, as the origin of a cylinder is its middle
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
+    # UPRIGHT: turns Meshcat's cylinders, along y, to z
     shaft.set_transform(placed((0.0, 0.0, 0.5), UPRIGHT))
     head.set_object(shapes.Cylinder(HEAD, radiusTop=0.0, radiusBottom=0.035), paint(rgb, opacity))
     head.set_transform(placed((0.0, 0.0, 0.5 * HEAD), UPRIGHT))
@@ -204,6 +208,7 @@ def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane:
         far = last * lane + 0.5 if k == last else (k + 0.5) * lane
         # thick enough to reach the lower ground beside the highest step
         thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
+        # tiles: of each one x and z of both ends (2, 2) [m], and whether it is a light one
         for ends, light in scene.surface.tiles(low, high):
             grey = 0.78 if light else 0.62
             size = [float(np.hypot(*(ends[1] - ends[0]))), far - near, thick]
@@ -230,6 +235,7 @@ def camera(kind: str, scale: float) -> dict[str, object]:
     """
     window = MemoryWindow(kind)
     node = window.viewer[f"/Cameras/{kind}/rotated"]
+    # UPRIGHT: turns y to z; VIEW: height of the picture [m]
     node.set_transform(placed(R=UPRIGHT))
     if kind == "side":
         # all is multiplied by `scale` below, the distance of 8 m is not: it has no effect on a parallel view

@@ -98,6 +98,7 @@ def scene_settings(
         # the traces of hip and swing foot get a point at each sample
         room = TRACE_POINTS if sampled is None else len(sampled.t)
         robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
+        # LANE: distance of a ghost from the walk before it [m]; TALL: highest robot that fits [m]
         robot.set_transform(placement.placed((0.0, LANE * lane, 0.0)))
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
         data = {} if sampled is None else {"data": _packed(sampled)}

@@ -3,9 +3,9 @@
 `Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the time
 around it, and most of them the milliseconds after each of its edges, the times at which it begins and ends, in
 which a fast observer acts. A column is a list of panels above one another with one time axis; the grid `spec`
-of a figure has four places in a row. In figures that compare controllers the i-th one has the i-th colour and
-mark in all panels. `Signals` are angles, torques, errors and forces over time, at the stored instants of a
-walk.
+of a figure has four columns, so that one panel takes all, two or one of them. In figures that compare
+controllers the i-th one has the i-th colour and mark in all panels. `Signals` are angles, torques, errors and
+forces over time, at the stored instants of a walk.
 
 Symbols: zeta, torque from outside on each coordinate [N m]; xi of (13) of the paper, total disturbance of a
 joint [rad/s^2], and xi^, an observer's estimate of it; Theta, phase of the gait [rad], and its rate Theta'.
@@ -62,6 +62,7 @@ def tracking_figure(
         partial(over_time.tracking_errors, s=signals, push=push),
     ]
     with new_figure(10.0, 7.2, _titled(title, signals, push)) as figure:
+        # row 0 of the grid for the angles, 1 and 2 for `below`
         spec = figure.add_gridspec(3, 4)
         for place, draw in zip(_halves(spec, 0, len(halves)), angles, strict=True):
             _zoom(_column(figure, [place], [draw]), signals, push)
@@ -85,7 +86,9 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
 
 
 def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
-    """Places in a row of the grid `spec`: for one panel that fills it, or for two that share it."""
+    """Places in a row of the grid `spec` of four columns: for one panel that fills it, or for two that share
+    it.
+    """
     return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
@@ -125,6 +128,7 @@ def _around_and_edges(
         _column(figure, [spec[row, place] for row in rows], draws) for place in places
     )
     _zoom(around, s, push)
+    # EDGE_BEFORE, EDGE_AFTER = 1, 6 ms
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), EDGES, strict=False):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
@@ -143,6 +147,7 @@ def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
     """
     # within the walk
     start, stop = push or (s.t[0], s.t[-1])
+    # BEFORE, AFTER = 0.3, 0.6 s
     _limits(column, max(start - BEFORE, s.t[0]), min(stop + AFTER, s.t[-1]))
 
 
@@ -207,6 +212,7 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
         above, below = parts
         for i, axes in enumerate(above.subplots(1, p, squeeze=False, sharex=True)[0]):
             _zoom([over_time.total_disturbance(axes, signals, i, push)], signals, push)
+        # a row, number 0, of three panels: around the push, where it begins, where it ends
         draw = partial(over_time.matched_disturbance, s=signals, push=push)
         _around_and_edges(below, below.add_gridspec(1, 4), (0,), [draw], signals, push)
         return figure
@@ -268,9 +274,11 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
         draw = partial(over_time.error_over_time, walks=walks, push=push)
+        # one row, (0,), of up to three panels: around the push, and behind each of its edges
         (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
         for (axes,) in edges:  # the same scale in all three panels
             axes.set_ylim(around.get_ylim())
+        # two panels in row 1 of the grid
         sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
         over_time.error_sizes(sizes, walks)
         over_time.torque_sizes(motors, walks)
@@ -291,6 +299,7 @@ def observer_figure(report: ObserverReport) -> Figure:
     second panel.
     """
     frequencies, responses = report.loop.frequencies, report.responses
+    # FREQUENCIES: number of frequencies; LEAST: least value drawn, as a share of the largest
     grid = np.geomspace(frequencies[0], frequencies[-1], FREQUENCIES)
     curves = (
         ("e / xi", "|e / xi| [s$^2$]", "error from a disturbance"),
@@ -336,6 +345,7 @@ def draw(name: str, walks: Mapping[str, Drawable]) -> Figure:
     """
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
+    # `literal`: matplotlib would read dollars in a name as formulas
     walks = {literal(n): w for n, w in walks.items()}
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}

@@ -147,7 +147,7 @@ def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | N
     curves(axes, s, s.u, "u")
     if limit is not None:
         axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
-        axes.axhline(-limit, color=GREY, ls=":", label="_")
+        axes.axhline(-limit, color=GREY, ls=":", label="_")  # "_" keeps it out of the legend
     return finished(axes, "torque [N m]", push)
 
 
@@ -208,7 +208,8 @@ def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """Draw kinetic, potential and total energy [J] over time [s], the potential energy counted from its least
     value in the walk.
 
-    At an impact only the kinetic energy falls. push: (start, stop) [s], shaded. Returns the axes.
+    At an impact only the kinetic energy falls. push: (start, stop) [s], shaded. Returns the axes. 0, 1, 2 are
+    the numbers of colour and dash.
     """
     potential = s.potential - s.potential.min()
     line(axes, s, s.kinetic, 0, "kinetic")
@@ -260,7 +261,7 @@ def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) 
     """
     x, y = with_gaps(s, s.theta), with_gaps(s, s.dtheta)
     axes.plot(x, y, color=PALETTE[colour], lw=0.8, label=name)
-    # j: last node before an impact, j + 1: first node after it
+    # j: last node before an impact, j + 1: first node after it; the legend has the first only ("_" hides)
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):
         ends, text = slice(j, j + 2), "impact" if k == 0 else "_"
         axes.plot(s.theta[ends], s.dtheta[ends], color=GREY, ls=":", lw=0.6, label=text)

@@ -2,7 +2,7 @@
 
 The zero dynamics are the motion with all joints exactly on the gait's curves: a scalar system.
 
-    Theta            phase of the gait [rad]; Theta- and Theta+ just before and after an impact, as of others
+    Theta            phase of the gait [rad]; - and + are just before and just after an impact
     sigma            angular momentum about the stance foot [kg m^2/s], sigma = I(Theta) Theta'
     V_zero(Theta)    potential [kg^2 m^4/s^2]: sigma^2 / 2 + V_zero is constant in a single support, so that the
                      portrait has level curves of this sum; V_max is the largest V_zero of a step
@@ -107,7 +107,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     axes.plot(zeta, o.delta**2 * zeta - o.v_end, color=PALETTE[0], label=r"$\rho(\zeta)$")
     for k, end in enumerate(() if report.domain.empty else (low, high)):
         inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
-        name = "step by step" if k == 0 else "_"
+        name = "step by step" if k == 0 else "_"  # "_" leaves it out of the legend
         stairs(axes, o.iterate(inside, STAIRS), name)
     name = r"$\zeta^*$"
     axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
