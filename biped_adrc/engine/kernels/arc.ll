@@ -1,4 +1,4 @@
-; sources 704157605856d3ac03b6bc7b39f84ff5, text 76a099898943c9107fd37fec1ad4fdd5
+; sources ec1a2ac9f046c579c8199061d84007d0, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

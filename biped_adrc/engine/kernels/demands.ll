@@ -1,4 +1,4 @@
-; sources 0a2edc293720bdb4fc1b657162f56d77, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources 718d9082be1928948d49e895f400b8de, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
