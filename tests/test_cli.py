@@ -39,7 +39,7 @@ def test_the_command_in_a_fresh_interpreter(tmp_path):
 
 
 def test_multipliers_of_a_robot_without_motors():
-    """The compass gait: two independent methods print the same multipliers, to seven digits those known."""
+    """For the compass gait two independent methods print the same multipliers, to seven digits those known."""
     printed = command("poincare", "--robot", "compass")
     table = {line[:29].strip(): line[29:].split() for line in printed.splitlines()}
     assert table["variational equation"] == table["central differences"]
@@ -69,7 +69,7 @@ def test_pushes_from_text():
 
 
 def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
-    """A B-spline in place of the polynomial, from option to file; 12 nodes keep the search short."""
+    """A B-spline takes the place of the polynomial, from option to file; 12 nodes keep the search short."""
     out = tmp_path / "local.json"
     command(
         *["gait", "design", "--speed", "0.7", "--set", "nodes=12", "--set", "curve=bspline", "-o"],
@@ -197,7 +197,7 @@ def test_a_walk_is_printed_step_by_step(monkeypatch):
 
 
 def test_a_table_of_gaits_and_a_version():
-    """A row of the table: speed 0.7502 m/s, step 0.3124 m, period 0.4164 s, slope 0."""
+    """A row of the table has: speed 0.7502 m/s, step 0.3124 m, period 0.4164 s, slope 0."""
     assert "│ published │ 0.7502 │ 0.3124 │ 0.4164 │ 0 │" in ended("gait", "show")[1]
     assert ended("--version") == (0, f"biped-adrc {ba.__version__}")
 

@@ -53,7 +53,7 @@ def adrc(constraint):
 
 
 def walker(compass, controller, **more):
-    """On a plant that is heavier than the model knows, under a push."""
+    """The walker is on a plant that is heavier than the model knows, under a push."""
     heavy = ba.ModelErrors(mass={"hip": 0.1}).apply(compass)
     return ba.Walker(heavy, controller, PUSH, model=compass, **more)
 
@@ -90,8 +90,9 @@ HARDWARE = {
     ],
 )
 def test_both_engines_walk_alike(compass, designed, controller, hardware):
-    """Compiled code against Python after each of three impacts. "late": a delay and lagging motors;
-    "touchdown noticed": a clock that runs on over touchdowns that the controller has to notice."""
+    """Compiled code is compared with Python after each of three impacts. "late": a delay and lagging motors;
+    "touchdown noticed": a clock that runs on over touchdowns that the controller has to notice.
+    """
     around = walker(compass, controller(designed.gait.constraint), **HARDWARE[hardware])
     python, code = (
         ba.walk(around, designed.gait, 3, STEP, engine=engine).trajectory

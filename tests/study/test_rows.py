@@ -158,7 +158,7 @@ def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
 
 @pytest.mark.parametrize("kind", ["rows", "costs"])
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):
-    """A kill and a Ctrl-C at random moments, of a study and of a search."""
+    """A study, or a search, is killed and then ended by Ctrl-C, both at random moments."""
     script, random = FOLDER / "plants.py", np.random.default_rng(38)
     out = tmp_path / "killed"
     for by in (signal.SIGKILL, signal.SIGINT):
@@ -281,8 +281,8 @@ def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tabl
 
 
 def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
-    """Results of a study with another value, a text in their place, and half a file: each is refused and no
-    byte of them changes.
+    """The file has results of a study with another value, a text in their place, and half a file: each is
+    refused and no byte of them changes.
     """
     made(tmp_path, 1)
     before = (tmp_path / RESULTS).read_bytes()
