@@ -31,6 +31,7 @@ SUPPORT = {"step": 1, "duration": 0.4, "scuffing": 0.0, "slip": 0.0, "missed_sto
 SUPPORT |= {"rate_share": 0.0, "beyond_range": 0.0, "joints": {}}
 FORCES = {"least_normal_force": 200.0, "friction": 0.4, "impulse_ratio": 0.5, "peak_torque": 100.0}
 MEANS = {"mean_normal_force": 200.0, "mean_friction": 0.4}
+# friction, torque [N m] and window [s]
 LIMITS = {"limits": KnownLimits(0.6, 150.0, 5e-3)}
 STEP = {"step_length": 0.3, "old_foot_velocity": 0.1, "clearance": 0.01, "cost_of_transport": 0.3}
 ENERGY = {"joint_work": 10.0, "energy_lost": 10.0}
@@ -64,6 +65,7 @@ def member(npd=None, adrc=None, of=None):
 
 
 def cell(npd, adrc, doubtful=False, onset=0.1):
+    # of 90 N m with the same sign on all motors, without a torque limit
     push, one = MapPush("identified", onset, 90.0, "all +", None), ended(adrc)
     other = replace(one, half=replace(one, status="STALLED")) if doubtful else one
     return PushCell(push, ended(npd), other)
@@ -104,6 +106,7 @@ def results(**odd):
         c = name.rpartition(" ")[2]
         runs[name] = outcome(c, {"NPD": 1e-2, "ADRC": 1e-5}[c])
     more = {name: runs.pop(name) for name in claim_runs(PLAN)}
+    # two gains, bandwidth [rad/s], delay margin [s], error per disturbance at 5 Hz, peak error under a push
     order = Order(1.0, 1.0, 500.0, 1e-3, 1e-6, figure(1e-4))
     walked = {c: outcome(c, impacts=0) for c in CONTROLLERS}
     made = {

@@ -190,8 +190,9 @@ def test_the_word_on_multipliers_is_that_of_the_method_that_is_trusted():
 
 # -- numbers with closed forms ---------------------------------------------------------------------
 def test_integrals_and_means_of_signals():
-    """Against the primitives of a cubic, for which the rule is exact on uneven nodes; a repeated time is a
-    jump, at which the integral is split. The rms of (t, 2 t) is that of all entries."""
+    """Integrals are compared with the primitives of a cubic, for which the rule is exact on uneven nodes; a
+    repeated time is a jump, at which the integral is split. The rms of (t, 2 t) is that of all entries.
+    """
     t = np.array([0.0, 0.1, 0.4, 0.5, 1.0])
     cubic = t**3 - 2.0 * t**2 + 3.0
     assert signals.integrate(t, cubic) == pytest.approx(0.25 - 2.0 / 3.0 + 3.0, abs=1e-14)

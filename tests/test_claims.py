@@ -334,8 +334,9 @@ def test_every_claim_has_a_row_with_every_column():
 
 
 def test_one_bad_member_breaks_one_claim_and_its_check():
-    """A ratio of 0.0101 in one of six members: 5 of 6 are left. Two claims rest on the ratio, of which
-    rejection is asserted, that is held by a check; no other claim changes its word."""
+    """One of six members has a ratio of 0.0101: 5 of 6 are left. Two claims rest on the ratio, of which
+    rejection is asserted, that is held by a check; no other claim changes its word.
+    """
     good, bad = (rows(results(**with_member(m))) for m in (member(), member(adrc=walk(1.01e-4))))
     changed = [a.claim for a, b in zip(good, bad, strict=True) if a.word != b.word]
     assert len(changed) == 2  # rejection, and what figure 5 shows
@@ -378,8 +379,9 @@ def test_a_tracking_error_decays_by_the_gains_of_table_two():
 
 
 def test_noise_gives_a_spectrum_inside_the_unit_circle():
-    """The paper's regression on random numbers without dynamics: its "multipliers" are below 1 too, so that
-    such a spectrum proves no stability. The seed is fixed: the same twice."""
+    """The paper's regression is made on random numbers without dynamics: its "multipliers" are below 1 too, so
+    that such a spectrum proves no stability. The seed is fixed: the same twice.
+    """
     medians = noise_spectrum()
     assert np.array_equal(medians, noise_spectrum())
     assert np.all(np.diff(medians) < 0)

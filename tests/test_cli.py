@@ -68,7 +68,7 @@ def test_pushes_from_text():
 
 
 def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
-    """A B-spline in place of the polynomial, from option to file; 12 nodes keep the search short."""
+    """A B-spline takes the place of the polynomial, from option to file; 12 nodes keep the search short."""
     out = tmp_path / "local.json"
     command(
         *["gait", "design", "--robot", "three_link", "--speed", "0.7", "--set", "nodes=12"],
@@ -196,7 +196,7 @@ def test_a_walk_is_printed_step_by_step(monkeypatch):
 
 
 def test_a_table_of_gaits_and_a_version():
-    """A row of the table: speed 0.7502 m/s, step 0.3124 m, period 0.4164 s, slope 0."""
+    """A row of the table has: speed 0.7502 m/s, step 0.3124 m, period 0.4164 s, slope 0."""
     assert "│ published │ 0.7502 │ 0.3124 │ 0.4164 │ 0 │" in ended("gait", "show")[1]
     assert ended("--version") == (0, f"biped-adrc {ba.__version__}")
 

@@ -53,7 +53,7 @@ def adrc(constraint):
 
 
 def walker(compass, controller, **more):
-    """On a plant that is heavier than the model knows, under a push."""
+    """The walker is on a plant that is heavier than the model knows, under a push."""
     heavy = ba.ModelErrors(mass={"hip": 0.1}).apply(compass)
     return ba.Walker(heavy, controller, PUSH, model=compass, **more)
 

@@ -42,8 +42,9 @@ def test_the_peak_of_a_cubic_lies_between_its_nodes(sign):
 
 
 def test_the_peak_between_nodes_is_of_fourth_order():
-    """Of sin(t), whose peak is 1, on ever finer nodes: the error falls by about 16 when their distance is
-    halved, and is far below that of the nodes' own maximum."""
+    """The peak of sin(t), which is 1, is taken on ever finer nodes: the error falls by about 16 when their
+    distance is halved, and is far below that of the nodes' own maximum.
+    """
     gaps = []
     for count in (11, 21, 41):
         t = np.linspace(0.1, 2.9, count)

@@ -217,6 +217,7 @@ def test_verdicts_at_their_limits():
     broken."""
     assert str(at_most("x [m]", "law", 2.0, 2.0)) == "x [m]: 2.0e+00 <= 2"
     assert str(below("x", "law", 2.0, 2.0)) == "x: 2.0e+00 is not < 2"
+    # the value, then its limit or limits
     kept = at_least("x", "law", UP, UP), between("x", "law", 2.0, 2.0, 2.0)
     assert [(x.holds, x.limit) for x in kept] == [(True, ">= 2"), (True, "in [2, 2]")]
     found = [at_least("x", "law", 2.0, UP), between("x", "law", UP, 1.0, 2.0)]
@@ -439,7 +440,7 @@ def test_versions_and_their_differences(tmp_path):
 
 
 def test_tasks_in_this_process_come_back_in_order():
-    """With one worker the tasks run here: values in order, and progress as (number done, of all, name)."""
+    """With one worker the tasks run here: values come in order, and progress as (number done, of all, name)."""
     shown, tasks = [], [processes.Task(name, abs, (x,)) for name, x in (("a", -1), ("b", -2))]
     done = processes.run_tasks(tasks, 1, (), lambda *progress: shown.append(progress))
     assert ([x.value for x in done], shown) == ([1, 2], [(1, 2, "a"), (2, 2, "b")])

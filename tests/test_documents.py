@@ -229,8 +229,9 @@ def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():
-    """docs/results.md against reproduction.csv: the counts of checks and of claims by word, and, of both
-    walks under the push, impacts and largest errors [mrad], which the page rounds (2 %)."""
+    """docs/results.md is compared with reproduction.csv: the counts of checks and of claims by word, and, of
+    both walks under the push, impacts and largest errors [mrad], which the page rounds (2 %).
+    """
     with (ROOT / "docs" / "findings" / "reproduction.csv").open(
         encoding="utf-8", newline=""
     ) as file:

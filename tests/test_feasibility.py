@@ -25,7 +25,7 @@ from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.studies.run import run_trials
 from biped_adrc.view.placement import joint_values
 
-KNOWN = KnownLimits(0.6, 150.0, 5e-3)
+KNOWN = KnownLimits(0.6, 150.0, 5e-3)  # friction, torque [N m], window [s]
 WEIGHT = 300.0
 H = 1e-4
 
@@ -448,8 +448,9 @@ def compass_with_a_motor():
 
 @pytest.mark.parametrize("text", [two_legs(), compass_with_a_motor()], ids=["two", "between"])
 def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, text):
-    """Against Pinocchio's reading of the URDF: rates and angles of its joints come from the pose as drawn, in
-    single supports 1 and 2, at random states. A leg taken for the other has the wrong limit."""
+    """They are compared with Pinocchio's reading of the URDF: rates and angles of its joints come from the pose
+    as drawn, in single supports 1 and 2, at random states. A leg taken for the other has the wrong limit.
+    """
     path = tmp_path / "own.urdf"
     path.write_text(text)
     biped = ba.biped_from_urdf(path)

@@ -44,7 +44,7 @@ def test_every_command_has_a_short_help(words):
 
 
 def test_the_version_is_said_by_the_module():
-    """`python -m biped_adrc --version`, as its whole output."""
+    """`python -m biped_adrc --version` prints the version and nothing else."""
     done = subprocess.run(
         [sys.executable, "-m", "biped_adrc", "--version"],
         capture_output=True,

@@ -25,7 +25,7 @@ def state(biped):
 
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_the_laws_of_the_impact_hold_to_round_off(preset):
-    """At 300 random states, in all presets (sets of RABBIT's masses): no relative violation above 1e-12."""
+    """At 300 random states, in all presets (sets of RABBIT's masses), no relative violation is above 1e-12."""
     found = model_laws(preset, samples=300)
     assert len(found) == 9  # the laws of `paper.physical_laws`, none left out
     assert [name for name, x in found.items() if not x <= 1e-12] == []
@@ -45,8 +45,9 @@ def test_another_velocity_after_impact_is_noticed(biped, state):
 
 
 def test_legs_that_do_not_swap_are_noticed(biped, state):
-    """The state after impact in the labels from before it: the linear momentum pinned at the new foot is
-    another one then."""
+    """The state after impact has the labels from before it: the linear momentum pinned at the new foot is
+    another one then.
+    """
     q, v = state
     hit = biped.impact(q, v)
     unswapped = hit._replace(q=q, v=hit.v_e[: biped.n])
@@ -54,7 +55,9 @@ def test_legs_that_do_not_swap_are_noticed(biped, state):
 
 
 def test_momentum_about_the_stance_foot_is_sigma(biped, state):
-    """The row of q_N of D_s q', in the pinned model, by the links' own velocities."""
+    """sigma, the row of q_N of D_s q' in the pinned model, is compared with the sum by the links' own
+    velocities.
+    """
     q, v = state
     motion = LinkMotion(biped.floating, q, np.append(v, [0.0, 0.0]))
     assert motion.about(np.zeros(2)) == pytest.approx(biped.angular_momentum(q, v), rel=1e-11)

@@ -60,6 +60,7 @@ class Asks(ba.Controller):
 
 def asking(u):
     """A measurement at which `Asks` asks for u (p,)."""
+    # at 0 s in single support 1, which begins there
     return Measurement(0.0, 1, 0.0, u, np.zeros_like(u), SimpleNamespace(kappa=np.eye(len(u))))
 
 
@@ -106,7 +107,9 @@ def test_margins_of_the_paper_and_of_the_linear_observer():
 
 
 def test_known_delay_leaves_the_textbook_margin_of_the_gains(observer):
-    """s^2 + (K_d s + K_p) exp(-s d): |L| = 1 at w^4 = K_d^2 w^2 + K_p^2, d = atan(K_d w / K_p) / w."""
+    """The loop's characteristic function is s^2 + (K_d s + K_p) exp(-s d): |L| = 1 at w^4 = K_d^2 w^2 + K_p^2,
+    d = atan(K_d w / K_p) / w.
+    """
     w = math.sqrt(0.5 * (K_D**2 + math.sqrt(K_D**4 + 4.0 * K_P**2)))
     margin = ObserverLoop(observer).delay_margin(known=True)
     assert margin.delay == pytest.approx(math.atan(K_D * w / K_P) / w, rel=1e-9)
@@ -129,8 +132,9 @@ def error_system(observer):
 
 
 def test_transfer_functions_are_those_of_the_state_space(observer):
-    """The closed formulas of `ObserverLoop` against C (i w - A)^-1 B of (21) to (23), e_q'' = -K_d (e_q' -
-    e2) - K_p (e_q - e1) + xi - xi^, beside the observer's errors (19), at six frequencies."""
+    """The closed formulas of `ObserverLoop` are compared with C (i w - A)^-1 B of (21) to (23), e_q'' = -K_d
+    (e_q' - e2) - K_p (e_q - e1) + xi - xi^, beside the observer's errors (19), at six frequencies.
+    """
     frequencies = np.array([3.0, 30.0, 100.0, 300.0, 1e3, 1e4])
     A_e, B_e, C_e = error_system(observer)
     k = len(A_e)
@@ -207,7 +211,9 @@ def test_ripple_of_a_count_is_that_of_many_noisy_loops(T, delay):
 
 @pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
 def test_largest_period_parts_stable_from_unstable(observer_):
-    """With a delay of one period: stable 0.1 % below the largest period and unstable 0.1 % above it."""
+    """With a delay of one period the loop is stable 0.1 % below the largest period, and unstable 0.1 % above
+    that.
+    """
     T = largest_period(SampledLoop(observer_, 1e-3), delay_periods=1.0)
     for share, stable in ((0.999, True), (1.001, False)):
         loop = SampledLoop(observer_, share * T, delay=share * T)
@@ -276,7 +282,9 @@ def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait):
 
 
 def test_table_1_falls_by_one_count_where_the_linear_observer_walks(biped, gait):
-    """At RABBIT's 1.5 ms both walk with exact angles; with 8192 counts only m = 1 at 500 rad/s does."""
+    """At RABBIT's 1.5 ms both observers walk with exact angles; with 8192 counts only m = 1 at 500 rad/s
+    (FIRST) does.
+    """
     statuses = {}
     for observer in (TABLE_I, FIRST):
         for counts in (None, 8192):
@@ -401,8 +409,9 @@ def test_verdict_and_recommendation_agree(biped, gait, m):
 
 
 def test_tables_of_an_observer(biped, gait):
-    """Whole, as printed: gains in physical units and scaled, and peaks of three transfer functions; the four
-    poles are put into the name."""
+    """The tables are compared whole, as printed: gains in physical units and scaled, and peaks of three
+    transfer functions; the four poles are put into the name.
+    """
     report = observer_report(
         ba.GPIObserver.from_poles((-300.0, -200.0, -400.0, -80.0)), robot=biped, gait=gait
     )

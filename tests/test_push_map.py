@@ -19,9 +19,10 @@ from .made_up_results import cell
 
 
 def test_marginal_cells_carry_no_claim():
-    """Three certain cells, and one whose walk under ADRC is marginal. Columns count feasible, feasible but
-    for the impact, infeasible, pulled, fell, ended, marginal: it stands in the last one, under NPD in the
-    first."""
+    """There are three certain cells, and one whose walk under ADRC is marginal. Columns count feasible,
+    feasible but for the impact, infeasible, pulled, fell, ended, marginal: that one stands in the last one,
+    under NPD in the first.
+    """
     words = [("infeasible", "feasible"), ("feasible", "feasible"), ("pulled", "fell")]
     sure = [cell(*pair) for pair in words]
     cells = [*sure, cell("feasible", "feasible", doubtful=True)]
@@ -33,8 +34,9 @@ def test_marginal_cells_carry_no_claim():
 
 
 def test_the_figure_counts_what_walks_on_and_leaves_marginal_cells_empty():
-    """One push per onset: 1 for a walk that is feasible, perhaps but for the impact, 0.5 for an infeasible
-    one, 0 for one that is lost, and no text where the walk (the third one under ADRC) is marginal."""
+    """There is one push per onset: 1 stands for a walk that is feasible, perhaps but for the impact, 0.5 for an
+    infeasible one, 0 for one that is lost, and no text where the walk (the third one under ADRC) is marginal.
+    """
     words = [("but_impact", "feasible"), ("fell", "infeasible"), ("ended", "feasible")]
     # the third one is marginal; onsets 0, 0.1, 0.2
     cells = [cell(*pair, k == 2, 0.1 * k) for k, pair in enumerate(words)]

@@ -79,7 +79,7 @@ def test_a_status_is_shown_by_its_name(biped, gait):
 
 
 def test_a_stepper_and_its_samples_are_one_line(biped, gait):
-    """Of two walks at once; arrays of a sample have a row for each."""
+    """The stepper has two walks at once; arrays of a sample have a row for each."""
     stepper = ba.Stepper(ba.Walker(biped, ba.NPDController(gait.constraint), timing=TICKS), 2)
     assert repr(stepper) == "Stepper(2 walks of Walker(...))"
     sample = stepper.reset(start=gait.start(biped))

@@ -192,17 +192,19 @@ DIFFERENCES = {"hardware.encoders.velocity": "differences"}
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
-    """Two walks of the robot that start a little apart against the powers of M, over ten periods. M is frozen
-    at a phase: what it misses is the gait's motion in ten periods, which falls with the period. `missed` is
-    this gap, relative to the deviation."""
+    """Two walks of the robot that start a little apart are compared with the powers of M, over ten periods. M
+    is frozen at a phase: what it misses is the gait's motion in ten periods, which falls with the period.
+    `missed` is this gap, relative to the deviation.
+    """
     coarse, fine = (missed(T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
 
 
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
-    """The derivative of a sample instant by the compiled code against central differences of it, for an
-    observer with a delay and rates by differences; 1e-5 is the accuracy of these."""
+    """The derivative of a sample instant by the compiled code is compared with central differences of it, for
+    an observer with a delay and rates by differences; 1e-5 is the accuracy of these.
+    """
     walker, gait, _ = loop_of(**{"controller": "LESO", "hardware.delay": 1e-3, **DIFFERENCES})
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
@@ -275,9 +277,10 @@ def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know
 
 # -- sensors ---------------------------------------------------------------------------------------
 def test_errors_of_sensors_are_those_of_what_they_show():
-    """The standard deviations by formula against 3000 simulated readings at random angles, 6 % for their
-    scatter. Rates that are not measured have no error, `smooth()` has none at all; a second sensor
-    replaces the pitch."""
+    """The standard deviations by formula are compared with 3000 simulated readings at random angles, 6 % for
+    their scatter. Rates that are not measured have no error, `smooth()` has none at all; a second sensor
+    replaces the pitch.
+    """
     n, p = 5, 4
     sensors = Sensors(counts=1000.0, noise=1e-3, velocity="gyro", rate_noise=0.1)
     sampled = sensors.sampled(n, p, 1e-3)
@@ -287,6 +290,7 @@ def test_errors_of_sensors_are_those_of_what_they_show():
         w = sampled.sense(w, q, np.zeros(n))
         rows.append(np.append(w.angle - q, w.rate[-1]))
     errors = sensors.errors(n, p, np.zeros(2 * n))
+    # of the five angles, and of the last rate, which the gyroscope measures
     np.testing.assert_allclose(np.std(rows, axis=0), errors[[0, 1, 2, 3, 4, 9]], rtol=0.06)
     assert not np.any(errors[n : 2 * n - 1])
     assert not np.any(sensors.smooth().errors(n, p, np.zeros(2 * n)))
@@ -307,8 +311,9 @@ def sensitivity(L, w):
 
 @pytest.mark.parametrize("dt", [0, 0.05])
 def test_one_loop_as_python_control(dt):
-    """A loop in continuous time and sampled at 0.05 s: the disk margin of the library against ours, from the
-    same frequencies."""
+    """The loop is in continuous time, and sampled at 0.05 s: the disk margin of the library is ours, from the
+    same frequencies.
+    """
     L = control.tf([25.0], [1.0, 10.0, 10.0, 10.0])
     L = control.ss(L) if dt == 0 else control.c2d(control.ss(L), dt)
     w = np.geomspace(0.1, 60.0, 300)
@@ -317,7 +322,9 @@ def test_one_loop_as_python_control(dt):
 
 
 def test_two_loops_of_a_spinning_body():
-    """The example of python-control's `disk_margins`; 0.3769872637 is what it gives with SLICOT's AB13MD."""
+    """The body is the example of python-control's `disk_margins`; 0.3769872637 is what it gives with SLICOT's
+    AB13MD.
+    """
     P = control.ss([[0, 10], [-10, 0]], np.eye(2), [[1, 10], [-10, 1]], 0)
     K = control.ss([], [], [], [[1, -2], [0, 1]])
     S = sensitivity(P * K, np.geomspace(0.1, 1e3, 1001))
@@ -365,8 +372,10 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
 
 # -- all loops together ----------------------------------------------------------------------------
 def test_loops_together_are_the_loops_one_by_one():
-    """4 phases times 5 robots of other inertias, computed at once, against each alone: with a filter and old
-    angles in the state z, and a torque that changes within the period. The margin is the least of all 20."""
+    """4 phases times 5 robots of other inertias, computed at once, are compared with each alone: with a filter
+    and old angles in the state z, and a torque that changes within the period. The margin is the least of all
+    20.
+    """
     s = ba.Scenario(
         {"name": "LESO", "observer": {"bandwidth": 160.0}},
         hardware={"profile": "rabbit", "encoders": {"filter_time": 2e-3}, "delay": 1e-3},

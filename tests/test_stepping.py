@@ -332,8 +332,9 @@ def test_values_that_are_not_finite_end_the_run_and_are_not_kept(change, last):
 
 
 def test_contacts_at_one_moment_are_one_event():
-    """Wall, floor and wall again at once: one event with both names, one jump of the controller, and the walk
-    of a single contact."""
+    """Wall, floor and wall again are touched at once: one event with both names, one jump of the controller,
+    and the walk of a single contact.
+    """
 
     def both(moved):
         left = moved.contacts[0]

@@ -22,8 +22,8 @@ ROBOT = robot()
 
 
 def test_model_is_the_published_one() -> None:
-    """D and Omega against the closed form for point masses in absolute angles: K_ij cos(th_i - th_j), and the
-    like with sin; arms are the factors of the links' unit vectors in the place of each mass.
+    """D and Omega are compared with the closed form for point masses in absolute angles: K_ij cos(th_i - th_j),
+    and the like with sin; arms are the factors of the links' unit vectors in the place of each mass.
     """
     r, m, M_H, M_T, L, g = 1.0, 5.0, 15.0, 10.0, 0.5, 9.8
     arms = [[r / 2, 0, 0], [r, 0, 0], [r, -r / 2, 0], [r, 0, L]]

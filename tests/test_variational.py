@@ -71,8 +71,9 @@ def pre_impact(biped):
 # -- derivatives of the model ------------------------------------------------------------------------
 @pytest.mark.parametrize("friction", [False, True])
 def test_derivatives_of_the_acceleration(biped, friction):
-    """With respect to angles, rates and force, against differences of fourth order at random states, with and
-    without joint friction."""
+    """The derivatives by angles, rates and force are compared with differences of fourth order at random
+    states, with and without joint friction.
+    """
     biped = replace(biped, friction=friction)
 
     def check(q, v, force):
@@ -131,8 +132,9 @@ def loops(biped):
 
 
 def test_derivative_of_the_flow(biped):
-    """A = df/dx against differences of the whole closed loop, for every kind of law. Joints at the torque limit
-    of 500 N m, which some states reach, have no derivative of the torque; the others do."""
+    """A = df/dx is compared with differences of the whole closed loop, for every kind of law. Joints at the
+    torque limit of 500 N m, which some states reach, have no derivative of the torque; the others do.
+    """
     saturated = 0
     for name, walker in loops(biped).items():
         walker = replace(walker, runaway_torque=math.inf)
@@ -179,7 +181,7 @@ def directional(P, s, w, d):
 
 
 def test_the_derivative_under_a_saturated_torque_is_that_by_differences(biped):
-    """Saturated for a part of the step; the flow stays continuous there, so that nothing jumps.
+    """The torque is saturated for a part of the step; the flow stays continuous there, so that nothing jumps.
 
     Differences have to be narrow here: wide ones move the corner over the stages of the method. The last line
     shows that the limit matters: without it the derivative is another one.

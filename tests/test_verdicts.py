@@ -63,8 +63,9 @@ def test_a_ratio_just_over_the_limit(ratio, count):
 
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
 def test_a_fall_breaks_a_check_of_the_nominal_walk_alone(controller):
-    """8 of 9 impacts: an early end breaks the share of impacts made; of the nominal walk besides its distance
-    to x*, which an unfinished walk does not have, though its last state here is x* itself."""
+    """The walk ends after 8 of 9 impacts: an early end breaks the share of impacts made; of the nominal walk
+    besides its distance to x*, which an unfinished walk does not have, though its last state here is x* itself.
+    """
     fallen = outcome(controller, impacts=8, x_minus=np.tile(X_STAR, (8, 1)))
     assert broken(runs={f"1 kHz {controller}": fallen})
     found = broken(runs={f"nominal identified {controller}": fallen})

@@ -86,7 +86,7 @@ def test_a_number_changed_in_the_table_is_noticed() -> None:
 
 @pytest.mark.parametrize("name", PARTS)
 def test_each_group_of_the_verification_holds(name: str) -> None:
-    """Computed again here: every row with a target holds and is in docs/verification.csv."""
+    """The group is computed again here: every row with a target holds and is in docs/verification.csv."""
     check(PARTS[name]())
 
 
@@ -156,7 +156,7 @@ def test_a_row_with_a_negative_tolerance_or_one_relative_to_zero_is_refused() ->
     with pytest.raises(InputError, match="tolerance of 'q' is -1"):
         row(2.0, -1.0)
     with pytest.raises(InputError, match=r"take Measure\.ABSOLUTE"):
-        Row("s", "q", 0.0, 1.0, 0.1, "source")
+        Row("s", "q", 0.0, 1.0, 0.1, "source")  # target 0, found 1, tolerance 0.1
 
 
 # -- the command -----------------------------------------------------------------------------------

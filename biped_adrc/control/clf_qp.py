@@ -203,7 +203,7 @@ class CLFQPController(Controller):
         """Solve the program for mu (p,) [rad/s^2], with the limits on the force of the ground or else without;
         None when the solver fails at both.
         """
-        # z = (mu, delta); the last `ground` rows of G z <= h are the limits on the force of the ground
+        # z = (mu, sqrt w delta); the last `ground` rows of G z <= h are the limits on the force of the ground
         z = _least(program.G, program.h)
         if z is None and program.ground > 0:
             z = _least(program.G[: -program.ground], program.h[: -program.ground])

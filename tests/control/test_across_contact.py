@@ -187,7 +187,8 @@ def test_the_innovation_that_no_impulse_makes_is_taken_whole(gait, h, seen):
 
 
 def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
-    """20 ms before and after the phase of impact, at the rate of now, and 20 ms after a touchdown.
+    """The window has 20 ms before and after the phase of impact, at the rate of now, and 20 ms after a
+    touchdown.
 
     Only in it the policy's torque differs from that of the controller inside.
     """
@@ -209,8 +210,8 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
 
 @pytest.mark.parametrize("policy", WINDOWS)
 def test_a_window_of_zero_length_changes_no_bit_of_the_walk(biped, gait, h, policy):
-    """`Hold` or `ImpactInvariant` around ADRC, under a push. One of 30 ms does change the walk, or else the
-    policy would never act.
+    """The window is that of `Hold` or `ImpactInvariant` around ADRC, under a push. One of 30 ms does change the
+    walk, or else the policy would never act.
     """
     inner = ba.ADRCController(h, FAST)
     one, other = (walked(biped, gait, law) for law in (inner, policy(inner, 0.0)))

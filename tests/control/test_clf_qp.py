@@ -104,8 +104,8 @@ def test_without_limits_the_program_has_the_closed_form_s_solution(biped, gait):
 def test_limits_hold_where_they_can_and_the_solution_is_optimal(
     biped, gait, limit, spread, expected
 ):
-    """Torque, ground force of the plant in its cone, and Karush, Kuhn and Tucker's conditions: z is a sum of
-    the rows of active limits with multipliers >= 0 (`nnls`).
+    """Checked are the torque, the ground force of the plant in its cone, and Karush, Kuhn and Tucker's
+    conditions: z is a sum of the rows of active limits with multipliers >= 0 (`nnls`).
 
     limit [N m]: of the torque. expected: the cases that occur more than 5 times: no limit acts, one does, or no
     z keeps all limits (`feasible`, by linear programming) and those of the ground are dropped.

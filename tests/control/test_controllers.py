@@ -42,8 +42,8 @@ def test_tracking_error_on_a_held_joint_is_the_corrected_transfer_function():
 
 
 def test_disturbance_estimate_follows_the_push(biped, gait):
-    """xi^ against xi = q_b'' - kappa u of the plant, in the middle of a push of 0.25 s; xi_external is the part
-    of xi that the push makes.
+    """xi^ is compared with xi = q_b'' - kappa u of the plant, in the middle of a push of 0.25 s; xi_external is
+    the part of xi that the push makes.
     """
     push = ba.TorquePulse([30.0] * 4 + [0.0], step=1, start=0.05, stop=0.3)
     made = ba.walk(ba.Walker(biped, ba.ADRCController(gait.constraint), push), gait, 1)

@@ -104,8 +104,8 @@ def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_switching_times()
 # -- a force and a moment on a link ----------------------------------------------------------------
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
 def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
-    """J' (force, moment) by Pinocchio, at random points of all links and random angles. In Pinocchio's axes y
-    points to the other side, so a positive planar moment is -y there.
+    """The torque is J' (force, moment), J by Pinocchio, at random points of all links and random angles. In
+    Pinocchio's axes y points to the other side, so a positive planar moment is -y there.
     """
     biped = ba.Biped.load(robot)
     f, random, n = biped.floating, np.random.default_rng(3), biped.n
@@ -173,6 +173,7 @@ def test_a_disturbance_in_plain_python_is_compiled(biped, gait):
     """A user's `Gust` and `Bump`: both engines walk alike under them, in machine code and in Python, and
     otherwise than without them.
     """
+    # 9 N m on the torso in single support 1, from 0.1 to 0.2 s
     own = Gust() + Bump([0.0, 0.0, 0.0, 0.0, 9.0], 1, 0.1, 0.2)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), own)
     one, other = (
@@ -276,8 +277,8 @@ def test_the_foot_strikes_at_the_height_of_the_ground_below_it(bare, published, 
 
 
 def test_uneven_ground_has_heights_of_mean_zero_and_the_rms():
-    """400 seeds with 30 steps of 10 mm rms. Limits are more than three standard deviations: 0.09 mm of the
-    mean, 3.5 % of an rms of 400, 0.01 of the correlation.
+    """There are 400 seeds with 30 steps of 10 mm rms. Limits are more than three standard deviations: 0.09 mm
+    of the mean, 3.5 % of an rms of 400, 0.01 of the correlation.
     """
     drops = np.zeros((400, 30))
     for seed in range(400):
@@ -287,6 +288,7 @@ def test_uneven_ground_has_heights_of_mean_zero_and_the_rms():
     assert abs(heights.mean()) < 3e-4
     np.testing.assert_allclose(np.sqrt(np.mean(heights**2, axis=0)), 0.01, rtol=0.15)
     assert abs(np.corrcoef(heights[:, :-1].ravel(), heights[:, 1:].ravel())[0, 1]) < 0.05
+    # seed, root mean square [m], number of steps
     assert uneven_ground(1, 0.0, 30) == ()
     assert uneven_ground(3, 0.01, 8) == uneven_ground(3, 0.01, 8)
 
@@ -302,6 +304,7 @@ def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
         "onset": 0.1,
         "step": 1,
     }
+    # in single support 4, from 0.1 to 0.9 s, of 2 Hz
     made = ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0), single_push(Scenario(pushes=[push]))
     for one, (step, begin) in zip(made, ((4, 0.0), (1, 0.0)), strict=True):
         for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
@@ -325,7 +328,9 @@ def test_a_push_that_goes_on_over_impacts_begins_with_its_single_support(gait, k
 
 
 def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
-    """Two torques for five coordinates, also as part of a sum, though they would act from step 9 on."""
+    """Two torques for five coordinates are refused, also as part of a sum, though they would act from step 9
+    on.
+    """
     late = ba.TorqueStep([1.0, 2.0], step=9)
     for disturbance in (late, ba.TorqueStep(np.ones(5)) + late):
         with pytest.raises(InputError, match="2 amplitudes, expected 5"):
@@ -350,9 +355,9 @@ def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
     ],
 )
 def test_wrong_values_of_disturbances_are_refused(biped, make):
-    """In turn: NaN; an end before the start; step 0, as they count from 1; a negative rise and frequency; no
-    such link; a wave of five numbers for a force of three; a place of NaN; no bandwidth; a seed that is no
-    whole number; a negative height; step 0.
+    """Refused are in turn: NaN; an end before the start; step 0, as they count from 1; a negative rise and
+    frequency; no such link; a wave of five numbers for a force of three; a place of NaN; no bandwidth; a seed
+    that is no whole number; a negative height; step 0.
     """
     with pytest.raises(ba.BipedError):
         make(biped)

@@ -196,7 +196,9 @@ def test_the_error_obeys_the_filtered_pid(biped, gait):
 
 
 def test_a_tick_of_the_filtered_pid_is_its_flow_under_a_held_error(biped, gait):
-    """Two ticks of T / 2 are one of T, and a short one is T times the slope: what only the solution does."""
+    """Two ticks of T / 2 are one of T, and a short one is T times the slope: both hold for the exact solution
+    alone.
+    """
     law = NPIDController(gait.constraint, damping=0.3)
     m = Walker(biped, law).measure(0.0, *off_orbit(gait, biped), Mode())
     s, u, T = FilterState(*np.linspace(-1.0, 1.0, 12).reshape(3, 4)), np.zeros(4), 2e-3

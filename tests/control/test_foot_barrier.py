@@ -119,8 +119,8 @@ def test_the_torque_is_that_of_the_solver_of_the_quadratic_program(biped, gait):
 
 @pytest.mark.parametrize("tolerance", [0.003, 0.01])
 def test_the_foot_stays_in_the_corridor_whatever_the_torque_inside(biped, gait, tolerance):
-    """In continuous time, of the model that is known; 60 N m on the swing hip throw the foot out of it by more
-    than twice the tolerance. The barrier uses its width and keeps it.
+    """The walk is in continuous time, of the model that is known. 60 N m on the swing hip throw the foot out of
+    it by more than twice the tolerance. The barrier uses its width and keeps it.
     """
     inner = AddedTorque(ba.NPDController(gait.constraint, WEAK), np.array([0.0, 60.0, 0.0, 0.0]))
     law, largest = FootBarrier(inner, biped, (0.4,), tolerance=tolerance), []
@@ -158,8 +158,8 @@ def test_a_walk_in_which_the_filter_never_acts_is_that_of_the_controller_inside_
 def test_a_torque_that_no_model_knows_throws_the_foot_off_its_stone_and_not_with_the_barrier(
     biped, gait
 ):
-    """Under -25 N m on the swing hip. A stone reaches 25 mm to each side; with the barrier the foot misses its
-    middle by less than half of that.
+    """The torque is -25 N m on the swing hip. A stone reaches 25 mm to each side; with the barrier the foot
+    misses its middle by less than half of that.
     """
     push, inner = (
         ba.TorqueStep([0.0, -25.0, 0.0, 0.0, 0.0], step=1),

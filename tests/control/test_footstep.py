@@ -131,6 +131,7 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
     mu = np.array((0.77, 0.37))
     np.testing.assert_allclose(found.curve(mu)[0], flat.curve(mu)[0], atol=1e-9)
     assert found.curve(mu)[1:] == pytest.approx(flat.curve(mu)[1:], abs=1e-9)
+    # speed at the end of the first step, lengths of the step before and of it, speed and length of the second
     W, J = step_integrals(biped, flat, 0.7, 0.34, 0.34, 0.8, 0.4)[-2:]
     delta2, W_next, J_next = step_integrals(biped, flat, 0.8, 0.34, 0.4, 0.8, 0.36)[:3]
     exact = delta2 * (400.0 + W - 6.0 * J) + W_next - 6.0 * J_next
@@ -220,7 +221,7 @@ def test_steps_on_ground_of_random_height(biped, slow):
 
 @pytest.mark.parametrize("inner", [ba.NPDController, ba.ADRCController])
 def test_steps_onto_stones_at_random_distances(inner):
-    """In 20 steps of 0.2 to 0.6 m; the verdict includes the stones."""
+    """The robot makes 20 steps of 0.2 to 0.6 m; the verdict includes the stones."""
     own = {"name": "footstep", "speed": "0.55 m/s", "step": "0.4 m"}
     own["inner"] = "NPD" if inner is ba.NPDController else "LESO"
     ground = {"stone_range": (0.2, 0.6)}

@@ -37,8 +37,8 @@ def test_the_force_is_found_with_the_poles_chosen(biped, gait):
 
 @pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
 def test_the_error_has_the_transfer_function_of_the_module(poles):
-    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the matrices of its flow at s = i w: chi is the
-    polynomial with the k poles as roots, l_1 its first coefficient, w any frequency.
+    """The error is zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the matrices of its flow at s = i w: chi is
+    the polynomial with the k poles as roots, l_1 its first coefficient, w any frequency.
     """
     observer, w = MomentumObserver.from_poles(poles), 37.0
     order, l_1 = observer.order, -float(np.sum(poles).real)
@@ -85,7 +85,8 @@ def test_what_is_known_of_the_momentum_is_its_rate(biped, gait):
 
 
 def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
-    """Under all policies but "none"; "measured" and "model" set the momentum, "model" the slopes to 0.
+    """This holds under all policies but "none"; "measured" and "model" set the momentum, "model" the slopes to
+    0.
 
     The states are five momenta of 1, the five forces 1 to 5, and their slopes, 9 each.
     """

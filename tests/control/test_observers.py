@@ -21,7 +21,9 @@ POLES = [(-3.0, -5.0), (-10 + 5j, -10 - 5j, -40.0, -8.0), TABLE_I]
 
 @pytest.mark.parametrize("poles", POLES)
 def test_error_matrix_has_the_poles_chosen(poles):
-    """Real ones, a complex pair and those of Table I; two more than the order m of the disturbance's model."""
+    """The poles are real ones, a complex pair and those of Table I: two more than the order m of the
+    disturbance's model.
+    """
     observer = GPIObserver.from_poles(poles)
     found = np.sort_complex(np.linalg.eigvals(observer.error_system().A))
     assert np.allclose(found, np.sort_complex(np.array(poles, complex)), rtol=1e-8)
@@ -151,9 +153,9 @@ def test_an_observer_that_does_not_correct_and_predict_is_refused_at_a_tick(bipe
     ],
 )
 def test_wrong_values_of_observers_are_refused(call):
-    """An unstable pole; NaN; fewer than two poles; not m + 2; a complex pole without its conjugate; a negative
-    bandwidth; m that is no whole number; no period. The momentum observer has two poles or more, and in
-    continuous time no `predict`.
+    """Refused are an unstable pole; NaN; fewer than two poles; not m + 2; a complex pole without its conjugate;
+    a negative bandwidth; m that is no whole number; no period. The momentum observer has two poles or more, and
+    in continuous time no `predict`.
     """
     with pytest.raises(InputError):
         call()

@@ -153,9 +153,9 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
 
 
 def test_what_cannot_be_corrected_is_refused(bare, published):
-    """No constraint at all, a reference in time; a share above 1; two numbers as the direction of four joints;
-    a negative speed; NaN; a curve that is no single polynomial; one number as direction; a response whose
-    triple pole would be outside the unit circle.
+    """Refused are no constraint at all, a reference in time; a share above 1; two numbers as the direction of
+    four joints; a negative speed; NaN; a curve that is no single polynomial; one number as direction; a
+    response whose triple pole would be outside the unit circle.
     """
     h, gains = published.constraint, StrideGains(-1.0, -0.4)
     inner = ba.NPDController(h)

@@ -90,7 +90,7 @@ def torques(biped, controllers, q, v):
 
 
 def test_outputs_that_are_the_joints_give_the_torque_of_npd(biped, gait, state):
-    """y = q_b - h(Theta), said as H0 = [I 0]: the torque of NPD, with other gains for each joint."""
+    """y = q_b - h(Theta), said as H0 = [I 0], gives the torque of NPD, with other gains for each joint."""
     gains = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], [50.0, 60.0, 70.0, 80.0])
     joints = LinearOutputs(np.eye(4, 5), gait.constraint)
     pair = (OutputNPDController(joints, gains), ba.NPDController(gait.constraint, gains))
@@ -107,7 +107,9 @@ def hip_height(biped, q, v):
 
 
 def test_derivatives_of_a_function_of_ones_own_are_those_by_hand(biped, state):
-    """The height of the hip: its rate, its Jacobian, and the drift, which is quadratic in the rates."""
+    """The function is the height of the hip. Checked are its rate, its Jacobian, and the drift, which is
+    quadratic in the rates.
+    """
     q, v = state
     y, J, drift = hip_height(biped, q, v)
     made = FunctionOutputs(lambda q: biped.hip(q)[1:])
@@ -160,8 +162,8 @@ def test_outputs_that_do_not_fit_are_refused(biped, gait, state):
 
 
 def test_what_outputs_of_ones_own_return_is_checked_at_every_call(state):
-    """Not only at the first one: `Mine` returns numbers before 1 s, and NaN from then on, which is refused with
-    the name of the class.
+    """The check is not at the first call alone: `Mine` returns numbers before 1 s, and NaN from then on, which
+    is refused with the name of the class.
     """
 
     class Mine(Outputs):

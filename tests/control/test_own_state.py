@@ -115,8 +115,8 @@ def test_names_change_no_bit_of_a_walk(biped, gait, engine, clock):
 
 
 def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
-    """Numbers of the state in the order of the vector: q, v, the controller's state s, and the torque u that is
-    held between sample instants.
+    """The names are in the order of the state's vector: q, v, the controller's state s, and the torque u that
+    is held between sample instants.
     """
     walk = ba.load_walk(walked(biped, gait, WithNames, "sampled", "compiled").save(tmp_path / "x"))
     names = walk.trajectory.settings["states"]
@@ -126,8 +126,8 @@ def test_a_stored_walk_names_its_states(biped, gait, tmp_path):
 
 
 def test_the_exported_c_walks_as_python(biped, gait):
-    """Over a touchdown, by the largest `difference` of the two walks; TOLERANCE is what tests/export allow: the
-    last place of an angle times the gains.
+    """The walks, over a touchdown, are compared by their largest `difference`; TOLERANCE is what tests/export
+    allow: the last place of an angle times the gains.
     """
     walker = walked(biped, gait, WithNames, "sampled", "compiled").walker
     assert difference(walker, source_of(Computer(walker))) < TOLERANCE

@@ -154,8 +154,8 @@ def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_w
 
 
 def test_wrong_delays_and_clocks_are_refused(gait):
-    """A negative and an infinite delay; one longer than a walker's clock takes; continuous time; a delay that
-    the observer knows too and that would count twice; a scenario without sampled time.
+    """Refused are a negative and an infinite delay; one longer than a walker's clock takes; continuous time; a
+    delay that the observer knows too and that would count twice; a scenario without sampled time.
     """
     inner = ba.NPDController(gait.constraint)
     for wrong in (
@@ -174,7 +174,7 @@ def test_wrong_delays_and_clocks_are_refused(gait):
 
 
 def test_no_prediction_is_the_controller_itself_and_both_leaves_go_around_the_policies():
-    """In a scenario, feedforward is outermost, then prediction, then a policy of contact (`Hold`); with a
+    """In a scenario feedforward is outermost, then prediction, then a policy of contact (`Hold`); with a
     prediction of 0 s there is no wrapper.
     """
     s = ba.Scenario(

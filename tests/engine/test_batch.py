@@ -149,8 +149,8 @@ def test_a_start_without_numbers_ends_its_own_run(plain):
 
 @pytest.mark.parametrize("at_once", [False, True])
 def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
-    """In Python, after 0.1 s or in the first instant (at_once): each kind of error gives its status, and the
-    runs between, of the same batch, are completed.
+    """It raises in Python, after 0.1 s or in the first instant (at_once): each kind of error gives its status,
+    and the runs between, of the same batch, are completed.
     """
     ends = {
         NotFiniteError: ba.Status.NOT_FINITE,

@@ -81,7 +81,7 @@ def test_both_engines_make_the_same_walk_with_hardware_between_controller_and_pl
 
 
 def test_both_engines_make_the_same_walk_over_a_touchdown(plant, gait):
-    """Until 0.45 s, after the touchdown at about 0.42 s."""
+    """The walks last until 0.45 s, beyond the touchdown at about 0.42 s."""
     python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
     assert [event.guard for event in compiled.events()] == ["foot_strike"]
     same(python, compiled, 1e-6)

@@ -71,8 +71,8 @@ def controllers(gait):
 @pytest.mark.parametrize("name", ["NPD", "ADRC"])
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_compiled_signals_are_those_of_python(biped, gait, name, sampled):
-    """In both time bases, of a walk of two steps in which pushes and the torque limit show; NPD has no
-    estimate, so its columns of xi_estimate are NaN.
+    """The signals are compared in both time bases, in a walk of two steps in which pushes and the torque limit
+    show; NPD has no estimate, so its columns of xi_estimate are NaN.
     """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, controllers(gait)[name], PUSH, time, torque_limit=80.0)

@@ -38,8 +38,8 @@ def close(found, expected):
 
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_terms_of_every_robot_are_pinocchio_s(robot):
-    """Inertia, bias and ground force; the acceleration by its residual, D a = torque + friction - bias, as a
-    share of the terms: so an ill-conditioned D does not count.
+    """Inertia, bias and ground force are compared; the acceleration by its residual, D a = torque + friction -
+    bias, as a share of the terms: so an ill-conditioned D does not count.
     """
     biped = ba.Biped.load(robot)
     code = compiled_biped(biped)

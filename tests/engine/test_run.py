@@ -155,8 +155,8 @@ SEVERAL = (
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
-    """SEVERAL pushes: one within an integration step, one over an impact, one from the second single support
-    on, so that steps end at their jumps.
+    """SEVERAL has three pushes: one within an integration step, one over an impact, one from the second single
+    support on, so that steps end at their jumps.
     """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), SEVERAL, time)
@@ -165,8 +165,8 @@ def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
 
 
 def test_a_plant_that_is_not_the_model_on_a_slope_and_under_a_limit(biped, gait):
-    """A heavier torso and thigh than in the model; then also under a push and a lower torque limit by the
-    exponential method, which ends at events by other sub-steps (LANDED).
+    """The plant has a heavier torso and thigh than the model; then it walks also under a push and a lower
+    torque limit by the exponential method, which ends at events by other sub-steps (LANDED).
     """
     plant = ba.ModelErrors(mass={"torso": 0.05}, inertia={"thigh": 0.2}).apply(biped)
     walker = ba.Walker(plant, adrc(gait), model=biped, slope=0.02, torque_limit=90.0)
@@ -300,8 +300,8 @@ def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
 
 # -- what is refused, and what is used instead -----------------------------------------------------
 def test_a_method_that_does_not_fit_is_refused(biped, gait):
-    """The exponential method for a controller without an observer, and in sampled time; then a run of no
-    duration, a start of NaN, an engine that does not exist.
+    """Refused are the exponential method for a controller without an observer, and in sampled time; then a run
+    of no duration, a start of NaN, an engine that does not exist.
     """
     for walker in (
         ba.Walker(biped, npd(gait)),
@@ -387,7 +387,7 @@ def ticked(biped, python):
 
 
 def test_a_controller_in_python_is_called_at_the_same_ticks_on_a_compiled_plant(gait, ticked):
-    """With integration steps that do not divide the period, and a late start; the controller counts its ticks.
+    """The integration steps do not divide the period, and the start is late; the controller counts its ticks.
 
     Two single supports have more than 800 ticks of 1 ms; its jumps add 1/2 each, which two of them make whole.
     """
@@ -483,8 +483,8 @@ def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait,
 def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
     biped, gait, python, method
 ):
-    """By RK4, to round-off. Adaptive, which runs in Python, chooses other steps on the compiled plant: states
-    before impact are compared to 1e-6.
+    """By RK4 the walk is that of Python to round-off. Adaptive, which runs in Python, chooses other steps on
+    the compiled plant: states before impact are compared to 1e-6.
     """
     walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):
@@ -542,8 +542,8 @@ class Jumping(InPython):
     ],
 )
 def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, status):
-    """At its first impact, which then is no event; an error that is not the package's is named with its place.
-    The end is the last node before, up to an integration step of 1 ms.
+    """The run ends at its first impact, which then is no event; an error that is not the package's is named
+    with its place. The end is the last node before, up to an integration step of 1 ms.
     """
     npd = ba.NPDController(gait.constraint)
     walker = replace(ticked, controller=Jumping(npd, raises=raises))
@@ -696,7 +696,7 @@ def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, a
 
 
 def test_progress_is_called_at_each_impact_and_the_settings_name_the_engine(gait, ticked):
-    """With the time and the number of the impact. What ran is in the settings: the compiled plant for a
+    """The call has the time and the number of the impact. What ran is in the settings: the compiled plant for a
     controller in Python, and Pinocchio where it is asked for.
     """
     x0 = ticked.initial_state(*gait.start(ticked.plant))

@@ -60,7 +60,7 @@ def make(monkeypatch):
 
 
 def test_machine_code_is_made_once(make, tmp_path, monkeypatch):
-    """One compilation in an empty folder, none the second time."""
+    """There is one compilation in an empty folder, and none the second time."""
     monkeypatch.setenv(VARIABLE, str(tmp_path))
     assert make() == (42.0, 1)
     assert make() == (42.0, 0)

@@ -103,7 +103,7 @@ def test_a_type_of_another_name_is_the_type():
 
 
 def test_the_same_structure_is_compiled_once():
-    """Two calls with one key: the function is traced once."""
+    """Of two calls with one key the first traces the function, and the second does not."""
     made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
         # `made` counts the calls of the function that would trace it

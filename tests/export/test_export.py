@@ -116,6 +116,7 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
     """q+ = R q- + r, R R = 1, R r = -r, on a made-up robot: no robot of the package has an r."""
     R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
     inner = ba.Sensors(filter_time=2e-3)
+    # three coordinates, two motors, 1 ms
     around = Noticed(inner, R, r).sampled(3, 2, 1e-3)
     sampled = inner.sampled(3, 2, 1e-3)
     q, v = np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])

@@ -163,7 +163,7 @@ def test_the_c_is_unchanged_and_the_archive_is_the_same_each_time(loaded, folder
 
 
 def test_the_torques_are_those_of_the_c_bit_for_bit(folder, calls, torques):
-    """Over two touchdowns, with torques beyond 90 N m, so that there is something to differ."""
+    """The walk goes over two touchdowns, with torques beyond 90 N m, so that there is something to differ."""
     assert [call.kind for call in calls].count("touchdown") == 2
     assert np.max(np.abs(torques)) > 90.0
     with Stepped(folder) as fmu:
@@ -320,8 +320,8 @@ HEADERS = Path(fmpy.__file__).parent / "c-code"
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize(("headers", "real"), [([], "float"), ([f"-I{HEADERS}"], "double")])
 def test_no_compiler_warns(folder, compiler, headers, real):
-    """The FMU's source with all warnings as errors: with its own declarations in float, and with the standard's
-    headers in double.
+    """The FMU's source is compiled with all warnings as errors: with its own declarations in float, and with
+    the standard's headers in double.
     """
     program, *flags = compiler.split()
     strict = ["-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DCONTROLLER_REAL={real}"]

@@ -173,7 +173,7 @@ def test_the_phase_of_a_convention_is_the_paper_s_up_to_sign_and_constant(name, 
 
 
 def test_what_the_sources_print():
-    """Rows c and order of coordinates where the sources state them."""
+    """Rows c and the order of coordinates are those of the sources, where these state them."""
     assert convention("tac2003").phase.tolist() == [-1.0, 0.0, -0.5, 0.0, -1.0]
     assert convention("tac2003").coordinates == ("q31", "q32", "q41", "q42", "q1")
     assert convention("frost").phase.tolist() == [1.0, 1.0, 0.5, 0.0, 0.0]

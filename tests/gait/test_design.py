@@ -258,8 +258,8 @@ def test_ctrl_c_ends_ipopt(monkeypatch) -> None:
 
 
 def test_a_design_that_ends_without_a_gait_says_how(monkeypatch) -> None:
-    """Two failures that real requests hardly give, made by replaced functions: IPOPT stops though the relaxed
-    problem violates no limit; and a solution at 8 nodes, and at twice as many, has no exact gait.
+    """Two failures that real requests hardly give are made by replaced functions: IPOPT stops though the
+    relaxed problem violates no limit; and a solution at 8 nodes, and at twice as many, has no exact gait.
     """
     biped, request = Biped.load("three_link"), GaitRequest(0.9, 0.6, nodes=8)
     failed = SimpleNamespace(solved=False, status="S", iterations=1)

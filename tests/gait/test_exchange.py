@@ -26,7 +26,7 @@ from biped_adrc.gait.exchange.record import GaitFile, coordinates, mapped, recor
 
 
 def assert_same(one, other, abs=1e-13):
-    """Two gaits, to round-off."""
+    """Two gaits are equal to round-off."""
     a, b = one.constraint, other.constraint
     assert type(a.curve) is type(b.curve)
     for x, y in (

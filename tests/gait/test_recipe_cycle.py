@@ -25,9 +25,9 @@ EDGE = 1e-6  # share of a step over which end slopes are taken
 
 
 def test_inverse_kinematics_inverts_the_forward_kinematics(biped):
-    """From hip and feet of 200 random poses (LENGTH is that of thigh and shin) it finds the angles q again.
-    Hips count from the torso q5, which the feet do not determine; a leg's angle and its knee do not depend on
-    it.
+    """From hip and feet of 200 random poses (LENGTH is that of thigh and shin) the inverse finds the angles q
+    again. Hips count from the torso q5, which the feet do not determine; a leg's angle and its knee do not
+    depend on it.
     """
     rng = np.random.default_rng(0)
     for q in rng.uniform([2.7, 2.7, -1.5, -1.5, -0.3], [3.7, 3.7, -0.02, -0.02, 0.3], (200, 5)):
@@ -77,8 +77,8 @@ def test_the_path_leaves_in_the_direction_of_the_rates_of_x_star(biped):
 
 
 def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_biped):
-    """Jump of the actuated rates off the constraint by the impact [rad/s]: none for a hybrid-invariant gait.
-    The recipe sets no slopes at its ends, as the paper says of it.
+    """The jump of the actuated rates off the constraint by the impact [rad/s] is zero for a hybrid-invariant
+    gait. The recipe sets no slopes at its ends, as the paper says of it.
     """
     published, recipe = (
         impact_jump(any_biped, gait.constraint, gait.q_minus, gait.v_minus)[1]
@@ -102,8 +102,8 @@ def test_the_design_reproduces_the_stored_file(biped):
 
 
 def test_the_stored_state_is_a_fixed_point_of_the_walk_under_npd(any_biped):
-    """Of the closed loop, whose controller brings the robot back to the curve after each impact: P(s) = s for
-    the return map P of the simulated walk.
+    """The walk is that of the closed loop, whose controller brings the robot back to the curve after each
+    impact: P(s) = s for the return map P of the simulated walk.
     """
     gait = load_gait("recipe", any_biped)
     walker = Walker(any_biped, NPDController(gait.constraint))

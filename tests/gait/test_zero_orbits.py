@@ -151,7 +151,9 @@ def wheel(slope):
 
 @pytest.mark.parametrize("slope", [0.08, 0.2])
 def test_the_rimless_wheel_has_its_closed_forms(slope):
-    """McGeer 1990, unit mass and spokes: an inverted pendulum between impacts that take 1 - cos^2 2 alpha."""
+    """The wheel is McGeer's of 1990, with unit mass and spokes: an inverted pendulum between impacts that take
+    1 - cos^2 2 alpha.
+    """
     orbits = orbits_of(*wheel(slope))
     d2 = math.cos(2 * ALPHA) ** 2
     fall = 2.0 * GRAVITY * math.sin(ALPHA) * math.sin(slope)
@@ -288,6 +290,7 @@ def test_report_says_what_does_not_hold(bare, published):
         f"domain          empty: no speed keeps {kept} all along the step",
         f"the periodic orbit does not keep {kept}: zeta* is outside of the domain",
     ]
+    # neither friction nor torque has a limit
     bold = zero_report(bare, published.constraint, DomainLimits(None, None)).text()
     assert "< 601.8947 (lift-off at Theta = 3.1037 rad)" in bold.replace("zeta ", "")
     weak = zero_report(bare, published.constraint, DomainLimits(torque=60.0))

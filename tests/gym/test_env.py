@@ -49,8 +49,8 @@ def test_gymnasium_finds_no_fault(values):
 
 
 def test_bounds_are_two_turns_the_speed_of_a_runaway_and_the_lower_torque_limit():
-    """Of q and v, of errors and phase twice as much, and of torques: the lower of the motors' 150 N m and the
-    scenario's limit.
+    """These are the bounds of q and v; errors and phase have twice as much, and torques the lower of the
+    motors' 150 N m and the scenario's limit.
     """
     high = np.repeat([4 * np.pi, 1000.0, 8 * np.pi, 2000.0, 150.0, 8 * np.pi], [5, 5, 4, 4, 4, 1])
     for limit, torque in ((None, 150.0), (200.0, 150.0), (100.0, 100.0)):
@@ -121,8 +121,8 @@ def test_an_action_of_kind_added_is_added_to_the_torque_of_the_controller(values
 
 
 def test_observation_and_reward_are_those_of_the_walks_signals():
-    """At two samples, one after the first touchdown, against the signals of the scenario's own walk; reward = 1
-    + tracking / (1 + |e|^2 / 0.1^2) - effort |u|^2 / (4 150^2).
+    """They are compared at two samples, one after the first touchdown, with the signals of the scenario's own
+    walk; reward = 1 + tracking / (1 + |e|^2 / 0.1^2) - effort |u|^2 / (4 150^2).
     """
     env = made(action="added", condition="push on joints", tracking=3.0, effort=0.2, **SLOW)
     rows = walked(env, 5, 460)
@@ -226,9 +226,9 @@ WRONG = (
 
 @pytest.mark.parametrize("values", WRONG)
 def test_what_is_no_task_is_refused(values):
-    """WRONG: an unknown condition, one that MuJoCo cannot have, unknown fields and kinds of action, continuous
-    time, a controller beside an action that is all of the torque, no time, a negative weight, an effort above
-    the reward for being alive, a scenario beside a condition.
+    """WRONG has an unknown condition, one that MuJoCo cannot have, unknown fields and kinds of action,
+    continuous time, a controller beside an action that is all of the torque, no time, a negative weight, an
+    effort above the reward for being alive, a scenario beside a condition.
     """
     with pytest.raises(InputError):
         made(**values)

@@ -27,7 +27,9 @@ def made(count, **values):
     ids=["rigid", "mujoco"],
 )
 def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
-    """Until after falls and time limits, by NEXT_STEP: what ends begins anew at the step after."""
+    """The comparison goes on beyond falls and time limits. By NEXT_STEP, what ends begins anew at the step
+    after.
+    """
     count, samples = 3, 60 if "ground" in values else 450
     envs, single = made(count, **values), [gymnasium.make(ID, **values) for _ in range(count)]
     assert isinstance(envs, VectorEnv)

@@ -94,8 +94,8 @@ def walked(biped, gait, engine, **hardware):
     ids=["sensors", "touchdown"],
 )
 def test_one_s_own_hardware_is_compiled_as_it_is(biped, gait, hardware):
-    """A sum of encoders and two sensors of the user, and a detector of his: machine code walks as Python,
-    touchdowns within 1 ns.
+    """The hardware is a sum of encoders and two sensors of the user, and a detector of his: machine code walks
+    as Python, touchdowns within 1 ns.
     """
     code, python = (walked(biped, gait, each, **hardware) for each in ("compiled", "pinocchio"))
     assert code.settings["engine"] == "compiled"
@@ -127,6 +127,7 @@ def test_other_numbers_compile_nothing(biped, gait):
     noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), FaultyTouchdown(missed=0.1, seed=1)
     other = ba.Sensors(4096.5, noise=1e-3, filter_time=1e-3, seed=2) + Slow(100.0)
     usual = key(noisy, told)
+    # late by 10 ms, 20 % missed, a false one 0.2 s after the start of single support 3, seed 5
     assert usual == key(other, FaultyTouchdown(0.01, 0.2, (3, 0.2), 5))
     assert usual == key(noisy, replace(told, seed=4))
     assert usual != key(noisy, ByKinematics())

@@ -36,8 +36,8 @@ def test_the_published_first_number():
 
 
 def test_numbers_are_even_normal_and_different_for_every_seed():
-    """By Kolmogorov and Smirnov's test, also of the first numbers of 200 seeds; neighbours of 20000 normal ones
-    are not correlated, to four standard deviations.
+    """The distributions are right by Kolmogorov and Smirnov's test, also those of the first numbers of 200
+    seeds; neighbours of 20000 normal ones are not correlated, to four standard deviations.
 
     An odd count of normal numbers, which come in pairs, is met too.
     """

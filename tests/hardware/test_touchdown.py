@@ -212,7 +212,7 @@ def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
 
 @pytest.mark.parametrize("slope", [-0.1, 0.1])
 def test_by_kinematics_the_height_is_over_a_ground_that_falls_ahead(slope):
-    """On z = -tan(slope) x: the foot comes down to 1 mm above the ground, then below it."""
+    """The ground is z = -tan(slope) x. The foot comes down to 1 mm above the ground, then below it."""
     leaf, x = ByKinematics(slope=slope), 0.4
     d, found = np.inf, []
     for above in (2e-3, 1e-3, -1e-3):

@@ -36,8 +36,8 @@ def order(errors, steps):
 
 @pytest.mark.parametrize("method", [RK4(1e-3), Adaptive(rtol=1e-11, atol=1e-11)])
 def test_pendulum_period_by_elliptic_integral(method):
-    """From rest at 2 rad it is at the bottom after a quarter of the period, and again on the same way after a
-    whole one; the event is where the angle falls through zero.
+    """From rest at 2 rad the pendulum is at the bottom after a quarter of the period, and again on the same way
+    after a whole one; the event is where the angle falls through zero.
     """
     amplitude = 2.0
     run = simulate(Pendulum(), np.array([amplitude, 0.0]), 0, method, t_end=20.0)
@@ -137,8 +137,8 @@ class StiffPlusSmooth(HybridSystem):
 
 
 def test_exponential_method_is_stable_where_rk4_is_not_and_right():
-    """A stiff pole of -2000 1/s at steps of 5 ms: within 1e-5 of the solution with step control, where RK4
-    diverges or ends.
+    """With a stiff pole of -2000 1/s and steps of 5 ms the method is within 1e-5 of the solution with step
+    control, where RK4 diverges or ends.
     """
     system, x0 = StiffPlusSmooth(), np.array([0.5, 0.0])
     exact = simulate(system, x0, 0, Adaptive(1e-11, 1e-12), t_end=1.0).final_state
@@ -153,8 +153,8 @@ def test_exponential_method_is_stable_where_rk4_is_not_and_right():
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait, engine):
-    """Of order four with poles of Table I times 0.05, slow beside the steps, over half a walking step. The
-    exact end is that with an eighth of the shortest step.
+    """The method is of order four with poles of Table I times 0.05, slow beside the steps, over half a walking
+    step. The exact end is that with an eighth of the shortest step.
     """
     observer = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, observer))
@@ -173,7 +173,7 @@ def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait, en
 
 @pytest.mark.parametrize("length", [0.4, 1.96])
 def test_a_step_of_another_length_has_its_own_phi_functions(length):
-    """On E' = a E + c, p' = 1 the method is exact, also for 0.4 h and 1.96 h, which are made of sub-steps."""
+    """For E' = a E + c, p' = 1 the method is exact, also for 0.4 h and 1.96 h, which are made of sub-steps."""
     h, a, c = 1e-3, -700.0, 3.0
 
     class Linear(HybridSystem):

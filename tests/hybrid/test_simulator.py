@@ -148,7 +148,7 @@ def test_balls_that_land_at_one_instant_all_bounce(method, apart):
 @pytest.mark.parametrize("method", ALL_METHODS)
 @pytest.mark.parametrize("start", [(0.0, -1.0), (-0.1, -1.0)])
 def test_a_ball_that_starts_at_or_below_its_floor_and_falls_bounces_at_once(method, start):
-    """At t = 0, from where it is, at 0.8 of its 1 m/s; its reset puts it onto the floor."""
+    """The ball bounces at t = 0, from where it is, at 0.8 of its 1 m/s; its reset puts it onto the floor."""
     run = simulate(Dropped(0.8), np.array(start), 0, method, t_end=0.1)
     (event,) = run.events()
     assert (event.t, *event.x_minus) == (0.0, *start)
@@ -418,8 +418,8 @@ def test_a_run_that_cannot_begin_or_end_is_refused():
 
 
 def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
-    """All arrays bit for bit, modes by a function of the user (`int_mode`) from their numbers; a file that is
-    cut off, missing or of another kind is refused by name.
+    """All arrays come back bit for bit, modes by a function of the user (`int_mode`) from their numbers; a file
+    that is cut off, missing or of another kind is refused by name.
     """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=3.0, stop_after=("bounce", 3))
     save(run, tmp_path / "run.npz", {"note": "ball"})

@@ -51,7 +51,7 @@ def close(one, other, relative):
 
 @pytest.mark.parametrize("name", list(WALKERS))
 def test_to_and_back_are_inverse(biped, gait, name):
-    """At random states, up to round-off; E has a column for each of the four joints."""
+    """`back` undoes `to` at random states, up to round-off; E has a column for each of the four joints."""
     walker = WALKERS[name](biped, gait.constraint)
     split = walker.split(ba.Mode())
     for x in states(walker, gait):

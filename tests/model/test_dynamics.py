@@ -34,7 +34,7 @@ def test_inertia_rate_minus_twice_coriolis_is_skew(any_biped):
 
 
 def test_the_energy_grows_by_the_power_of_the_motors(any_biped):
-    """dE/dt = q_s'^T B_s u: dE/dt by central differences along the motion of the forward dynamics."""
+    """dE/dt = q_s'^T B_s u, where dE/dt is by central differences along the motion of the forward dynamics."""
     b, h = any_biped, 1e-5
     random = np.random.default_rng(3)
     for q, v in states(b.n, 30):
@@ -65,7 +65,7 @@ def test_angular_momentum_about_the_foot_changes_by_gravity_alone(any_biped):
 
 
 def test_reduction_is_the_dynamics_of_the_actuated_joints(any_biped):
-    """(13) with (14) and (15) against D_s solved whole, disturbances on all joints included."""
+    """(13) with (14) and (15) is compared with D_s solved whole, disturbances on all joints included."""
     b = any_biped
     random = np.random.default_rng(5)
     for q, v in states(b.n, 50):
@@ -113,7 +113,7 @@ def test_published_state_stands_on_the_ground(biped):
 
 
 def test_ground_reaction_is_what_holds_the_floating_robot(any_biped):
-    """Of the unpinned model (2), whose last two coordinates are the foot's: rate of its linear momentum, by
+    """In the unpinned model (2), whose last two coordinates are the foot's, the rate of the linear momentum, by
     central differences along the motion, plus the weight is the force at the stance foot.
     """
     b, h = any_biped, 1e-6

@@ -74,7 +74,9 @@ ROOTS = [
 
 
 def test_what_is_gone_names_what_takes_its_place(biped):
-    """A method of earlier versions: the error names its successor; hasattr is false, as for any other name."""
+    """What is gone is a method of earlier versions: the error names its successor; hasattr is false, as for any
+    other name.
+    """
     with pytest.raises(AttributeError, match=r"no attribute 'with_errors'; ba\.ModelErrors"):
         _ = biped.with_errors
     assert not hasattr(biped, "with_errors")
@@ -129,6 +131,7 @@ def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
     expected = np.array(scale) * rubbing.friction_torque(v)
     assert errors.apply(rubbing).friction_torque(v) == pytest.approx(expected, rel=1e-14)
     assert not ModelErrors.drawn(ba.Biped.load("rabbit"), 4).friction
+    # seed 4 and the usual widths of mass, COM, inertia and friction
     assert ModelErrors.drawn(rubbing, 4, 0.1, 0.1, 0.1, 0.3) == errors
     for wrong in ({"friction": {"left_knee": -1.01}}, {"mass": {"torso": -1.0}}):
         with pytest.raises(ba.BipedError, match="ModelErrors"):
@@ -138,10 +141,10 @@ def test_friction_errors_scale_friction_and_are_the_same_in_both_legs():
 
 
 def test_impact_errors_are_uniform_and_repeated_by_their_seed():
-    """Five errors, of the rates after impact, for each of 200 seeds: within +-0.1, with the standard deviation
-    of a uniform distribution.
+    """The five errors of the rates after impact, for each of 200 seeds, are within +-0.1, with the standard
+    deviation of a uniform distribution.
     """
-    e = np.array([impact_error(seed, 0.1, 5) for seed in range(200)])
+    e = np.array([impact_error(seed, 0.1, 5) for seed in range(200)])  # 0.1: spread; 5: how many
     assert np.array_equal(e[3], impact_error(3, 0.1, 5))
     assert np.max(np.abs(e)) <= 0.1
     np.testing.assert_allclose(e.std(axis=0), 0.1 / np.sqrt(3.0), rtol=0.15)

@@ -70,8 +70,9 @@ def projected(path, biped, q, v):
 
 
 def test_inertia_and_bias_are_those_of_mujoco(own):
-    """D_s and Omega of the derived robot against `projected`: MuJoCo's own mass matrix and bias with the stance
-    ankle held at rest. The robots are Gymnasium's Walker2d and one of this file with other axes, gears, soles.
+    """D_s and Omega of the derived robot are compared with `projected`: MuJoCo's own mass matrix and bias with
+    the stance ankle held at rest. The robots are Gymnasium's Walker2d and one of this file with other axes,
+    gears, soles.
     """
     for path in (WALKER2D, own):
         derived = derive(path)
@@ -115,8 +116,9 @@ def test_places_in_the_world_are_places_in_the_bodies(tmp_path):
 
 
 def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path):
-    """As the file `OWN` states them: the weakest motor gives the torque limit. What a robot on points cannot
-    have, ankles and their motor, and shapes, is remarked as left out; the written record is the same robot.
+    """They are read as the file `OWN` states them: the weakest motor gives the torque limit. What a robot on
+    points cannot have, ankles and their motor, and shapes, is remarked as left out; the written record is the
+    same robot.
     """
     derived = derive(own)
     d = derived.biped.description

@@ -355,7 +355,7 @@ def test_point_masses_have_the_inertia_of_points(urdf, inertia):
 
 
 def test_rotors_of_transmissions_are_reflected_by_their_gears(urdf):
-    """N^2 J on the diagonal of D_s, by joint; an equal rotor in either leg."""
+    """D_s has N^2 J on its diagonal, by joint; either leg has an equal rotor."""
     gear = "<mechanicalReduction>40</mechanicalReduction>"
     left, right = (
         f'<transmission><joint name="{side}_hip"/><actuator name="m">{x}</actuator></transmission>'
@@ -471,7 +471,7 @@ def test_each_foot_may_have_a_tip_of_its_own(urdf):
 
 
 def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):
-    """Goswami's D_s of a compass: points m at a from the foot, b from the hip, and M at the hip."""
+    """D_s is Goswami's of a compass: points m at a from the foot, b from the hip, and M at the hip."""
     text = mass("hip", 9, 0, "") + mass("left_leg", 4, -0.4, "") + mass("right_leg", 4, -0.4, "")
     for side, kind in (("left", "fixed"), ("right", "continuous")):
         axis = '<axis xyz="0 -1 0"/><limit effort="20" velocity="9"/>'
@@ -484,7 +484,7 @@ def test_a_hip_that_is_welded_to_one_leg_is_a_compass(urdf):
 
 
 def test_a_compass_that_hangs_from_its_stance_foot_has_equal_legs(urdf):
-    """The base at the foot; the legs are equal, although they hang on it in different ways."""
+    """The base is at the foot; the legs are equal, although they hang on it in different ways."""
     text = mass("hip", 9, 0, "") + mass("stance", 4, 0.5, "") + mass("swing", 4, -0.4, "")
     turn = '<axis xyz="0 -1 0"/><limit effort="20" velocity="9"/>'
     for name, kind, parent, child, z in (
@@ -544,7 +544,7 @@ def test_parts_of_a_urdf_that_are_left_out_are_in_the_notes(urdf):
 
 
 def test_guesses_are_said_and_laws_hold(urdf):
-    """Of a URDF without base: feet, hip, joints, torque limit and base are guessed, each is remarked, and no
+    """In a URDF without base the feet, hip, joints, torque limit and base are guessed, each is remarked, and no
     law of physics is broken.
     """
     derived = derive(urdf(rabbit(base=False)))

@@ -80,7 +80,7 @@ def test_stored_pinned_urdf_is_the_floating_one_rerooted():
 
 
 def test_the_default_preset_is_what_the_urdf_says(biped):
-    """Mass, COM and moment about y (index 3 of ixx, ixy, ixz, iyy, iyz, izz) of each link."""
+    """Compared are mass, COM and moment about y (index 3 of ixx, ixy, ixz, iyy, iyz, izz) of each link."""
     for name, link in read(FLOATING).tree.links.items():
         if link.inertial is not None:
             one, other = link.inertial, biped.description.tree().links[name].inertial

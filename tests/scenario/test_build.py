@@ -472,9 +472,9 @@ def test_a_push_is_said_in_words(joints, values, text) -> None:
 
 
 def test_the_method_of_a_walk_and_where_its_steps_are_fine() -> None:
-    """The integration method by controller, clock and engine, and the step `fine` [s] beside the edges of a
-    push. The push is in single support 3 of 6: fine in it and in the next, with the usual method in two before
-    and two after.
+    """The rows have the integration method by controller, clock and engine, and the step `fine` [s] beside the
+    edges of a push. The push is in single support 3 of 6: fine in it and in the next, with the usual method in
+    two before and two after.
     """
     push = "q1=3@3:0.1-0.3"
     for values, method, fine in (

@@ -117,8 +117,8 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
 
 
 def test_walks_of_one_controller_are_named_by_their_files(tmp_path: Path) -> None:
-    """One file: by the controller; two of the same controller: with their paths. A walk made again of its
-    scenario and trajectory is the same; a file that does not have the walker is refused.
+    """The walk of one file is named by its controller; two of the same controller have their paths too. A walk
+    made again of its scenario and trajectory is the same; a file that does not have the walker is refused.
     """
     walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", **FAST))
     a, b = (walk.save(tmp_path / name) for name in ("a.npz", "b.npz"))

@@ -33,8 +33,8 @@ def test_a_touchdown_is_made_by_its_name_and_its_values():
 
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
-    """4 ms late, and then at the next tick of 1 ms: 4 to 5 ms. The last touchdown ends the walk before it is
-    noticed: NaN, and it counts as waiting, not as missed.
+    """The notice comes 4 ms late, and then at the next tick of 1 ms: after 4 to 5 ms. The last touchdown ends
+    the walk before it is noticed: NaN, and it counts as waiting, not as missed.
     """
     walk = ba.walk_scenario(
         ba.Scenario(hardware={"touchdown": {"name": "faulty", "late": 4e-3}}, ground=plant, **USUAL)

@@ -18,7 +18,7 @@ def loop_on(plant, law, kind=SteppingLoop, **more):
 
 
 def run_of(loop, gait, t_end=4.0, impacts=None):
-    """From the start of a gait on, until a time [s] or after so many touchdowns."""
+    """A run from the start of a gait on, until a time [s] or after so many touchdowns."""
     stop = None if impacts is None else ("foot_strike", impacts)
     x0 = loop.initial_state(*gait.start(loop.model))
     return loop.run(x0, RunOptions(t_end, stop_after=stop))

@@ -42,9 +42,9 @@ def plant(biped):
 
 @pytest.mark.parametrize("made", LOOPS)
 def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
-    """By its torque: e^(1e3 t) passes 1000 times 150 N m after 11.9 ms, at the tick of 12 ms. With a bound of
-    0.5 x RUNAWAY_RATE on the rates these end the run before. Both are statuses with finite numbers in both
-    loops (`made`).
+    """The walk ends by its torque: e^(1e3 t) passes 1000 times 150 N m after 11.9 ms, at the tick of 12 ms.
+    With a bound of 0.5 x RUNAWAY_RATE on the rates these end the run before. Both are statuses with finite
+    numbers in both loops (`made`).
     """
     free = run_of(
         made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=math.inf), gait, 0.05

@@ -108,6 +108,7 @@ def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
     """
     plant, ideal = MuJoCoPlant(biped, lag=TAU), MuJoCoPlant(biped)
     u = 5.0 * U
+    # None: no force from outside
     row = plant.advance(0.0, plant.start(0.0, *gait.start(biped)), u, None, 2e-3).row
     found = plant.forces()
     u_m, still = u * (1.0 - np.exp(-2e-3 / TAU)), Load(np.zeros(5), np.zeros(2))
@@ -119,7 +120,7 @@ def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
 
 
 def test_its_file_has_the_lag(biped):
-    """MuJoCo's own integration of u_m, by RK4, against the closed form."""
+    """MuJoCo's own integration of u_m, by RK4, is compared with the closed form."""
     mj = mujoco()
     model = mj.MjModel.from_xml_string(mjcf(MuJoCoPlant(biped, lag=TAU)))
     data = mj.MjData(model)

@@ -52,7 +52,7 @@ def test_a_pendulum_is_of_second_order_and_of_first_without_the_shifts():
 
 
 def test_free_fall_is_exact(biped, gait):
-    """z = z_0 - g t^2 / 2; without the shifts it would be off by g h t / 2."""
+    """The height is z = z_0 - g t^2 / 2; without the shifts it would be off by g h t / 2."""
     plant, q = MuJoCoPlant(biped, h=1e-4, integrator="leapfrog"), gait.start(biped)[0]
     row = plant.start(0.0, q, np.zeros(5))
     row[12] += 9.0  # z of the base [m]
@@ -81,7 +81,7 @@ def test_table_1_walks_on_it_and_not_on_eulers_method(biped, gait):
 
 
 def test_leapfrog_goes_through_a_touchdown_as_with_a_sixteenth_of_the_step(biped, gait):
-    """From the same state 8 ms before a touchdown to 12 ms after it, steps of 0.2 ms against a 16th of that:
+    """From the same state 8 ms before a touchdown to 12 ms after it, steps of 0.2 ms and a 16th of that give
     places of the foot within 0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
     """
     first = walked(gait, ba.NPDController, MuJoCoPlant(biped), 1).arcs[0]

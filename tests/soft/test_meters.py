@@ -102,7 +102,7 @@ def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
 
 
 def test_a_block_that_slides_to_rest():
-    """With v' = -mu g: slip (v0^2 - s^2) / (2 mu g) until v = s, the speed up to which a foot counts as
+    """With v' = -mu g the slip is (v0^2 - s^2) / (2 mu g) until v = s, the speed up to which a foot counts as
     sticking. At rest the stance foot has half the friction that it could have; the other foot is free.
     """
     mu, g, v0, mass, s = 0.3, 9.81, 0.4, 30.0, 5e-3
@@ -143,7 +143,7 @@ def test_less_friction_slips_and_flies(biped, gait):
 
 
 def standing(biped, time_constant, impedance=(0.9, 0.9)):
-    """On both feet, with joints that static friction holds; no swing foot is ahead."""
+    """A robot on both feet, with joints that static friction holds; no swing foot is ahead."""
     d = biped.description
     held = replace(
         biped, description=replace(d, static=dict.fromkeys(d.actuated, 1e4)), friction=True

@@ -23,8 +23,8 @@ def read_back(text):
 
 @pytest.mark.parametrize("robot", [("rabbit", "tac2003"), ("three_link", None)])
 def test_the_file_read_back_is_the_model_that_walks(robot):
-    """Bit for bit, all numbers of MuJoCo's model but those of shapes. Masses, slope and ground have more than
-    the six digits that MuJoCo would write itself.
+    """All numbers of MuJoCo's model but those of shapes are the same bit for bit. Masses, slope and ground have
+    more than the six digits that MuJoCo would write itself.
     """
     errors = ba.ModelErrors(mass={"torso": 1e-9 / 3})
     biped = errors.apply(ba.Biped.load(*robot, friction=True))
@@ -42,7 +42,9 @@ def test_the_file_read_back_is_the_model_that_walks(robot):
 
 
 def test_shapes_are_seen_and_touch_nothing(biped):
-    """Rabbit's own; all but the two feet and the ground are without contact, and nothing has their mass."""
+    """The shapes are Rabbit's own; all but the two feet and the ground are without contact, and nothing has
+    their mass.
+    """
     plant = MuJoCoPlant(biped)
     model = read_back(mjcf(plant))
     assert model.ngeom == 3 + sum(len(link.visuals) for link in biped.tree.links.values())

@@ -45,8 +45,8 @@ def in_joints_of(model, biped):
 
 
 def test_the_plant_on_a_pinned_foot_accelerates_as_pinocchio_computes(robot):
-    """The robot pinned at its foot, at random states under random forces: MuJoCo's accelerations, mapped by T
-    to our joints, are those of Pinocchio, to round-off.
+    """The robot is pinned at its foot, at random states under random forces: MuJoCo's accelerations, mapped by
+    T to our joints, are those of Pinocchio, to round-off.
     """
     mj, model, random = mujoco(), model_of(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
@@ -68,7 +68,7 @@ def placed(plant, q, v, own, u=0.0, load=None):
 
 
 def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plant, gait):
-    """Power of all of MuJoCo's forces at its rates = u' q_b' + zeta' q', although the base floats; and the
+    """The power of all of MuJoCo's forces at its rates is u' q_b' + zeta' q', although the base floats; and the
     state that was placed is read back.
     """
     q, v = gait.start(plant.biped)
@@ -105,7 +105,7 @@ def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
 
 
 def test_feet_and_hip_are_where_pinocchio_has_them(robot):
-    """With the stance foot at (3, 2) m, at random angles."""
+    """The places agree with the stance foot at (3, 2) m, at random angles."""
     plant, random = MuJoCoPlant(robot), np.random.default_rng(6)
     f, at = robot.floating, np.array([3.0, 2.0])
     for _ in range(5):
@@ -159,12 +159,12 @@ def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, 
 
 
 def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait):
-    """In free flight, by a torque on the torso of 0.2 ms within a period of 1 ms: change of spin = A T."""
+    """In free flight a torque A on the torso for T = 0.2 ms within a period of 1 ms changes the spin by A T."""
     plant, (q, v) = MuJoCoPlant(biped, flight_height=99.0), gait.start(biped)
     push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 500.0], start=1.4e-3, stop=1.6e-3)
     system = loop_on(plant, ba.Passive(), disturbance=push)
     lifted = plant.start(0.0, q, v)
-    lifted[12] += 9.0
+    lifted[12] += 9.0  # height of the base [m]
     run = system.run(system.with_plant(system.initial_state(q, v), lifted), RunOptions(3e-3))
     assert run.status is ba.Status.COMPLETED
 
@@ -191,7 +191,7 @@ def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
 
 
 def test_a_foot_inside_the_ground_is_no_start(biped, gait):
-    """A gait for level ground on a slope: its swing foot would begin inside the ground."""
+    """A gait for level ground is put on a slope: its swing foot would begin inside the ground."""
     downhill = loop_on(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
     with pytest.raises(InputError, match="inside the ground"):
         downhill.initial_state(*gait.start(biped))

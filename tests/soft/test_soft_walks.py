@@ -184,9 +184,9 @@ PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3
 
 
 def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_error(biped, gait):
-    """ADRC with a slow observer that restarts at each tick for 15 ms after a touchdown (Hold), under the same
-    push as NPD: largest error from the push's onset to 50 ms after its end. Not held, the observer takes
-    contact for a disturbance and leaves more than half of NPD's.
+    """ADRC with a slow observer that restarts at each tick for 15 ms after a touchdown (Hold) is under the same
+    push as NPD: compared is the largest error from the push's onset to 50 ms after its end. Not held, the
+    observer takes contact for a disturbance and leaves more than half of NPD's.
     """
     h, plant, found = gait.constraint, MuJoCoPlant(biped, SoftGround(friction=0.8)), []
     slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))

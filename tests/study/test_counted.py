@@ -51,8 +51,8 @@ def test_a_row_has_the_numbers_of_the_signals_of_its_walk(name):
 def test_the_page_has_a_picture_of_feasible_walks_under_several_conditions_alone(
     tmp_path, conditions
 ):
-    """Under one condition they are a column of the page's table. In the picture each of 2 laws has a dot under
-    each of 2 conditions; of one walk the share is 0 or 1. The axis of a ratio has no unit.
+    """Under one condition the feasible walks are a column of the page's table. In the picture each of 2 laws
+    has a dot under each of 2 conditions; of one walk the share is 0 or 1. The axis of a ratio has no unit.
     """
     laws = {f"K_p {x}": {"controller.K_p": x} for x in (4000.0, 5000.0)}
     tables = {

@@ -283,8 +283,8 @@ def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tabl
 
 
 def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
-    """Results of a study with another value, a text in their place, and half a file: each is refused and no
-    byte of them changes.
+    """The file has results of a study with another value, a text in their place, and half a file: each is
+    refused and no byte of them changes.
     """
     made(tmp_path, 1)
     before = (tmp_path / RESULTS).read_bytes()

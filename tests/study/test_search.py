@@ -220,8 +220,8 @@ def test_falls_and_infeasible_walks_rank_worst_and_are_not_dropped():
 
 
 def test_quantiles_are_numbers_of_walks_in_the_order_of_the_goal():
-    """Of 1 to 10: the least number that a share p of the walks does not exceed, always that of one walk;
-    "worst" is the largest. To be maximised, they count from above.
+    """The walks have the numbers 1 to 10. A quantile is the least number that a share p of the walks does not
+    exceed, always that of one walk; "worst" is the largest. To be maximised, they count from above.
     """
     x = walks(*range(1, 11))
     assert [of(x, over=p) for p in (0.5, 0.9, 0.91, "worst")] == [5, 9, 10, 10]
@@ -229,8 +229,8 @@ def test_quantiles_are_numbers_of_walks_in_the_order_of_the_goal():
 
 
 def test_every_walk_counts_in_a_share():
-    """Of four walks two are feasible: 0.5, which misses at least 0.9 by 0.4, as a share of the limit. The worst
-    torque of 165 N m misses 150 by a tenth; a limit of 0 is missed by the number itself.
+    """Of four walks two are feasible: the share is 0.5, which misses at least 0.9 by 0.4, as a share of the
+    limit. The worst torque of 165 N m misses 150 by a tenth; a limit of 0 is missed by the number itself.
     """
     feasible, torque = Limit(column="feasible", least=0.9), {"most": 150.0, "over": "worst"}
     x = feasible.of([*walks(1.0, 1.0), FELL, REFUSED], {})
@@ -254,8 +254,8 @@ def test_candidates_are_ranked_by_limits_then_objective():
 
 
 def test_columns_without_a_walk_are_those_of_the_specification():
-    """Numbers of the linear loop at its ticks, none in continuous time; the ground changes none. With a delay
-    of 12 ms the loop is unstable: its margins are 0, and it has no ripple.
+    """They are numbers of the linear loop at its ticks, and there are none in continuous time; the ground
+    changes none. With a delay of 12 ms the loop is unstable: its margins are 0, and it has no ripple.
     """
     names = ("stable", "delay_margin", "disk_margin", "ripple")
     values = {"controller.name": "NPD", "run.impacts": 2}
@@ -283,7 +283,8 @@ walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [
 
 
 def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
-    """At most 7 walks: 3 candidates, the finalist and the case itself on the second set, two on the third.
+    """The search makes at most 7 walks: 3 candidates, the finalist and the case itself on the second set, two
+    on the third.
 
     The objectives are those of a plain study of the same gains.
     """

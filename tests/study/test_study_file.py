@@ -238,7 +238,7 @@ def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():
 
 
 def test_levels_have_both_ends_and_even_steps():
-    """Even differences, or even ratios on a logarithmic scale; one level is the lower end."""
+    """Levels have even differences, or even ratios on a logarithmic scale; one level is the lower end."""
     linear = Levels(low=0.1, high=0.7, count=7).levels()
     assert (linear[0], linear[-1]) == (0.1, 0.7)
     assert np.diff(linear) == pytest.approx(0.1)
@@ -274,9 +274,9 @@ def test_samples_fill_their_ranges_evenly(kind):
 
 
 def test_paired_ratios_against_a_closed_form():
-    """Ratios k/10 of k = 1 .. 20: median 1.05, and order statistics 6 and 15 hold 95.9 % by the binomial
-    distribution. p is the sign test's: 9 below 1, 10 above, one equal. Infinite numbers are falls; two of them
-    have no ratio. 8 of 10 by Wilson's interval.
+    """The ratios k/10 of k = 1 .. 20 have the median 1.05, and order statistics 6 and 15 hold 95.9 % by the
+    binomial distribution. p is the sign test's: 9 below 1, 10 above, one equal. Infinite numbers are falls; two
+    of them have no ratio. 8 of 10 by Wilson's interval.
     """
     y = np.random.default_rng(1).uniform(1.0, 9.0, 20)
     x = y * np.random.default_rng(2).permutation(np.arange(1, 21)) / 10.0

@@ -38,7 +38,9 @@ from tests.commands import command
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
-    """Lengths against RABBIT's 0.4 m limbs and 0.63 m torso; ends against the biped's own kinematics."""
+    """Lengths are those of RABBIT's limbs, 0.4 m, and torso, 0.63 m; ends are those of the biped's own
+    kinematics.
+    """
     view = SideView(WalkScene.of(walks["NPD"]))
     for t in np.linspace(0.0, walks["NPD"].trajectory.t_end - 1e-9, 7):
         segments = view.segments(float(t))
@@ -52,7 +54,7 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
 
 
 def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(walks):
-    """Two panels of half the width, each 1.5 m wide around the hip of its own walk."""
+    """There are two panels of half the width, each 1.5 m wide around the hip of its own walk."""
     figure, show = moving_figure(walks, "2 times slower", apart=True)
     show(0.1)
     assert [axes.get_position().bounds[::2] for axes in figure.axes] == [(0.0, 0.5), (0.5, 0.5)]

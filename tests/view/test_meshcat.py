@@ -66,9 +66,9 @@ def placed(biped: Biped, walk: dict, values: np.ndarray) -> dict[str, np.ndarray
 
 
 def test_the_animation_plays_the_walk(biped: Biped, walks: dict[str, Walk], page: str) -> None:
-    """Joint values in the page, placed by Pinocchio: in each arc the stance foot stands on its foothold, no
-    foot is below the ground by more than 0.1 mm, and hip and swing foot are the points that are drawn. The feet
-    take turns, left first. Numbers are of single precision, hence 1e-5.
+    """The joint values in the page are placed by Pinocchio: in each arc the stance foot stands on its foothold,
+    no foot is below the ground by more than 0.1 mm, and hip and swing foot are the points that are drawn. The
+    feet take turns, left first. Numbers are of single precision, hence 1e-5.
     """
     found = robot_of(scene(page)[0], "ADRC")
     d, walk = data(found), WalkScene.of(walks["ADRC"])

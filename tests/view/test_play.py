@@ -350,8 +350,8 @@ def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Ch
 
 
 def test_a_finger_on_the_robot_pulls_it(browser: Chrome) -> None:
-    """By touch events of Chromium: a finger that rests holds without a force (the anchor is at the point), one
-    that moves pulls, and lifted it lets go.
+    """The touch events are Chromium's: a finger that rests holds without a force (the anchor is at the point),
+    one that moves pulls, and lifted it lets go.
     """
 
     def touch(kind: str, *place: float) -> None:
@@ -483,7 +483,9 @@ return all.filter(low).map((x) => x.outerHTML.slice(0, 200));
 
 
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
-    """On a telephone, 390 px wide, and two screens; on these no control is below the window either."""
+    """This holds on a telephone, 390 px wide, and on two screens; on these no control is below the window
+    either.
+    """
     assert browser.execute_script(NAMELESS) == []
     try:
         for width, height in ((390, 800), (1000, 700), (1400, 900)):
@@ -600,7 +602,7 @@ def test_a_page_says_that_its_motors_have_no_torque_limit(
 
 
 def test_a_slider_begins_at_the_value_that_gives_the_walks_numbers() -> None:
-    """x with number = a + b x^k; a relative error of 0.2 is a factor of 1.2."""
-    error = Slider("errors.mass", -0.5, 0.5, False)
+    """The slider begins at x with number = a + b x^k; a relative error of 0.2 is a factor of 1.2."""
+    error = Slider("errors.mass", -0.5, 0.5, False)  # from -0.5 to 0.5, not logarithmic
     for form, number, value in (((1.0, 1.0, 1), 1.2, 0.2), ((3.0, 2.0, 2), 3.02, 0.1)):
         assert at_base(error, np.array([number]), {0: form}).value == pytest.approx(value)

@@ -271,9 +271,9 @@ def test_lines_of_two_points_are_not_data_that_a_panel_is_fitted_to() -> None:
 
 
 def test_a_map_has_a_panel_for_each_case_and_no_more() -> None:
-    """Five panels in rows of four, with labels at the outermost ones alone. A cell has the mean of its finite
-    numbers as text: k and k + 2 at (1, 3). The cell (2, none) has an infinite one, two cells have none: no
-    text.
+    """Five panels stand in rows of four, with labels at the outermost ones alone. A cell has the mean of its
+    finite numbers as text: k and k + 2 at (1, 3). The cell (2, none) has an infinite one, and two cells have
+    none: these three have no text.
     """
     x, y = [1.0, 1.0, 2.0], [3.0, 3.0, "none"]
     panels = {f"case {k}": (x, y, np.array([k, k + 2.0, np.inf])) for k in range(5)}

@@ -105,8 +105,8 @@ def test_on_soft_ground_the_foot_is_drawn_where_it_slips() -> None:
 
 
 def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]) -> None:
-    """0.4 m for the robot's weight, at most 1.2 m; a cut arrow has words with the true force, and a force that
-    is not finite has no arrow.
+    """The arrow has 0.4 m for the robot's weight, and at most 1.2 m; a cut arrow has words with the true force,
+    and a force that is not finite has no arrow.
     """
     view = SideView(WalkScene.of(walks["slope"]))
     drawn = DrawnWalk(Figure().subplots(), view, 1.0, 1)  # opaque, in the first layer
@@ -163,7 +163,7 @@ def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) 
 
 
 def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) -> None:
-    """Eight lines of 1 m at equal angles, in the same places before and after an impact."""
+    """There are eight lines of 1 m at equal angles, in the same places before and after an impact."""
     view = SideView(WalkScene.of(walks["wheel"]))
     for event in walks["wheel"].trajectory.events("foot_strike")[:-1]:
         before, after = (view.segments(event.t + d) for d in (-1e-9, 1e-9))
