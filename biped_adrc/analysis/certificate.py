@@ -322,7 +322,7 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     impact = b.impact(q, v)
     since, duration = s.t - s.t[0], s.t[-1] - s.t[0]
     # the middle of the step, up to round-off of times
-    # ENDS = 0.03: share of the step at either end, where the foot may touch the ground
+    # ENDS: share of the step at either end, where the foot may touch the ground
     inner = np.abs(since - 0.5 * duration) < (0.5 - ENDS) * duration - SAME_INSTANT
     height = s.swing_foot @ (math.tan(walker.ground_slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]

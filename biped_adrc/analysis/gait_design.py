@@ -159,12 +159,12 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     # longest: time limit of one single support [s]
     longest = max(Walker.max_step_time, 2.0 * gait.period)
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
-    # _STEPS = 2: steps of the walk that proves the gait
+    # _STEPS: steps of the walk that proves the gait
     x, end = walker.initial_state(*gait.start(biped)), _STEPS * longest
     run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=_STEPS, t_end=end)
     if not run.status.ok:
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
-    # WINDOW = 5 ms, over which the force of the ground is averaged
+    # WINDOW, over which the force of the ground is averaged
     allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
     certificate = certificates(walker, run, signals(walker, run, gait.constraint), allowed)[0]
     # reasons that do not count: scuffing where the request sets no clearance, and an impulse that the request
@@ -215,7 +215,7 @@ def library(
     pair with a line of text about it. Raises GaitError where fewer pairs have a gait than the fit needs.
     """
     # least: number of coefficients of a polynomial in two variables of this degree
-    # CURVE_DEGREE = 4, of the polynomials in speed and step length
+    # CURVE_DEGREE, of the polynomials in speed and step length
     least, gaits = (CURVE_DEGREE + 1) * (CURVE_DEGREE + 2) // 2, []
     if min(len(set(speeds)), len(set(lengths))) <= CURVE_DEGREE:
         raise GaitError(
@@ -273,7 +273,7 @@ def design_family(
     # a row of `ends` is a random pair of steps, the arguments of `step_integrals`: speed v and length L of the
     # member at the impact between them, length `before` of the step before both, speed `end` and length
     # `ahead` of the member that ends the second step; low and high are ends of the ranges (speed, length)
-    # _SAMPLES = 1200 random steps
+    # _SAMPLES random steps
     ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (_SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
     v, before, L, end, ahead = ends.T

@@ -143,7 +143,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     along, normal = np.array(ground_axes(slope))
     falls = np.array([max(walker.drop(step), 0.0) for step in n.steps])
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
-    # ENDS = 0.03: share of the step at either end, where the foot may touch the ground
+    # ENDS: share of the step at either end, where the foot may touch the ground
     known = Known(
         window, plant.weight, math.tan(slope), ENDS, along, normal, SAME_INSTANT, falls, joints
     )

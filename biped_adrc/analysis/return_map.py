@@ -202,7 +202,7 @@ class ReturnMap(Shown):
             done = residual < tolerance
             # J is dP/ds at s_J, and no longer that at s once s has moved by more than the differences
             stale = float(np.max(np.abs(s - s_J))) > self.difference
-            # too slow: more than the share _CHORD = 0.1 of the residual is left
+            # too slow: more than the share _CHORD of the residual is left
             if stale and (done or residual > _CHORD * previous):
                 J, s_J = self.jacobian(s), s
             if done:

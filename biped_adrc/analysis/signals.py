@@ -166,7 +166,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     possible.
     """
     # tracked: the outer loop itself, where there is one, else `reference`; found: the signals at all nodes
-    # LONG = 2000: from so many nodes on compiling is faster than NumPy
+    # LONG: from so many nodes on compiling is faster than NumPy
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
     tracked, found = tracked_by(walker.law, reference), None

@@ -122,7 +122,7 @@ def step_of(arc: Arc, friction: float, axes: tuple[Array, Array]) -> SoftStep:
     force, place, velocity = feet_of(arc)
     # w @ x is the integral of x over the single support; all below is (K, 2), one column per foot
     w, normal, tangential = spans(arc.t), force @ out, np.abs(force @ along)
-    # CARRYING = 1 N: force from which on a foot carries
+    # CARRYING: force from which on a foot carries
     speed, carries = np.abs(velocity @ along), normal > CARRYING
     slips = slipping(force, velocity, friction, axes)
     pressed = normal > PRESSED
@@ -151,7 +151,6 @@ def slipping(
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal
-    # CARRYING = 1 N; SLIP_SPEED = 5 mm/s
     slips = (normal > CARRYING) & at_cone & (np.abs(speed @ along) > SLIP_SPEED)
     return np.asarray(slips, dtype=np.bool_)
 

@@ -149,7 +149,6 @@ def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> f
     from scipy.optimize import linear_sum_assignment
 
     a, b = one[:, np.newaxis], other[np.newaxis]
-    # RELATIVE = 1e-6, ABSOLUTE = 1e-7
     allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
     # linear_sum_assignment finds the pairs (rows, columns) of least total cost
     cost = np.abs(a - b) / np.maximum(allowed, noise)
@@ -320,7 +319,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
     if isinstance(method, Adaptive):
-        # APART = 1 ms: longest step of a method with step control
+        # APART: longest step of a method with step control
         method = replace(method, max_step=APART)
     stop = FOOT_STRIKE, 1
     run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)

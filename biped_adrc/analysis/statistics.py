@@ -33,7 +33,6 @@ def share(successes: int, count: int) -> Interval:
     """Share of `successes` among `count` walks, at least one, with Wilson's interval; NaN ends for one walk."""
     if count == 1:
         return Interval(float(successes), math.nan, math.nan)
-    # CONFIDENCE = 0.95
     result = scipy.stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
     return Interval(successes / count, float(result.low), float(result.high))
 
@@ -44,7 +43,6 @@ def median(values: Sequence[float]) -> Interval:
     An end of the interval is NaN where there are too few numbers for it.
     """
     # of the quantile p = 0.5 only the interval is used, so the value q that is tested does not matter
-    # CONFIDENCE = 0.95
     result = scipy.stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
     return Interval(float(np.median(values)), float(result.low), float(result.high))
 

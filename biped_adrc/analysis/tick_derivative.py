@@ -96,7 +96,7 @@ def _differenced(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
     mode: number and start [s] of the single support. Raises NotFiniteError where a result is not finite.
     """
-    # _DIFFERENCE = 1e-6: half width of the differences
+    # _DIFFERENCE: half width of the differences
     d = _DIFFERENCE
     columns = [
         (walker.tick(t, x + d * e, mode) - walker.tick(t, x - d * e, mode)) / (2.0 * d)

@@ -132,7 +132,7 @@ class ZeroDynamicsReport(Shown):
         if not self.walkable:
             text = f"the periodic orbit does not keep {_show(self.limits)}"
             yield (f"{text}: zeta* is outside of the domain",)
-        # INVARIANCE = 1e-6: up to it a constraint counts as hybrid invariant
+        # INVARIANCE: up to it a constraint counts as hybrid invariant
         if self.invariance > INVARIANCE:
             yield (
                 f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
@@ -162,7 +162,7 @@ def zero_report(
     # the swing foot at the end of the curve, of which the rates do not matter
     x, z = biped.swing_foot(orbits.zero.end_state(0.0)[0])
     height = float(z + math.tan(limits.slope) * x)
-    # CLOSES = 1e-3 m: largest distance of the foot from the ground in a gait that closes
+    # CLOSES: largest distance of the foot from the ground in a gait that closes
     if not abs(height) < CLOSES:
         raise GaitError(
             f"the swing foot is {height:.3g} m above the ground of slope {limits.slope:g} rad where the curve "

@@ -211,7 +211,7 @@ class FootBarrier(Around):
     def predict(self, s: Any, m: Measurement, u: Array) -> Any:
         """The inner state at the next sample instant; this one is counted if the torque u breaks a bound."""
         # [0]: d, how far the bound is exceeded; by round-off alone it counts as kept
-        # _ROUND_OFF = 1e-6 m/s^2: a bound exceeded by less counts as kept
+        # _ROUND_OFF: a bound exceeded by less counts as kept
         infeasible: Any = np.where(abs(self.missing(s.inner, m, u)[0]) > _ROUND_OFF, 1.0, 0.0)
         return BarrierState(self.inner.predict(s.inner, m, u), s.infeasible + infeasible)
 

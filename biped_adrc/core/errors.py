@@ -166,7 +166,7 @@ def unknown(name: str, known: Iterable[str]) -> str:
     near = list(dict.fromkeys(near))[:3]
     if near:
         return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
-    # MANY = 20: with more names only those of the records are listed
+    # MANY: with more names only those of the records are listed
     if len(known) > MANY:
         known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
     return f"unknown name; choose from {known}" if known else "unknown name; leave it out"

@@ -122,7 +122,7 @@ def _named(path: object) -> Path:
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
         raise InputError(f"cannot write {path!r}, expected a file name without control characters")
     for part in Path(path).parts:
-        # _LONGEST = 240 bytes, as file systems take 255
+        # _LONGEST bytes, as file systems take 255
         if (size := len(os.fsencode(part))) > _LONGEST:
             raise OutputError(f"'{path}' has a name too long, {size} bytes of at most {_LONGEST}")
     if Path(path).parts[:1] == ("~",):

@@ -54,7 +54,7 @@ def short(x: Any) -> str:
     `SHORT` by its class.
     """
     if isinstance(x, np.ndarray):
-        # FEW = 6: up to so many entries an array is printed in full
+        # FEW: up to so many entries an array is printed in full
         few = x.ndim == 1 and x.size <= FEW and x.dtype.kind in "bifc"
         return f"[{' '.join(f'{number:.6g}' for number in x)}]" if few else f"array{x.shape}"
     if isinstance(x, Real) and not isinstance(x, bool):

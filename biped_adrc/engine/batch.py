@@ -238,7 +238,7 @@ def _strides(
     """
     nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
     if read:  # memory for the rows of so many single supports
-        # _AT_ONCE = 25: most single supports for whose nodes memory is taken at a time
+        # _AT_ONCE: most single supports for whose nodes memory is taken at a time
         run.keep(compiled.walker.max_step_time, min(impacts, _AT_ONCE), read)
     # parts: rows (t, x-, x+) of the impacts; rows: those of the table; left: impacts that are still to be made
     status, parts, rows, left = Status.COMPLETED, list[Array](), list[Array](), impacts

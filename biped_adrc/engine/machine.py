@@ -140,7 +140,7 @@ def fetch(key: str) -> bytes | None:
         data = _path(key).read_bytes()
     except OSError:
         return None
-    # CHECK = 32: bytes of the checksum at the beginning of the file
+    # CHECK: bytes of the checksum at the beginning of the file
     check, code = data[:CHECK], data[CHECK:]
     return code if hashlib.sha256(key.encode() + code).digest() == check else None
 

@@ -105,7 +105,7 @@ class CompiledLoop(SteppingLoop):
         `tick`."""
         assert self.program is not None
         code, nx = self.program.machine, self.program.nx
-        # numbers of inputs (t, step, t_start, x, zeta, OUTSIDE = 2 forces) and of outputs
+        # numbers of inputs (t, step, t_start, x, zeta, OUTSIDE forces) and of outputs
         return Call(code, "tick", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
@@ -116,7 +116,7 @@ class CompiledLoop(SteppingLoop):
             return super().tick(t, x, mode)
         inp = self.sample.inp
         inp[0], inp[1], inp[2] = t, mode.step, mode.start
-        # behind x n numbers stay 0: the place of zeta, which the plant alone feels; then the OUTSIDE = 2 forces
+        # behind x n numbers stay 0: the place of zeta, which the plant alone feels; then the OUTSIDE forces
         inp[3 : 3 + len(x)] = x
         if self.touchdown is not None and self.touchdown.needs_force:
             q, v, _, tail = parts(self, x)

@@ -221,7 +221,7 @@ class CompiledWalker:
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         codes = [push_code(x, n).addresses["push"] for x in push.terms]
-        # of each term PART = 2 numbers, the address of its code and how many numbers it has; `view` keeps the
+        # of each term PART numbers, the address of its code and how many numbers it has; `view` keeps the
         # bits of these whole numbers in a table of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
         tables = {
@@ -304,7 +304,7 @@ def _still(
     fields |= {"kind": constants.ETD if etd else constants.RK4, "h": method.h}
     # coordinates, numbers in x, motors, rows of the stiff part E (k, p), and how many numbers of x flow
     fields |= {"n": n, "nx": nx, "p": p, "k": k, "moving": nx if flows else 2 * n}
-    # LEAST_STEP = 1 mm: a shorter contact of the foot is no touchdown
+    # LEAST_STEP: a shorter contact of the foot is no touchdown
     fields |= {"least_step": LEAST_STEP, "farthest": bounds.farthest}
     if relaxing is not None:
         # `at` counts from the end of x, so its start is negative; lags: index of the first lagging torque

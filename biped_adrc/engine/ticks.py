@@ -167,7 +167,7 @@ def input_rows(shapes: tuple[Shape, ...]) -> Iterator[tuple[int, tuple[Array, ..
     No memory is given out twice, since a controller may keep its inputs. Blocks of rows are allocated at once.
     """
     while True:
-        # BLOCK = 256 sample instants share one array
+        # BLOCK sample instants share one array
         block = np.zeros((BLOCK, sum(map(math.prod, shapes))))
         block.setflags(write=False)
         parts = zip(*parts_of(block, shapes), strict=True)

@@ -77,7 +77,6 @@ class VirtualConstraint(Reference):
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
         # for None a number that passes the check
-        # FADE = 0.01
         fade = FADE if self.fade is None else self.fade
         if not (np.all(np.isfinite([*c, span])) and span != 0.0 and 0.0 < fade < np.inf):
             raise GaitError(

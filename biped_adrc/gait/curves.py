@@ -276,7 +276,7 @@ class BSpline(ControlledCurve):
 
     @property
     def pieces(self) -> tuple[Array, Array]:
-        # the knots between the ends, which are there four times each, are the breaks; CUBIC = 3
+        # the knots between the ends, which are there four times each, are the breaks
         return knots(self.degree)[CUBIC + 1 : -CUBIC - 1], self.coefficients @ basis(self.degree)
 
     @classmethod
@@ -290,7 +290,7 @@ def knots(degree: int) -> Array:
     """Knots t (M + 5,) in [0, 1] of a `BSpline` with M = `degree`: equally spaced, 0 and 1 four times each, so
     that the curve begins and ends with its outer coefficients.
     """
-    # both ends too, to which CUBIC = 3 more are added
+    # both ends too, to which CUBIC more are added
     inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
     return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
 
@@ -320,7 +320,7 @@ def _raised(t: Array, N: Array, k: int, d: int) -> Array:
 
     t: knots. N (., 4): coefficients of all functions of degree d - 1, one row each.
     """
-    # CUBIC = 3, the degree
+    # CUBIC: the degree
     result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]

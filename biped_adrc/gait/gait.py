@@ -143,7 +143,6 @@ class Gait(Shown):
             angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
             # the largest gap; rounded, so that of equal gaps a joint is named and not Theta, which is last
             k = int(np.argmax(np.round(np.abs(angles - goals), 9)))
-            # CLOSES = 1e-3
             yield (
                 bool(abs(angles[k] - goals[k]) <= CLOSES),
                 f"{(*d.joints[:p], 'Theta')[k]} at the {end} of the curve is {angles[k]:.6g} rad, expected "

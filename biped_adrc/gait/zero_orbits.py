@@ -272,7 +272,7 @@ class ZeroOrbits(Shown):
         domain then approaches it and never passes; else V_max is at an end of the step, which is left or
         reached in finite time.
         """
-        # dV_zero/dTheta; below the share _SADDLE = 1e-6 of its largest value it counts as 0
+        # dV_zero/dTheta; below the share _SADDLE of its largest value it counts as 0
         slope = self.potential.deriv()
         largest = float(np.max(np.abs(slope(grid(self.zero)))))
         return abs(float(slope(self.theta_max))) < _SADDLE * largest

@@ -383,7 +383,7 @@ def event(r: Run, t0: float, t1: float) -> int:
     # before: up to here the step has been searched [s]
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
-        # TOGETHER = 1e-6 s: events closer than this are not told apart
+        # TOGETHER: events closer than this are not told apart
         before = min(t0 + TOGETHER, t1)
         code = lift(r, t0, before)
         if code != 0:
@@ -547,7 +547,7 @@ def through(r: Run, t_next: float) -> int:
     t0 = t = r.t
     skipped, steps, code = 0, 0, 0  # skipped: steps since the last node
     r.limit = left(t_next)
-    # LANDING = 1e-9: round-off in the count. np.ceil gives a float in both engines; math.ceil would give an
+    # LANDING: round-off in the count. np.ceil gives a float in both engines; math.ceil would give an
     # int, which has only 64 bits when compiled
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t)

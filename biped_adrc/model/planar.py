@@ -151,6 +151,6 @@ def hip_point(biped: Biped) -> LinkPoint:
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkPoint:
     """Fit a `LinkPoint` to its place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
-    # POINT_EXACT = 1e-10: smaller parts of d are round-off
+    # POINT_EXACT: smaller parts of d are round-off
     (d,) = fitted(A, place, POINT_EXACT)
     return LinkPoint(np.ascontiguousarray(A), *per_link(d), turn)

@@ -129,7 +129,7 @@ class PlanarRobot:
         Raises ModelError when it is no planar tree of rigid links.
         """
         n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
-        # _EXACT = 1e-11: largest relative difference to Pinocchio
+        # _EXACT: largest relative difference to Pinocchio
         d = fitted(A, biped.pinned.points, _EXACT)
         # d (n + 2, n): the COMs, then the swing foot, then the hip
         com, rotor = d[:n], np.zeros(n)

@@ -70,7 +70,6 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
         return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
 
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
-    # COARSE = 1 ms
     return PoincareResult(orbit(COARSE), orbit(0.5 * COARSE), delta**2)
 
 

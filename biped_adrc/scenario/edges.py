@@ -69,7 +69,6 @@ def remarks(walker: Walker, gait: Gait | None, trajectory: Trajectory) -> Iterat
     yield from _of_steps(walker, trajectory)
     # q (n,) of the first node of the first arc; the depth is below the plane through the stance foot
     depth = -walker.clearance(trajectory.arcs[0].x[0, : walker.plant.n])
-    # BURIED = 5 mm
     if depth > BURIED:
         yield f"the start has the swing foot {1e3 * depth:.3g} mm below the ground"
     # stone k is where single support k is to end; behind the last one a foot may land anywhere
@@ -113,7 +112,6 @@ def _of_gait(walker: Walker, gait: Gait) -> Iterator[str]:
         # h(Theta) gives value, slope and curvature: [0] are the angles
         inside = np.linspace(c.theta_plus, c.theta_minus)
         off = max(float(np.max(np.abs(h.h(x)[0] - c.h(x)[0]))) for x in inside)
-        # SAME_CURVE = 1e-6 rad
         if off > SAME_CURVE:
             yield f"the controller's curve is up to {off:.2g} rad from that of {name}"
 
@@ -150,7 +148,7 @@ def _of_edges(step: int, times: list[float], trajectory: Trajectory) -> Iterator
     ends = [(arc.mode.step, arc.event) for arc in arcs if arc.event]
     impacts = [(k, e.t - starts[0]) for k, e in ends if e.guard == FOOT_STRIKE]
     # s > 0: an edge at 0 is meant to be at the impact
-    # _NEAR = 1 ms: so near the error of integration decides on which side an edge is
+    # _NEAR: so near the error of integration decides on which side an edge is
     near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= _NEAR}
     for s, end in sorted(near):
         edge = f"the edge at {s:g} s within {1e3 * _NEAR:g} ms of the impact at {end:.4f} s"
@@ -185,7 +183,7 @@ def _of_steps(walker: Walker, trajectory: Trajectory) -> Iterator[str]:
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]
     # each integration step has a node, so differences of the nodes' times are the steps
     longest = max((float(np.max(np.diff(a.t), initial=0.0)) for a in beside), default=0.0)
-    # LONGER = 1.1 times the observer's shortest time constant
+    # LONGER times the observer's shortest time constant
     if longest > LONGER * constant:
         yield (
             f"the step of {1e3 * longest:.3g} ms beside the edges of the push is longer than the shortest time "

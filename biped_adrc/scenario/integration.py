@@ -87,7 +87,6 @@ def default_method(walker: Walker) -> OneStepMethod:
     method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
     hardware = (walker.sensors, walker.motors, walker.torque_limit)
     if walker.sampled and any(x is not None for x in hardware):
-        # HARDWARE_STEP = 0.25 ms
         method = RK4(HARDWARE_STEP)
     # STABLE is for the decision; the new step has h rate = 1, well inside RK4's region of stability
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
@@ -279,7 +278,7 @@ def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> floa
         raise InputError("a walk from a file, on another plant or cut has no steps; ask a new one")
     n, first = walker.plant.n, run.arcs[0]
     k = np.arange(len(first.x[0]))
-    # q and v, the first 2 n numbers, are moved by ASIDE cos(k), with ASIDE = 1e-12 rad or rad/s: a direction
+    # q and v, the first 2 n numbers, are moved by ASIDE cos(k), in rad and rad/s: a direction
     # that no symmetry prefers
     x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)
     beside = runs_in_parts(walker, x, first.mode, parts)

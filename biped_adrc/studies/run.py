@@ -112,7 +112,7 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
     # size: how many walks are in memory together, by the longest of them
-    # _AT_ONCE = 160: most impacts in memory together
+    # _AT_ONCE: most impacts in memory together
     size, rows = max(1, _AT_ONCE // max(impacts, default=1)), list[WalkRow]()
     for i in range(0, len(trials), size):
         some = trials[i : i + size]

@@ -128,7 +128,7 @@ class Runner:
         """
         workers = self.crew.count
         # at least four chunks for each worker, so that none waits long for the last one
-        # LARGEST_CHUNK = 32 walks; _AHEAD = 3 chunks for each worker
+        # LARGEST_CHUNK walks; _AHEAD chunks for each worker
         size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
         missing = self._missing(iter(points))
         # _send and _collect return points whose worker died, which _again walks one by one; mostly none

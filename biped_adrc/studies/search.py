@@ -343,7 +343,7 @@ class _Proposals:
         missed limits a number above all of these, and a larger one if no walk was spent on it.
         """
         if any(c.missed) or not c.walked:
-            # _MISSED = 1e30, above every objective
+            # _MISSED, above every objective
             return _MISSED * (1.0 + sum(c.missed) + (not c.walked))
         return min(self.search.objective.sign * c.objective, _MISSED)
 

@@ -194,7 +194,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     # ticked(t, x, mode) -> x after the tick, J; it is made once, for the first point
     result, ticked = [], None
     for point in points:
-        # TICKS_BEFORE = 2: after these each sensor has a difference of its angles
+        # TICKS_BEFORE: after these each sensor has a difference of its angles
         x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
         J = np.zeros((0, 0))
         layout = twin.layout_of(x)
@@ -224,7 +224,7 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     # shape: columns over their largest entries, alike: pairs of proportional columns, first: first of each kind
     largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
     shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]
-    # _SAME = 1e-12: columns that differ by less count as equal
+    # _SAME: columns that differ by less count as equal
     alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < _SAME
     first = np.argmax(alike, axis=1) if k else np.zeros(0, dtype=int)
     some = np.flatnonzero((first == np.arange(k)) & (largest != 0.0))

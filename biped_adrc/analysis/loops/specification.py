@@ -249,7 +249,7 @@ def disk_margin(S: ComplexArray) -> float:
     """
     M = S - 0.5 * np.eye(S.shape[1])
     # mu is at most the Frobenius norm and at least the spectral radius: so a matrix whose norm is below the
-    # largest radius (of the TOP = 50 matrices of largest norm) cannot have the largest mu
+    # largest radius (of the TOP matrices of largest norm) cannot have the largest mu
     rough = np.linalg.norm(M, axis=(-2, -1))
     radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))
     M = M[rough >= (1.0 - 1e-9) * radius]  # 1e-9 for round-off

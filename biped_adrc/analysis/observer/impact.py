@@ -82,8 +82,8 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
     # dt = dTheta / Theta'; `cumulative` integrates over Theta from the start of the step to each node
     t = zero.cumulative @ (1.0 / (orbit.v @ gait.constraint.phase))  # of the nodes [s]
-    # polynomials in time, one per joint; of their derivatives only DERIVATIVES = 3 are smooth enough to be used
-    # DEGREE = 20, of the polynomials in time
+    # polynomials in time, one per joint; of their derivatives only DERIVATIVES are smooth enough to be used
+    # DEGREE, of the polynomials in time
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
     def chain(time: float, q: Array, v: Array) -> Array:

@@ -337,7 +337,7 @@ def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
     loop: its own period and delay do not count. NaN when SHORTEST is unstable already, infinite when all up to
     LONGEST are stable.
     """
-    # from 1 us to 0.1 s, each RATIO = 1.05 times the one before
+    # from 1 us to 0.1 s, each RATIO times the one before
     count = math.ceil(math.log(LONGEST / SHORTEST) / math.log(RATIO))
     periods = SHORTEST * RATIO ** np.arange(count + 1)
     return last_true(lambda T: replace(loop, period=T, delay=delay_periods * T).stable, periods)
@@ -349,7 +349,7 @@ def largest_delay(loop: SampledLoop) -> float:
     loop: its own delay does not count. NaN when the loop is unstable without one, infinite when all up to
     MOST_PERIODS are stable.
     """
-    # PARTS = 20 delays per period, up to MOST_PERIODS = 50 periods
+    # PARTS delays per period, up to MOST_PERIODS periods
     delays = loop.period / PARTS * np.arange(MOST_PERIODS * PARTS + 1)
     return last_true(lambda delay: replace(loop, delay=delay).stable, delays)
 

@@ -1,4 +1,4 @@
-; sources ec1a2ac9f046c579c8199061d84007d0, text 76a099898943c9107fd37fec1ad4fdd5
+; sources 4e700786d38485ddd01ea95443499c1f, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

@@ -132,7 +132,7 @@ def load_of(r: Run) -> None:
     for i in range(size):
         r.load[i] = 0.0
     for k in range(r.n_parts):
-        # PART = 2 numbers for each term: address, and how many parameters it has
+        # PART numbers for each term: address, and how many parameters it has
         call(r.parts[PART * k], K, r.inp, r.one)
         add(r.load, 1.0, r.one, r.load, size)
         K = shift(K, r.parts[PART * k + 1])  # to the numbers of the next term
@@ -404,7 +404,7 @@ def measure(r: Run, x: Array) -> None:
     copy(x, shift(r.inp, 3), r.nx)
     # limit: just before the next switching time, so that the disturbance has its value from before
     disturb(r, min(r.t, r.limit))
-    # OUTSIDE = 2: the force from outside stands behind zeta
+    # OUTSIDE: the force from outside stands behind zeta
     copy(r.load, shift(r.inp, 3 + r.nx), r.n + OUTSIDE)
 
 

@@ -170,7 +170,7 @@ class Stage:
         self.cost = task.effort / (p * self.limits.torque**2)
         # a run ends as RAN_AWAY above the rate v, so no observation can be higher
         v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
-        # bounds of q (TURNS = 4 pi rad), q', e and e'; e is a difference of two angles
+        # bounds of q (TURNS), q', e and e'; e is a difference of two angles
         measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
         self.highest = np.concatenate((*measured, np.full(p, self.limits.torque), [2.0 * TURNS]))
         # 4: feasible, friction, normal force and torque, see the class
@@ -247,7 +247,7 @@ class Stage:
         """
         run, view = self.task.scenario.run, self.view
         fallen = self.stepper.walks.codes != 0
-        # FALLEN_FROM = 1e-9 s is for the round-off of times
+        # FALLEN_FROM is for the round-off of times
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= view[:, self.first + 1] >= run.first_step + run.impacts
         return fallen, late > fallen  # of truth values: late and not fallen

@@ -243,7 +243,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
             f"{names[k + 1]} has q{i + 1} = {q[k + 1, i]:g} rad, after {q[k, i]:g} rad, expected angles "
             "that go on without a jump; add or take away whole turns"
         )
-    # MOST_TORQUE = 100 times the peak torque
+    # MOST_TORQUE times the peak torque
     most = MOST_TORQUE * biped.description.peak_torque
     for k, i in np.argwhere(np.abs(u) > most)[:1]:
         raise InputError(
@@ -275,7 +275,7 @@ def _check_rate(turned: Array, integral: Array, i: int) -> None:
 
     turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
     """
-    # LEAST_MOTION = 0.002 rad: with less motion nothing can be said
+    # LEAST_MOTION: with less motion nothing can be said
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
         return  # too little motion for a verdict
     square = float(integral @ integral)

@@ -67,7 +67,7 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     touchdown in the log it is taken to land in front, so that a walk and its mirror image look alike.
     """
     # `half` rows on each side of a window are needed for differences; all lie in one single support
-    # HALF = 0.01 s: half the interval of a difference; WINDOW = 0.04 s
+    # HALF: half the interval of a difference
     half, rows = (max(1, round(length / log.period)) for length in (HALF, WINDOW))
     begins = np.arange(half, len(log.t) - rows - half)
     begins = begins[log.step[begins - half] == log.step[begins + rows + half]][::rows]

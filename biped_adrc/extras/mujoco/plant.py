@@ -300,7 +300,7 @@ class MuJoCoPlant(Checked, Shown):
             return (Contact("stance_foot_in_the_air", ends=Status.INFEASIBLE),)
         if t - own[0] > self.max_step_time:
             return (Contact("step_too_long", ends=Status.STALLED),)
-        # TOUCHING = 1e-6 m, so that round-off does not decide
+        # TOUCHING, so that round-off does not decide
         if x * swing[0] + z * (swing[2] - ahead) > TOUCHING or swing[0] - stance[0] <= self.ahead:
             return ()
         force = self.forces()[1]  # (x, z) on the swing foot

@@ -171,7 +171,7 @@ def laid_out(walk: PageWalk) -> WalkScene:
     """
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
-    # _AROUND = 4 m of ground before and behind the robot
+    # _AROUND: length of the ground before and behind the robot
     footholds = np.linspace(-_AROUND, _AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
     slope = walk.walker.ground_slope

@@ -173,7 +173,7 @@ def end(one: Slider, x: float, numbers: _Numbers) -> float:
     """
     # x becomes the value tried last: the first one that the walk accepts, or else the present value
     ways = np.geomspace if one.log else np.linspace
-    # CLOSER = 8 values are tried as another end
+    # CLOSER values are tried as another end
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
             numbers_at(one, numbers, (x := float(f"{y:.2g}"),))
@@ -219,7 +219,7 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
         # POWERS: exponents k that are tried
         for k in POWERS if np.all(s > 0.0) else ():
             # b follows from the last value, the other two have to agree
-            # _EXACT = 1e-12: largest relative error of a form
+            # _EXACT: largest relative error of a form
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < _EXACT):
                 yield 0.0, float(y[2] / s[2] ** k), k
         for k, f in ((1, s), (0, np.tan(s))):

@@ -415,7 +415,6 @@ def trunk_of(plant: Biped) -> str:
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])
-    # _SAME = 1e-9 m
     if np.max(np.abs(point(turned(k.A, q), k.re, k.im) - base)) > _SAME:
         raise InputError(
             f"robot '{plant.description.name}' is drawn from a base that is not the origin of its trunk "

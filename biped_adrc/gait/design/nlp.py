@@ -224,7 +224,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
             Bounded("the impulse cone", mu_i * P_N + P_T, 0.0, infinite, "of m sqrt(g leg)"),
         ]
     # nodes at which the foot has to be above the ground: without a clearance those in the later half of the
-    # step alone, s > PASSED = 0.5, since a leg without a knee scuffs before
+    # step alone, s > PASSED, since a leg without a knee scuffs before
     above = [
         i for i, x in enumerate(s) if x > (PASSED if limits.clearance is None else 0.0) and x < 1.0
     ]
@@ -348,7 +348,7 @@ def relaxed(
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
     # slacks of 1 at first; "monotone": the more robust way in which IPOPT lowers its barrier
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
-    # a slack above _MISSED = 1e-5 is a limit that cannot be kept
+    # a slack above _MISSED is a limit that cannot be kept
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
     if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"

@@ -97,7 +97,7 @@ def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -
     q = q.copy()
     for joint, (low, high) in ranges.items():
         k = biped.description.joint_index(joint)
-        off = min(BEND, 0.25 * (high - low))  # BEND = 0.2 rad
+        off = min(BEND, 0.25 * (high - low))
         q[k] = np.clip(q[k], low + off, high - off)
     return q
 
@@ -164,7 +164,7 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
     if request.through is None:
         leg = robot_of(biped).leg
         step = request.step or _STEP * leg  # half the leg, where no step length is asked for
-        # FROUDE = 1.5 and LONGEST_STEP = 1.2: what is searched at most
+        # FROUDE and LONGEST_STEP: what is searched at most
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
         if step > LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
@@ -219,13 +219,13 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
     programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
-    # ASKED: rows of speed and step length, which may miss by SPEED = 5e-5
+    # ASKED: rows of speed and step length, which may miss by SPEED
     allowed = dict.fromkeys(ASKED, SPEED)
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
     allowed[LATE] = np.inf
     result = programme.missed(stacked(x))
-    # _EXACT = 1e-6 for all other rows
+    # _EXACT for all other rows
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
     return programme.in_words(missed)
 

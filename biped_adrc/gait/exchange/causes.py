@@ -72,10 +72,9 @@ def explained(samples: Samples, biped: Biped, layout: Convention, degree: int, s
             k = math.exp(newton(late, 0.0, x1=0.05, tol=1e-6, args=(make,)))
             found[name] = _distance(s, orbit(make, k)), k
     best = min((gap for gap, _ in found.values()), default=math.inf)
-    # EXPLAINS = 5e-3 rad
     if best > EXPLAINS:
         return "; no other gravity, length of the legs or mass of one body alone explains them"
-    # CLEARLY = 3: also those that fit not much worse than the best one
+    # CLEARLY: also those that fit not much worse than the best one
     causes = [f"{x} times {k:.4g}" for x, (gap, k) in found.items() if gap <= CLEARLY * best]
     return f"; they would fit with {' or '.join(causes)}"
 

@@ -359,7 +359,6 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
         q, v = q + foot_down(biped, q, record.slope)[0], to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))
-        # RATES = 1e-2 rad/s
         if not gap[joint] <= RATES:
             raise GaitError(
                 f"gait '{record.name}': v_minus of {biped.description.joints[joint]} is {gap[joint]:.3g} rad/s "

@@ -209,7 +209,6 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     ends = np.array([plus, minus]) + float(row @ to_paper.b)
     # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
-    # _PARALLEL = 1e-12
     if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
         row, ends = layout.paper_phase, ends / k
     # by the pose in the middle of the step, s = 0.5
@@ -247,7 +246,6 @@ def _of_all(record: GaitFile, layout: Convention, c: Array) -> Curve:
         return all_coordinates(curve, outputs, c, (plus, minus))
     # curves of all coordinates leave nothing open, so their phase has to be the straight line of the range
     gap = max(abs(curve(s)[0] @ c - plus - s * (minus - plus)) for s in np.linspace(0.0, 1.0, 21))
-    # CLOSES = 1e-3 rad
     if gap > CLOSES:
         raise record.error(
             f"the phase c q(s) of the curves is {gap:.3g} rad from a straight line from theta_plus to "

@@ -80,7 +80,6 @@ def gait_of_samples(
     gaps = np.abs([fitted.h(x)[0] for x in s.q @ fitted.phase] - s.q[:, : biped.p])
     k, joint = np.unravel_index(int(np.argmax(gaps)), gaps.shape)
     said = f"{gaps[k, joint]:.2g} rad, {biped.description.joints[joint]} at {s.t[k]:.4g} s"
-    # FITS = 5e-3 rad
     if gaps[k, joint] > FITS:
         raise GaitError(
             f"the fit is bad: curves of degree {degree} miss the samples by {said}, expected at most {FITS:g} "
@@ -95,7 +94,6 @@ def gait_of_samples(
     }
     gait = Gait.of_cycle(name, ZeroDynamics.of(biped, fitted), provenance, slope)
     lasted = float(s.t[-1] - s.t[0])
-    # LASTS = 0.05
     if abs(gait.period - lasted) > LASTS * lasted:
         raise GaitError(
             f"the samples last {lasted:.4g} s, and this robot takes {gait.period:.4g} s for the same curves, "
@@ -122,14 +120,12 @@ def poses(
     # the last pose, with the legs exchanged, has to be the first, and its swing foot on the ground
     gaps = np.abs(biped.relabel(q[-1]) - q[0])
     joint, height = int(np.argmax(gaps)), float(ground_axes(slope)[1] @ biped.swing_foot(q[-1]))
-    # FITS = 5e-3 rad
     if gaps[joint] > FITS:
         raise GaitError(
             f"the samples: {joints[joint]} of the last one, relabelled, is {gaps[joint]:.3g} rad from the "
             f"first, expected at most {FITS:g}: the first is not just after an impact or the last not just "
             "before one, or a sign, the order of joints or the convention is another"
         )
-    # NEAR = 5 mm
     if abs(height) > NEAR:
         raise GaitError(
             f"the samples: the swing foot ends {1e3 * height:.3g} mm above the ground, expected at most "

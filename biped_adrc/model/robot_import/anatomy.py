@@ -161,7 +161,6 @@ def _on_point(
     a tip, for an ankle that is one of `actuated`, and for a link that is not called a foot.
     """
     tree, last = body.tree, next(joint for joint, _ in leg if joint.type != "fixed")
-    # _AWAY = 1e-6 m
     if math.dist(position(tree, foot), position(tree, last.child)) >= _AWAY:
         return body
     # len > 1: a single joint between both feet is no ankle
@@ -235,7 +234,6 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
             f"other way round, feet=('{feet[1]}', '{feet[0]}')"
         )
     # swing[-1]: of the joints of the swing leg alone the one nearest to the trunk
-    # _AWAY = 1e-6 m
     here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
     link = meet if here and _keeps_its_origin(tree, meet, feet[0]) else swing[-1].child
     return link, f"hip: the origin of '{link}', where '{swing[-1].name}' joins the legs"

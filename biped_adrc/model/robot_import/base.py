@@ -148,7 +148,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     robot = sum(masses.values())  # what the pitch carries, as the other masses were popped
     # the slide nearer to x first; two slides are parallel where the determinant of their axes (x, z) is 0
     flat = sorted(slides, key=lambda joint: abs(joint.axis[2]))
-    # PLANAR = 1e-4: at most so parallel
+    # PLANAR: at most so parallel
     plane = len(flat) == 2 and abs(np.linalg.det([j.axis[::2] for j in flat])) > PLANAR
     plane = plane and set(slides) <= set(carriers) and len(tops) == 1
     if not plane or sum(heavy.values()) > LIGHT * robot:

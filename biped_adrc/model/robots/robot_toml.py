@@ -327,7 +327,7 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
         along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
         # a revolute joint may turn about -y, a slide must not be turned round
         off = 1.0 - (abs(along) if kind == "revolute" else along)
-        # ALONG = 1e-6, of 1 - cos
+        # ALONG is of 1 - cos
         if joint is None or joint.type != kind or not abs(off) <= ALONG:
             text = f"missing in {list(joints)}"
             if joint is not None:

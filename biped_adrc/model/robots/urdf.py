@@ -363,7 +363,6 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     # row by row the angle of the twin
     PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
     R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
-    # _EXACT = 1e-9
     R = np.where(np.abs(R) < _EXACT, 0.0, R)
     # + 0.0 turns -0.0 into 0.0
     R = np.where(np.abs(R - np.round(R)) < _EXACT, np.round(R), R) + 0.0
@@ -390,7 +389,7 @@ def unlike(tree: Tree, feet: tuple[str, str]) -> dict[tuple[str, str], float]:
         a, b = (_in_plane(tree, link) for link in pair)
         # lengths of the four parts, of the difference and of either twin
         gap, *sizes = (np.sqrt(np.add.reduceat(x * x, starts)) for x in (a - b, a, b))
-        # _LEAST = 1e-6: no division by numbers near zero; _EXACT = 1e-9
+        # _LEAST: no division by numbers near zero
         gaps[pair] = float(np.max(gap / np.maximum(np.maximum(*sizes), _LEAST)))
     return {pair: gap for pair, gap in gaps.items() if gap > _EXACT}
 

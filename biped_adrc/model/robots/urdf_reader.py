@@ -295,14 +295,13 @@ def _yaw(
             # sin(yaw) is 0 for an axis along y; the turn is modulo pi, as y and -y will both do
             x, y, z = _joint(joint, turns, *pair).axis
             yaw = (math.atan2(x, y) + 0.5 * math.pi) % math.pi - 0.5 * math.pi
-            # PLANAR = 1e-4: largest deviation of an axis
+            # PLANAR: largest deviation of an axis
             return yaw if abs(z) < PLANAR and abs(math.sin(yaw)) > PLANAR else 0.0
     return 0.0
 
 
 def _clean(turn: Array) -> Array:
     """The turn (3, 3) with 0 for entries that are round-off of pi, so that right angles are exact."""
-    # _ROUND_OFF = 1e-15
     return np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
 
 
@@ -371,7 +370,6 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
     # the permutation of axes next to the turn; a cylinder must only have its axis along z
     axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
     oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
-    # _UPRIGHT = 1e-6
     if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
         return None
     where, box = f"{where} <{shape.tag}>", shape.tag == "box"

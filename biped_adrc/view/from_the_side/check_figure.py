@@ -32,7 +32,7 @@ def check_figure(biped: Biped) -> Figure:
     """
     d, tree, leg = biped.description, biped.tree, robot_of(biped).leg
     # q (n,) with the swing foot this far ahead, on level ground (slope 0), without limits of angles ({})
-    # _STEP = 0.6 of the leg
+    # _STEP of the leg
     q = apart(biped, _STEP * leg, 0.0, {})
     places = link_placements(tree, joint_values(biped, q))
     stance, swing = legs(biped)

@@ -128,7 +128,6 @@ def _around_and_edges(
         _column(figure, [spec[row, place] for row in rows], draws) for place in places
     )
     _zoom(around, s, push)
-    # EDGE_BEFORE, EDGE_AFTER = 1, 6 ms
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), EDGES, strict=False):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
@@ -147,7 +146,6 @@ def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
     """
     # within the walk
     start, stop = push or (s.t[0], s.t[-1])
-    # BEFORE, AFTER = 0.3, 0.6 s
     _limits(column, max(start - BEFORE, s.t[0]), min(stop + AFTER, s.t[-1]))
 
 
