@@ -1,8 +1,9 @@
 """The rms of a signal; over many walks, by SciPy, shares, medians and paired ratios with intervals of 95 %.
 
-A share has Wilson's interval (J. Am. Stat. Assoc. 22, 1927); a median that of the order statistics, which is
-exact for any distribution and takes infinite numbers; a paired ratio that of its median, and the sign test.
-One walk has a number and no interval, one pair no p-value.
+A share has Wilson's interval (J. Am. Stat. Assoc. 22, 1927). The interval of a median has order statistics as
+its ends: it holds for any distribution, and values may be infinite. A paired ratio has the interval of the
+median of the ratios, and the p-value of the sign test. One walk has a number and no interval, one pair no
+p-value.
 """
 
 from __future__ import annotations

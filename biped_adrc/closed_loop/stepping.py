@@ -202,7 +202,7 @@ class SteppingLoop(ClosedLoop[Any]):
     @cached_property
     def pushed_in_python(self) -> bool:
         """Whether Python computes zeta at each end of a stretch during the run, so that an exception of the
-        disturbance ends the run there; else `zetas` computes all of an arc at its end."""
+        disturbance ends the run there. If not, none acts or it is compiled: `zetas` has it at an arc's end."""
         return self.disturbance is not None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:

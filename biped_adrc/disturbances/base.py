@@ -81,7 +81,8 @@ class Disturbance(Part):
         return ()
 
     def check_size(self, n: int) -> None:
-        """Raise InputError where the torque surely has a number of coordinates other than n; here never."""
+        """Raise InputError where the torque has not n coordinates, in a subclass that knows their number
+        without computing the torque; others are found out in the walk."""
 
     @property
     def terms(self) -> tuple[Disturbance, ...]:

@@ -242,7 +242,7 @@ def checks(r: Runs, of_claims: list[Claim]) -> list[Check]:
     for said in packaged("biped_adrc.paper", "checks.toml")["check"]:
         for case in cases(said, r):
             text = ": ".join(filter(None, (case.name, said.get("statement"))))
-            # limit(text) makes a `Check` of a value
+            # limit(..) reads a text such as "<= 0.01" and returns the function (name, kind, value) -> `Check`
             result.append(limit(said["limit"])(text, said["kind"], case.figure.value))
     return [*result, *claim_checks(of_claims)]
 

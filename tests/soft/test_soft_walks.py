@@ -128,7 +128,8 @@ def test_wrong_values_of_soft_ground_are_refused(values):
 
 
 def test_what_only_the_rigid_plant_has_is_named(biped, gait):
-    """Errors of the impact map (impact_gain), and an integration method, since MuJoCo has its own."""
+    """MuJoCo has impacts and integration of its own: errors of the impact map (impact_gain) are refused when
+    the loop is made, an integration method already before that."""
     law, plant = ba.NPDController(gait.constraint), MuJoCoPlant(biped)
     walker = Walker(biped, law, timing=TICK, impact_gain=(0.01,) * 5)
     with pytest.raises(InputError, match="impact"):

@@ -176,11 +176,12 @@ class WalkerLoops:
         return least
 
     def _first_unstable(self, most: float, upwards: bool) -> float:
-        """The smallest unknown delay [s] with which a mode of one loop grows, at most `most` [s].
+        """The unknown delay [s], at most `most` [s], at which a mode of one loop begins to grow.
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not,
-        which is sooner found if the margin is just below `most`.
+        which is sooner found if the margin is just below `most`; of a loop that is unstable in between and
+        stable again this finds the last change. Without an unknown delay the loop is stable.
         """
         from scipy.optimize import brentq  # here: half a second, which other analyses save
 

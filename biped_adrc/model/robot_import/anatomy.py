@@ -228,6 +228,7 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
     one, other = ([foot, *(j.parent for j in tree.path_to_root(foot))] for foot in feet)
     meet = next(link for link in one if link in other)
     swing = [j for j in tree.path_to_root(feet[1]) if j.child not in one and j.type == "revolute"]
+    # none where one leg alone carries the base, and its foot is named as the swing foot
     if not swing:
         raise ModelError(
             f"'{tree.source}': the swing foot '{feet[1]}' is fixed to the stance leg; give the feet the "
