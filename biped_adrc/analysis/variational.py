@@ -86,7 +86,8 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
     """A = df/dx (2 n, 2 n) of single support at an instant i, x in [rad, rad/s]; du (p, 2 n): du/dx."""
     n, m = walker.plant.n, i.measurement
-    plant = acceleration_derivatives(walker.plant, m.q, m.v, i.a)
+    a = walker.plant.acceleration(m.q, m.v, i.force)
+    plant = acceleration_derivatives(walker.plant, m.q, m.v, a)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv
@@ -129,9 +130,10 @@ class VariationalSystem(HybridSystem):
     @cached_property
     def fast(self) -> Walker:
         """The walker with robot and reference in machine code where that can be."""
-        # ModelError: of a robot that is no planar tree; [0]: without the list of the compiled references
+        # a robot without motors keeps Python's round-off, as stored walks start at its cycle; ModelError: of
+        # one that is no planar tree; [0]: without the list of the compiled references
         with suppress(ModelError):
-            return compiled_plant(self.walker)[0]
+            return compiled_plant(self.walker)[0] if self.walker.plant.p else self.walker
         return self.walker
 
     @cached_property
@@ -143,7 +145,7 @@ class VariationalSystem(HybridSystem):
         """Time derivative (2 n + 4 n^2,) of y: the walker's flow [rad/s, rad/s^2], and A Phi."""
         x, Phi = split_matrix(y)
         i = self.fast.instant(t, x, mode)
-        A = flow_derivative(self.walker, i, self.torque_derivative(i))
+        A = flow_derivative(self.fast, i, self.torque_derivative(i))
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
