@@ -86,7 +86,8 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
     """A = df/dx (2 n, 2 n) of single support at an instant i, x in [rad, rad/s]; du (p, 2 n): du/dx."""
     n, m = walker.plant.n, i.measurement
-    a = walker.plant.acceleration(m.q, m.v, i.force)
+    # equal but for round-off, which stored walks of robots without motors keep
+    a = i.a if walker.plant.p else walker.plant.acceleration(m.q, m.v, i.force)
     plant = acceleration_derivatives(walker.plant, m.q, m.v, a)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
