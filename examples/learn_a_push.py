@@ -1,4 +1,4 @@
-"""A push throws walks under NPD with soft gains: a torque beside it, found by CMA-ES for its reward, recovers.
+"""A push disturbs walks under NPD with soft gains: a torque beside it, found by CMA-ES, earns more reward.
 
 Run: pip install 'biped-adrc[gym,study]', then python examples/learn_a_push.py
 """

@@ -320,7 +320,6 @@ def _raised(t: Array, N: Array, k: int, d: int) -> Array:
 
     t: knots. N (., 4): coefficients of all functions of degree d - 1, one row each.
     """
-    # CUBIC: the degree
     result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]

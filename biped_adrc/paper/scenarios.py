@@ -208,7 +208,6 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
         # in the plan's own preset the heavier plant is in `base_runs`
         for kind, factors in HEAVIER.items() if preset != plan.preset else ():
-            # EIGHT: eight impacts
             runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, run=EIGHT, errors=factors)
     return runs
 

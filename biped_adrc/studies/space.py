@@ -99,7 +99,6 @@ class Levels(Span):
 
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
-        # geomspace: equal ratios
         spaced = np.geomspace if self.scale == "log" else np.linspace
         return spaced(self.low, self.high, self.count).tolist()
 

@@ -1,4 +1,4 @@
-; sources 4e700786d38485ddd01ea95443499c1f, text 76a099898943c9107fd37fec1ad4fdd5
+; sources c009f4908d074a0e4538b6ec5be064d8, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

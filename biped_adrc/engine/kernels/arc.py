@@ -105,7 +105,6 @@ def sample(r: Run) -> int:
 
     Impacts in between are made. Returns the code.
     """
-    # MOST_ARCS in one sample
     for _ in range(MOST_ARCS):
         r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)

@@ -56,7 +56,6 @@ _Record = NDArray[np.void]
 
 def compiler() -> str | None:
     """Path of a C compiler on this machine; None where there is none."""
-    # COMPILERS: cc, gcc, clang
     names = (*filter(None, [os.environ.get("CC")]), *COMPILERS)
     return next(filter(None, map(shutil.which, names)), None)
 

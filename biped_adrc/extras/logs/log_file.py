@@ -231,7 +231,6 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
     """
     # `[:1]` in the loops below: the first wrong number is reported
     t, step, q, u, v = log
-    # MOST_ANGLE: two turns
     for k, i in np.argwhere(np.abs(q) > MOST_ANGLE)[:1]:
         raise InputError(
             f"{names[k]} has q{i + 1} = {q[k, i]:g} rad, expected at most two turns; if the column is in "
@@ -243,7 +242,6 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
             f"{names[k + 1]} has q{i + 1} = {q[k + 1, i]:g} rad, after {q[k, i]:g} rad, expected angles "
             "that go on without a jump; add or take away whole turns"
         )
-    # MOST_TORQUE times the peak torque
     most = MOST_TORQUE * biped.description.peak_torque
     for k, i in np.argwhere(np.abs(u) > most)[:1]:
         raise InputError(
@@ -280,7 +278,6 @@ def _check_rate(turned: Array, integral: Array, i: int) -> None:
         return  # too little motion for a verdict
     square = float(integral @ integral)
     ratio = float(turned @ integral) / square if square > 0.0 else math.inf
-    # RATIOS: from 0.5 to 2
     if not RATIOS[0] <= ratio <= RATIOS[1]:
         raise InputError(
             f"q{i + 1} changes by {ratio:.3g} times what v{i + 1} says, expected 1; look at the units, "

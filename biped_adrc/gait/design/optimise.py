@@ -225,7 +225,6 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # LATE: row on the swing foot where no clearance is asked for
     allowed[LATE] = np.inf
     result = programme.missed(stacked(x))
-    # _EXACT for all other rows
     missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
     return programme.in_words(missed)
 

@@ -154,7 +154,6 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
     shapes, largest = {x.shape for x in (q, v) if x is not None}, np.max(np.abs(q), initial=0.0)
     finite = all(np.all(np.isfinite(x)) for x in (t, q, v) if x is not None)
     rising = t.ndim == 1 and degree in DEGREES and len(t) > degree and np.all(np.diff(t) > 0.0)
-    # _LARGEST: two turns
     if not (shapes == {(t.size, n)} and finite and rising and largest <= _LARGEST):
         raise InputError(
             f"the samples are {t.size} times and rows of shape {sorted(shapes)}, angles up to {largest:.5g}, "

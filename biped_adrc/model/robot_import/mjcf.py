@@ -125,7 +125,6 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             axis = vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
                 raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
-            # FREELY: no range
             ends = _range(m, j) if kind == "revolute" else FREELY
             origin = vector(place - above)
             joints.append(Joint(name, kind, parent, child, origin, axis, range=ends))

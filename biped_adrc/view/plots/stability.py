@@ -52,7 +52,6 @@ def magnitudes(
         zeros = int(np.sum(size == 0.0))  # a logarithmic scale has no place for them
         size = size[size > 0.0]
         name = f"{name}, {zeros} more are 0" if zeros else name
-        # 6: size of the marks
         _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
     if published is not None:
         size = np.sort(np.abs(np.asarray(published)))[::-1]
