@@ -686,6 +686,7 @@ def test_a_motor_that_is_combined_with_another_one_is_refused(urdf):
     turns = 'name="torso" type="revolute"><axis xyz="0 -1 0"/>'
     for old, new in (
         ('name="hip_mount" type="fixed">', turns),
+        # its mass off its axis: without inertia about the new joint D_s would be refused first
         ('"0 0 0"/>\n      <mass value="10"', '"0 0 0.5"/>\n      <mass value="10"'),
     ):
         assert old in text

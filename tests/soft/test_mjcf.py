@@ -23,8 +23,8 @@ def read_back(text):
 
 @pytest.mark.parametrize("robot", [("rabbit", "tac2003"), ("three_link", None)])
 def test_the_file_read_back_is_the_model_that_walks(robot):
-    """All numbers of MuJoCo's model but those of shapes are the same bit for bit. Masses, slope and ground have
-    more than the six digits that MuJoCo would write itself.
+    """All numbers of MuJoCo's model but shapes and lengths are the same bit for bit. Masses, slope and ground
+    have more than the six digits that MuJoCo would write itself.
     """
     errors = ba.ModelErrors(mass={"torso": 1e-9 / 3})
     biped = errors.apply(ba.Biped.load(*robot, friction=True))
@@ -34,7 +34,8 @@ def test_the_file_read_back_is_the_model_that_walks(robot):
         x for x in dir(model) if x.startswith(("body_", "jnt_", "dof_", "actuator_", "pair_"))
     ]
     for name in (*arrays, "qpos0"):
-        if not any(of_shapes in name for of_shapes in ("geom", "bvh", "length")):
+        # lengths: MuJoCo estimates scales of joints (dof_length) and of motors from the shapes
+        if not any(skipped in name for skipped in ("geom", "bvh", "length")):
             expected = getattr(plant.model, name)
             np.testing.assert_array_equal(getattr(model, name), expected, err_msg=name)
     for name in ("timestep", "integrator", "gravity", "impratio", "cone", "disableflags"):

@@ -169,6 +169,6 @@ def _places(sizes: tuple[int, ...], width: int) -> tuple[list[int], Ints]:
     """
     ends = [*accumulate((len(KINDS), *sizes, *[width] * len(ROWS)))]
     places = dict(zip((*TABLES, *ROWS), ends, strict=False))
-    # without inputs from outside these two are never written
+    # `torque` and `force` need a valid address; inputs from outside, if any, set their own (engine.samples)
     places |= {"torque": places["K"], "force": places["push"]}
     return ends, np.array([[PLACES[name] for name in places], [*places.values()]])
