@@ -86,6 +86,11 @@ def once(make: Callable[..., _T]) -> Callable[..., _T]:
 
     @wraps(make)
     def found(x: Any, *more: Hashable) -> _T:
+        # a part with a memory is constant; most calls end here, some forty for each walk of a batch
+        if memory := getattr(x, "_once", None):
+            result = memory.get((make, *more), Memory)
+            if result is not Memory:
+                return result
         if not (is_part(x) and all(constant(part) for part in (x, *more) if is_part(part))):
             return make(x, *more)
         memory = vars(x).setdefault("_once", Memory())

@@ -31,7 +31,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.leaves import floats, rebuilt
-from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.program import push_code
 from biped_adrc.engine.structure import structure
@@ -70,7 +70,7 @@ class Call:
     A caller writes to `inp` and then calls it; a change of the numbers in `K` counts from the next call on.
     """
 
-    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
+    def __init__(self, machine: Code, name: str, K: Array, inputs: int, outputs: int):
         """name: of the function in `machine`; K (size,): its parameters; inputs, outputs: how many numbers."""
         self.K, self.inp, self.out = K, np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = FUNCTION(machine.addresses[name])

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from typing import TYPE_CHECKING
 
-from biped_adrc.engine.machine import LoadedCode, fetch, load_or_compile, store
+from biped_adrc.engine.machine import Code, fetch, store
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.structure import lasting
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 
 _Functions = Mapping[str, Callable[[], "SymbolicFunction"]]
 """Name of a function -> what is called to trace it where its code is neither in memory nor on disk."""
-_IN_MEMORY: dict[Hashable, LoadedCode | str] = {}
+_IN_MEMORY: dict[Hashable, Code | str] = {}
 """Structure and names of functions -> their code; a text where they cannot be compiled, the reason."""
 
 
-def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> LoadedCode:
+def generated(key: Hashable, functions: _Functions, optimised: bool = False) -> Code:
     """The machine code of these functions; they are traced once per structure.
 
     - key: the structure of what they are made from; equal keys have to mean equal code.
     - functions: name -> what traces its expression when it is called.
-    - vectors: whether LLVM joins like operations into vector instructions (`machine.object_code`).
+    - optimised: whether LLVM's passes run (`machine.object_code`).
 
     Raises NotCompiled for functions that cannot be traced; a second call raises it without tracing anew.
     """
@@ -37,7 +37,7 @@ def generated(key: Hashable, functions: _Functions, vectors: bool = False) -> Lo
     code = _IN_MEMORY.get(key)
     if code is None:
         try:
-            code = load_or_compile(_text(key, functions), names, vectors)
+            code = Code(_text(key, functions), tuple(names), optimised)
         except NotCompiled as error:
             code = str(error)
         _IN_MEMORY[key] = code

@@ -14,6 +14,7 @@ import threading
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from llvmlite import binding
@@ -29,30 +30,38 @@ LOCK = threading.RLock()
 
 
 @dataclass(frozen=True)
-class LoadedCode:
-    """Functions in memory, where they stay until the process ends."""
+class Code:
+    """Functions of a module in LLVM's language; machine code is made when the first address is asked for, since
+    a page (`extras.play.webassembly`) needs the text alone."""
 
-    addresses: dict[str, int]
-    """Address of each function, by its name."""
     text: str
     """The module in LLVM's language."""
+    names: tuple[str, ...]
+    """Names of its functions that are called from outside."""
+    optimised: bool = False
+    """Whether LLVM's passes run; see `object_code`."""
+
+    @cached_property
+    def addresses(self) -> dict[str, int]:
+        """Address of each function, by its name; it stays in memory until the process ends."""
+        return load_or_compile(self.text, self.names, self.optimised)
 
 
-def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> LoadedCode:
-    """The functions `names` of a module in LLVM's language: loaded from the disk if its object code is there,
-    else compiled and stored.
+def load_or_compile(text: str, names: Sequence[str], optimised: bool = False) -> dict[str, int]:
+    """Addresses of the functions `names` of a module in LLVM's language: loaded from the disk if its object
+    code is there, else compiled and stored.
 
-    vectors: whether LLVM joins like operations into vector instructions. One thread at a time does it, so no
-    two compile the same module; another process may do so, and then writes the same file.
+    optimised: whether LLVM's passes run. One thread at a time does it, so no two compile the same module;
+    another process may do so, and then writes the same file.
     """
-    key = hash_of(text, str(vectors))
+    key = hash_of(text, str(optimised))
     with LOCK:
         code = fetch(key)
         if code is None:
             host = _target()
-            code = object_code(parsed(text, host), host, vectors)
+            code = object_code(parsed(text, host), host, optimised)
             store(key, code)
-        return loaded(text, code, names)
+        return loaded(code, names)
 
 
 def hash_of(*made_from: str) -> str:
@@ -85,18 +94,19 @@ def parsed(text: str, machine: binding.TargetMachine) -> binding.ModuleRef:
 
 
 def object_code(
-    module: binding.ModuleRef, machine: binding.TargetMachine, vectors: bool = False
+    module: binding.ModuleRef, machine: binding.TargetMachine, optimised: bool = False
 ) -> bytes:
-    """Object code of a module, optimised for this target machine at level 3.
+    """Object code of a module for this target machine.
 
-    There are no fast-math flags, so sums keep their order. vectors: whether LLVM joins like operations into
-    vector instructions (SLP), which makes `matvec` faster and elsewhere only compiling slower.
+    optimised: whether LLVM's passes of level 3 run before, which also join like operations into vector
+    instructions. A traced function is one straight line in which each expression stands once: there they take a
+    third of the time and change nothing. No fast-math flags, so sums keep their order.
     """
     module.verify()
-    tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    tuning.slp_vectorization = vectors
-    builder = binding.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
+    if optimised:
+        tuning = binding.create_pipeline_tuning_options(speed_level=3)
+        builder = binding.create_pass_builder(machine, tuning)
+        builder.getModulePassManager().run(module, builder)
     return bytes(machine.emit_object(module))
 
 
@@ -104,17 +114,15 @@ _ENGINES: list[object] = []
 """LLVM's engines, never freed: runs hold addresses of their functions."""
 
 
-def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
-    """Load object code into memory and find the addresses of the functions `names`; text: what it was made
-    from."""
+def loaded(code: bytes, names: Sequence[str]) -> dict[str, int]:
+    """Load object code into memory and find the addresses of the functions `names`."""
     # the engine wants a module of its own, which is empty; the functions come with the object file
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     # never freed: runs hold addresses of their functions
     _ENGINES.append(engine)
-    addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, text)
+    return {name: int(engine.get_function_address(name)) for name in names}
 
 
 def _path(key: str) -> Path:

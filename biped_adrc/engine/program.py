@@ -36,7 +36,7 @@ from biped_adrc.engine.generated import generated
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
 from biped_adrc.engine.leaves import floats
-from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled, located
 from biped_adrc.engine.numbers import Reading, WalkerNumbers, numbers_of
 from biped_adrc.engine.structure import structure
@@ -107,14 +107,14 @@ class Program:
         return self.layout, structure(self.numbers._replace(curve=None))
 
     @cached_property
-    def machine(self) -> LoadedCode:
+    def machine(self) -> Code:
         """The program's functions `names` in memory, compiled together at the first use.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
         return generated(self.key, {name: partial(self._traced, name) for name in self.names})
 
-    def reading(self, read: Reading) -> LoadedCode:
+    def reading(self, read: Reading) -> Code:
         """Machine code of `read`, with the address "reading"; its inputs are those of `tick`, its output all
         arrays that `read` returns. Raises NotCompiled for a curve without a compiled form.
         """
@@ -134,11 +134,11 @@ class Program:
         split, code = self.numbers.split, self.machine
         if name == "matvec" and split is not None:
             sizes = len(split.A), self.numbers.plant.p
-            code = generated(sizes, {name: partial(_matvec, *sizes)}, vectors=True)
+            code = generated(sizes, {name: partial(_matvec, *sizes)}, optimised=True)
         return code.addresses.get(name, 0)
 
 
-def push_code(term: Disturbance, n: int) -> LoadedCode:
+def push_code(term: Disturbance, n: int) -> Code:
     """Machine code with the function `push` of a disturbance's term: its torque on n coordinates, and its
     force.
 
@@ -206,21 +206,24 @@ class CompiledWalker:
         t_first: float = 0.0,
         reference: Reference | None = None,
         in_python: bool = False,
+        loaded: bool = True,
     ) -> CompiledWalker:
         """Make the tables of a run that begins at t_first [s], for states of this layout
         (`ClosedLoop.layout_of`).
 
         reference: the curve from which readings of the program take errors; None for a program without
         readings. in_python: whether sample instants and impacts are those of `engine.ticks`, in sampled time,
-        so that the controller is not compiled. Compiles functions that are neither in memory nor
-        on disk. Raises NotCompiled where a part or the method cannot be compiled, InputError for an
-        exponential method where the walker has no coordinates for it.
+        so that the controller is not compiled. loaded: whether functions are in memory, so that the walker can
+        run here; else 1 stands for each address. Traces or compiles what is neither in memory nor on disk.
+        Raises NotCompiled where a part or the method cannot be compiled, InputError for an exponential method
+        where the walker has no coordinates for it.
         """
         # all that does not depend on the disturbance, remembered from earlier calls
-        still = _still(walker.undisturbed, method, layout, reference, in_python)
+        still = _still(walker.undisturbed, method, layout, reference, in_python, loaded)
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
-        codes = [push_code(x, n).addresses["push"] for x in push.terms]
+        texts = [push_code(x, n) for x in push.terms]
+        codes = [x.addresses["push"] if loaded else 1 for x in texts]
         # of each term PART numbers, the address of its code and how many numbers it has; `view` keeps the
         # bits of these whole numbers in a table of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
@@ -263,11 +266,12 @@ def _still(
     layout: Layout,
     reference: Reference | None,
     in_python: bool,
+    loaded: bool,
 ) -> _Still:
     """Compute what `CompiledWalker.of` needs of a walker without its disturbance, remembered for the next call.
 
     method: of integration. layout: of a state. reference: from which readings take errors, None for none.
-    in_python: whether sample instants and impacts run in Python.
+    in_python: whether sample instants and impacts run in Python. loaded: whether functions are in memory.
     """
     if not isinstance(method, RK4 | Exponential):
         raise NotCompiled(
@@ -309,5 +313,6 @@ def _still(
     if relaxing is not None:
         # `at` counts from the end of x, so its start is negative; lags: index of the first lagging torque
         fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
-    fields |= {name: program.address(name) for name in FUNCTIONS}
+    has = program.address if loaded else program.machine.names.count
+    fields |= {name: has(name) for name in FUNCTIONS}
     return _Still(program, tables, fields, {})  # {}: no plan has been made yet

@@ -27,7 +27,7 @@ from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.leaves import floats
-from biped_adrc.engine.machine import load_or_compile
+from biped_adrc.engine.machine import Code
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.numbers import numbers_of
 from biped_adrc.engine.program import Program, push_code
@@ -538,7 +538,7 @@ def agree(law, *arguments):
         found = apply(Tracer(), law, *(K.like(argument) for argument in arguments))
         out = column(flatten(found))
         text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, out)})
-        TRACED[key] = load_or_compile(text, ["law"])
+        TRACED[key] = Code(text, ("law",))
     code, one = TRACED[key], flatten(expected)
     other = call(code, "law", numbers, np.zeros(1), len(one))
     assert np.max(np.abs(one - other), initial=0.0) <= 1e-12 * np.max(np.abs(one), initial=1.0)

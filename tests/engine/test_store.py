@@ -33,10 +33,10 @@ def cache(tmp_path_factory):
         yield folder
 
 
-def result(code):
+def result(addresses):
     import ctypes
 
-    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(code.addresses["f"])
+    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(addresses["f"])
     K, out = np.array([41.0]), np.zeros(1)
     function(K.ctypes.data, K.ctypes.data, out.ctypes.data)
     return out[0]

@@ -36,7 +36,7 @@ def damaged(tmp_path, monkeypatch):
 
 def totals_by(text):
     """Results of `totals` on two nodes of one joint, by the code of a text."""
-    at = load_or_compile(text, ["totals"]).addresses["totals"]
+    at = load_or_compile(text, ["totals"])["totals"]
     rows, out = np.arange(24.0).reshape(2, 12), np.zeros(6)
     starts = np.array([0, 1, 2, 4, 5, 6, 7, 8, 10])
     call = CFUNCTYPE(c_int64, c_void_p, c_int64, c_void_p, c_int64, c_int64, c_void_p)(at)

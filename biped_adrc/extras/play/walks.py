@@ -224,7 +224,8 @@ def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> Com
     """
     # [0]: the method; [1] would be a finer step where a push switches. 0.0: the run begins at 0 s
     method = methods_of(s.run, walker)[0]
-    return CompiledWalker.of(walker, method, walker.layout_of(x), 0.0, scene.walked.constraint)
+    layout, curve = walker.layout_of(x), scene.walked.constraint
+    return CompiledWalker.of(walker, method, layout, 0.0, curve, loaded=False)
 
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:

@@ -29,7 +29,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
-from biped_adrc.engine.machine import LoadedCode, fetch, hash_of, object_code, parsed, store
+from biped_adrc.engine.machine import Code, fetch, hash_of, object_code, parsed, store
 from biped_adrc.engine.program import CompiledWalker, push_code
 
 
@@ -74,7 +74,7 @@ class _Laws(NamedTuple):
     numbers: dict[str, int]
     """Name of a function that is called by its number -> the number, from 1."""
 
-    def of(self, code: LoadedCode) -> str:
+    def of(self, code: Code) -> str:
         """Name of the text of these functions; the first call makes a new one."""
         return self.names.setdefault(code.text, f"laws{len(self.names)}")
 
@@ -140,7 +140,8 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
-    machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
+    # opt=0: the browser optimises what it runs, so that walks of level 3 are no quicker there
+    machine = binding.Target.from_triple(TARGET).create_target_machine(opt=0)
     module = parsed(loops(), machine)
     for name, text in laws.items():
         modules = parsed(text, machine)
