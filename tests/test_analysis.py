@@ -2,7 +2,8 @@
 
 The return map P goes from just before one impact to just before the next, in coordinates s of the section where
 the swing foot is on the ground. (q_minus, v_minus) is the state of a gait before its impact; NPD is the paper's
-feedback linearisation with PD, ADRC has an observer besides.
+feedback linearisation with PD, ADRC has an observer besides. `return_map` is P under NPD;
+`refused(error, text, call, ...)`: the call has to raise this error with this text.
 """
 
 import math
@@ -128,7 +129,8 @@ def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, mo
     refused(InputError, no_return, replace, P, walker=notices)
     noisy = replace(w, timing=ba.SampledTime(1e-3), sensors=ba.Sensors(noise=1e-3))
     refused(InputError, no_return, replace, P, walker=noisy)
-    up = math.atan2(*biped.swing_foot(np.append(x[:4], 0.0)))  # where Newton's step has no end
+    # where the foot's height does not change with the torso angle, so that Newton's step is infinite
+    up = math.atan2(*biped.swing_foot(np.append(x[:4], 0.0)))
     refused(SimulationError, "no torso angle puts the swing foot", replace(P, pitch=up).lift, s)
     # the legs exchanged: the swing foot is behind the stance foot
     refused(SimulationError, "not an impact", after_impact, w, 0.0, behind, ba.Mode())
@@ -137,7 +139,8 @@ def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, mo
     orbit = SimpleNamespace(x_minus=x)
     refused(SimulationError, "of the cycle ended before: STALLED", nominal_step, short, orbit)
     refused(SingularError, "1 - dP/ds, by which", newton_step, np.eye(2), np.ones(2))
-    # a map that always lands 2 beside s has no fixed point; a tolerance of 0 is never reached
+    # a map that always lands 2 beside s has no fixed point; a tolerance of 0 is never reached. One iteration
+    # is enough here, and the sentence names the usual 12
     wrong = SimpleNamespace(image=s + 2.0, jacobian=np.zeros((9, 9)))
     monkeypatch.setattr(variational, "differentiate_step", lambda P, s: wrong)
     monkeypatch.setattr(variational, "MOST_ITERATIONS", 1)
@@ -148,7 +151,7 @@ def test_return_maps_that_cannot_be_made_are_refused(return_map, gait, biped, mo
 
 def test_derivatives_that_cannot_be_made_are_refused(return_map, gait, biped):
     """The variational equation needs a smooth flow without states of a controller; the derivative of a tick
-    needs sample instants; a stride's direction needs one number per motor."""
+    needs sample instants; delays of touchdowns need a detector, a stride's direction a number per motor."""
     P, w = return_map, return_map.walker
     x = np.concatenate((gait.q_minus, gait.v_minus))
     smooth, system = "needs continuous time and no disturbance", variational.VariationalSystem
@@ -185,6 +188,7 @@ def test_the_word_on_multipliers_is_that_of_the_method_that_is_trusted():
         "agrees within 1e-06 relative or 1e-07 absolute or what root finder and step leave open, at "
         in (noisy.verdict)
     )
+    # text(2): with the two largest
     assert alone.text(2).startswith("central differences          7.810250e-01 7.810250e-01\nTrust")
 
 

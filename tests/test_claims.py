@@ -6,7 +6,9 @@ is marginal. A claim holds for all members (replicated), for some (depends), or 
 
 `results(**odd)` are made-up results with which all checks hold, but for the entries `odd`; `judge(name, **odd)`
 is the row of one claim on them. `walk(error)` has this tracking error [rad] under the push, and `member(npd,
-adrc)` such a walk under each controller: by default 1e-2 rad under NPD, of which ADRC may have 1 %, and 1e-6.
+adrc)` such a walk under each controller: by default 1e-2 rad under NPD, of which ADRC may have 1 %, and 1e-6;
+`with_member(m)` are six members of which m is the first. `figure(x)` is x at both steps, `cell(npd, adrc)` a
+push with these endings, `outcome(controller, peak)` a run with this largest error.
 """
 
 import itertools
@@ -87,13 +89,14 @@ def test_the_walks_of_a_member_have_the_choices_in_its_name():
     assert run.pushes[0].factors == {"q3": 30.0, "q4": 30.0}
     (done,) = member_runs.member_outcomes((chosen,))
     npd, adrc = (done.walked[c] for c in CONTROLLERS)
+    # the longest walking step [s], infinite where the walk ends early
     assert npd.longest.at_half == pytest.approx(adrc.longest.at_half, rel=0.1) != math.inf
     ratio = adrc.deviation.over(npd.deviation)
     assert ratio.at_half < 1e-4 < 0.05 < adrc.peak.over(npd.peak).at_half
     assert ratio.converged()
     for one in (npd, adrc):  # made at two steps, not twice at one
         assert one.peak.gap() > 0.0
-        assert one.broken == (0.0, 0.0)
+        assert one.broken == (0.0, 0.0)  # no limit is broken at either
 
 
 @pytest.mark.parametrize("zero", [True, False])
@@ -101,6 +104,7 @@ def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero
     """Only the estimate of the disturbance starts at 0 instead of the model's; angles and rates are those
     measured either way."""
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", pushed=False)
+    # 4.0: with 4 times the integration step, as only the start is looked at
     (made,) = member_runs.in_two(run, zero, 4.0)
     q, v, s = made.walker.split_state(made.trajectory.arcs[0].x[0])
     found = made.walker.controller.observer.estimate(s)
@@ -114,6 +118,7 @@ def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push(
     after it, which does."""
     t = np.linspace(0.0, 1.0, 101)
     slope = np.tile([1.0, -1.0], (101, 1))
+    # times, errors, their rates, and Theta' before the impact (-1.0), which is not used here
     usual = member_runs.Track(t, np.column_stack((t, -t)), slope, -1.0)
     pushed = usual.error + np.where((t > 0.5)[:, np.newaxis], [[0.0, 0.25]], [[3.0, 3.0]])
     assert member_runs.Track(t, pushed, slope, -1.0).away_from(usual, 0.505) == pytest.approx(0.25)
@@ -123,6 +128,7 @@ def test_peaks_lie_between_the_nodes():
     """The peak of sin(t) is 1, though no node (stored instant) has more than 0.996; the same for its deviation
     from a walk that has other nodes."""
     t, other = np.linspace(0.0, 3.0, 10), np.linspace(0.0, 3.0, 31)
+    # times, errors, their rates, and Theta' before the impact (-1.0), which is not used here
     one = member_runs.Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0)
     assert np.max(np.abs(one.error)) < 0.996
     assert one.peak == pytest.approx(1.0, abs=1e-3)

@@ -42,6 +42,7 @@ def test_multipliers_of_a_robot_without_motors():
     """The rimless wheel: two independent methods print the same multiplier, to seven digits the cos(pi/4)^2 of
     its closed form."""
     printed = command("poincare", "--robot", "rimless_wheel")
+    # the first 29 letters of a line are the name of the method
     table = {line[:29].strip(): line[29:].split() for line in printed.splitlines()}
     assert table["variational equation"] == table["central differences"]
     assert [float(x) for x in table["variational equation"]] == pytest.approx([0.5], abs=1e-7)
@@ -68,7 +69,9 @@ def test_pushes_from_text():
 
 
 def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
-    """A B-spline takes the place of the polynomial, from option to file; 12 nodes keep the search short."""
+    """A B-spline takes the place of the polynomial, from option to file; 12 nodes keep the search short. The
+    legs have no knees, so no clearance of the swing foot is asked for.
+    """
     out = tmp_path / "local.json"
     command(
         *["gait", "design", "--robot", "three_link", "--speed", "0.7", "--set", "nodes=12"],
@@ -118,6 +121,7 @@ def test_ctrl_c_in_a_walk_leaves_no_file(tmp_path):
     traceback, and neither the result nor a temporary file beside the script."""
     script = tmp_path / "interrupted.py"
     script.write_text(INTERRUPTED)
+    # Pinocchio's engine calls the controller's Python in each step
     words = ["simulate", "--controller", "interrupting", "--engine", "pinocchio", "-o", "run"]
     line = [sys.executable, str(script), *words]
     done = subprocess.run(line, capture_output=True, text=True, timeout=120, cwd=tmp_path)
@@ -191,6 +195,7 @@ def test_a_walk_is_printed_step_by_step(monkeypatch):
     stuck = lambda w, k: tuple(replace(c, old_foot_velocity=0.0) for c in certified(w, k))  # noqa: E731
     monkeypatch.setattr(ba.Walk, "certified", stuck)
     words = "--impacts", 2, "--period", 0.001, "--set", "limits.friction=0.5"
+    # U+2500: the horizontal lines of the table
     text = ended("simulate", "--controller", "NPD", *words)[1].replace("\u2500", "")
     assert " ".join(WALK.split()) in " ".join(text.split())
 
@@ -234,6 +239,7 @@ def test_a_law_that_does_not_hold_ends_check_and_new(biped, monkeypatch, tmp_pat
     derived = SimpleNamespace(biped=biped, notes=(), checks=(law,), broken=(law,))
     monkeypatch.setattr("biped_adrc.cli.robot._derived", lambda *_: derived)
     code, text = ended("robot", "check", "x.urdf", "--plot", tmp_path / "x.svg")
+    # twice: among the checks, and as the error
     assert (code, text.count("energy [J]: 1.0e+00 is not <= 0.1")) == (1, 2)
     with pytest.raises(ModelError, match=r"^URDF 'x.urdf': energy \[J\]: 1.0e\+00 is not <= 0.1$"):
         command("robot", "new", "x.urdf", "-o", tmp_path / "new")

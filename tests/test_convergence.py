@@ -41,9 +41,9 @@ def test_the_peak_of_a_cubic_lies_between_its_nodes(sign):
     assert largest(t, y[:, None], dy[:, None]) == pytest.approx(5.0 + 2.0, abs=1e-12)
 
 
-def test_the_peak_between_nodes_is_of_fourth_order():
-    """The peak of sin(t), which is 1, is taken on ever finer nodes: the error falls by about 16 when their
-    distance is halved, and is far below that of the nodes' own maximum.
+def test_the_peak_between_nodes_is_of_more_than_third_order():
+    """The peak of sin(t), which is 1, on ever finer nodes: halving their distance leaves less than an eighth of
+    the error, unless that was below 1e-6. In the end it is, and the maximum over nodes alone is not.
     """
     gaps = []
     for count in (11, 21, 41):
@@ -139,8 +139,8 @@ def test_a_walk_in_parts_is_the_walk(biped, gait):
 
 
 def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):
-    """The tracking error after an edge of the push is a spike of 1 to 2 ms; steps of 1 ms are wrong by a
-    factor of five. Against five times finer steps."""
+    """The tracking error after an edge of the push is a spike of 1 to 2 ms, too short for steps of 1 ms: by
+    default they are FINE_STEP (0.05 ms). The peak is that with five times finer steps."""
     push = ba.TorquePulse([30.0] * 4 + [0.0], step=1, start=0.1, stop=0.3)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
     walk = ba.walk(walker, gait, 1, engine="compiled")
@@ -228,8 +228,9 @@ def test_the_peak_under_the_push(controller):
     walk = walk_scenario(run.replace(run={"first_step": push.step, "impacts": 1}))
     arc, signals = walk.trajectory.arcs[0], walk.signals
     peak_at = signals.t[np.argmax(np.max(np.abs(signals.error), axis=1))]
+    # AROUND: 2 ms before the push and after the peak
     first = np.searchsorted(arc.t, arc.t[0] + push.onset - AROUND)
     t_end = min(peak_at + AROUND, float(arc.t[-1]))
     mode, constraint = Mode(*arc.mode), walk.gait.constraint
     found = peak_error(walk.walker, constraint, mode, float(arc.t[first]), arc.x[first], t_end)
-    assert found == pytest.approx(walk.outcome.peak_error, rel=WITHIN)
+    assert found == pytest.approx(walk.outcome.peak_error, rel=WITHIN)  # 0.5 %

@@ -267,6 +267,7 @@ def test_names_of_outputs(tmp_path, monkeypatch):
         ("'a' would overwrite", InputError, files.keep_inputs, [Path("a")], [Path("b")]),
         ("its own folder or below; copy it", InputError, files.beside, tmp_path / "a", "../a"),
     ):
+        # "File name too long" is the system's own sentence
         assert part in said(error, call, *arguments).replace("File", "file")
 
 
@@ -294,6 +295,7 @@ def test_a_failed_write_leaves_the_old_file(tmp_path):
         os.umask(umask)
     with pytest.raises(ZeroDivisionError), files.replacing(path):
         raise ZeroDivisionError
+    # a file in the place of a folder
     assert ": File exists; choose another" in said(OutputError, files.write_text, path / "y", "new")
     assert (path.read_text(), os.listdir(path.parent)) == ("old", ["x.txt"])
     assert path.stat().st_mode & 0o777 == 0o640
@@ -325,6 +327,7 @@ def test_a_tree_is_a_vector_and_back():
     assert x.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
     assert (layout.size, layout.starts()) == (5, [0, 2, 3, 3])
     assert [*layout.names()] == ["a.a[0]", "a.a[1]", "a.b", "b.b[0, 0]", "b.b[0, 1]"]
+    # place("a", "b"): of field b of field a
     assert [layout.place(*"ab"), layout.place(*"bb")] == [slice(2, 3), slice(3, 5)]
     many, zeros = layout.tree(np.array([x, -x])), tree.zeros_like(STATE)
     assert (many.a.b.tolist(), many.b.a, many.b.b.shape) == ([3.0, -3.0], None, (2, 1, 2))
@@ -362,7 +365,9 @@ def test_numbers_of_a_part_are_floats_and_structure_is_whole():
     x, part = content(Damper()), Damper()
     assert [type(y) for y in (x["K"], x["table"][0], x["order"])] == [float, float, int]
     assert type(x["seed"]).__name__ == "Setup"
+    # Damper.root: of the class it is the definition itself, with its name
     assert (part.root, part.root.flags.writeable, Damper.root.attrname) == (2.0, False, "root")
+    # an annotation that names nothing there is: no field can be checked
     assert checks.hints_of(type("Unread", (), {"__annotations__": {"x": "Nowhere"}})) == {}
     assert (with_fields(part, K=9).root, with_fields(part, K=9).K) == (2.0, 9)
 

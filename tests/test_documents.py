@@ -240,6 +240,7 @@ def test_results_are_counts_and_numbers_of_the_stored_rows():
     told = Counter((row["row"], row["word or verdict"]) for row in rows)
     claims = [n for (kind, _), n in told.items() if kind == "claim"]
     checks = [n for (kind, _), n in told.items() if kind == "check"]
+    # the first bold words of the page: "N of N checks hold", and the claims by word
     holding, of, all_claims, *words = map(
         int, re.findall(r"\d+", re.search(r"\*\*.+\*\*", page)[0])
     )
@@ -250,6 +251,7 @@ def test_results_are_counts_and_numbers_of_the_stored_rows():
     made = [cells[*name, "impacts"] for name in names]
     claim = next(row["value"] for row in rows if row["row"] == "claim")
     assert re.findall(r"(\d+) of", claim) == made
+    # the first item of a list ends with both errors and the number of steps
     *_, npd, adrc, steps = re.findall(r"[\d.]*\d", re.search(r"^- .+$", page, re.MULTILINE)[0])
     errors = [1e3 * float(cells[*name, "peak error [rad]"]) for name in names]
     assert [float(npd), float(adrc)] == pytest.approx(errors, rel=0.02)

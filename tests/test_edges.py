@@ -54,12 +54,13 @@ def test_a_push_that_is_cut_off_acts_as_one_without_an_end(walked, biped):
     assert cut.remarks == (
         f"the push from 0.1 to 0.7 s in single support 1 was cut by the impact at {end:.4f} s",
     )
+    # a force of 10 N along x, without one along z and without a moment
     on_link = OnLink(biped, "torso", pulse(2, 0.3, 0.9, [10.0, 0.0, 0.0]))
     assert "from 0.3 to 0.9 s in single support 2 was cut by" in walked(on_link).remarks[0]
 
 
 def test_a_push_that_begins_after_the_impact_never_acts(walked):
-    """The walk is bit by bit that without a push, and the remark gives the impact's time; neither has the
+    """The walk ends bit by bit as that without a push, and the remark gives the impact's time; neither has the
     walk a 19th single support."""
     late, none = walked(pulse(1, 0.5, 0.7)), walked()
     assert np.array_equal(late.trajectory.final_state, none.trajectory.final_state)
@@ -187,6 +188,7 @@ def test_a_start_with_the_swing_foot_in_the_ground_is_named(engine, biped, gait)
     depth = max(s * foot[0] - c * foot[1], -s * foot[0] - c * foot[1])
     with pytest.warns(ba.WalkWarning, match=f"swing foot {1e3 * depth:.3g} mm below the ground"):
         ba.walk(walker, gait, 1, start=(q + lean, v), engine=engine)
+    # turned the other way by 1e-4 rad the foot is above the ground
     lifted = ba.walk(walker, gait, 1, start=(q - 0.001 * lean, v), engine=engine)
     assert lifted.remarks == ()
 

@@ -3,7 +3,9 @@
 A single support is feasible if the ground pushes (mean F_N > 0), the friction |F_T| / F_N is at most 0.6, no
 torque is above 150 N m, and the swing foot stays above the ground (no "scuffing"); forces are means over 5 ms.
 These limits are `KNOWN`. `judged(walker, t, F_N, ...)` is the verdict on a single support of 0.4 s with these
-forces, `infeasible()` its broken limits by name. A node is a stored instant.
+forces, `infeasible()` its broken limits by name. A node is a stored instant; `handmade` makes nodes of forces,
+`grid()` are their times, H = 0.1 ms apart. WEIGHT is a force of 300 N. `beginning(walker, torque=0.1)` are
+nodes in which a violation of this kind begins at 0.1 s, `first_in(walker, nodes)` is the first violation.
 """
 
 from dataclasses import replace
@@ -105,6 +107,7 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
         assert list(s.infeasible()) == ["friction"]
         assert s.mean_friction == pytest.approx(0.7)
         assert not replace(s, limits=KNOWN._replace(friction=0.8)).infeasible()
+    # 0.25 H: no node is at a zero of the sine
     chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))
     s = judged(walker, t, np.full(len(t), 100.0), F_T=chatter)
     assert s.mean_friction < 0.1
@@ -323,7 +326,9 @@ def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact(
 
 
 def test_the_plant_is_judged_and_not_the_model(biped, gait):
-    """Half the mass on the ground is half the force, whatever the controller believes."""
+    """A plant with half the torso's mass presses less on the ground, by more than half of the weight that it
+    lacks, though the controller believes in the whole mass.
+    """
     light = ba.ModelErrors(mass={"torso": -0.5}).apply(biped)
     law = ba.NPDController(gait.constraint)
     needed = [
@@ -390,7 +395,10 @@ def first_in(walker, n, finished=True):
 @pytest.mark.parametrize("first", LATER)
 @pytest.mark.parametrize("second", [None, *LATER])
 def test_of_two_violations_the_earlier_one_is_reported(walker, first, second):
-    """`first` begins at 0.1 s and `second`, if any, at 0.2 s: the report has the kind and time of `first`."""
+    """`first` begins at 0.1 s and `second`, if any, at 0.2 s: the report has the kind and time of `first`.
+    Means of forces over 5 ms are beyond their limits some time later, `LATER`.
+    """
+    # if both are one kind, 0.1 s counts, which is written last
     begins = {first: 0.1} if second is None else {second: 0.2, first: 0.1}
     found = first_in(walker, beginning(walker, **begins))
     assert found.t == pytest.approx(0.1 + LATER[first], abs=2e-4)
@@ -451,6 +459,7 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
     """They are compared with Pinocchio's reading of the URDF: rates and angles of its joints come from the pose
     as drawn, in single supports 1 and 2, at random states. A leg taken for the other has the wrong limit.
     """
+    # text: two legs, on whose right joint angles count the other way, or a motor between two legs
     path = tmp_path / "own.urdf"
     path.write_text(text)
     biped = ba.biped_from_urdf(path)
@@ -469,6 +478,7 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
             np.abs(rate) / stated.velocityLimit[places],
             np.maximum(low - angle, angle - high),
         )
+        # momentum, height of the ground, and of the swing foot, which is high enough
         none, mass = np.zeros(p), np.array([0.0, 0.0, 0.0, 0.1])
         row = np.concatenate(([0.0, step, 0.0, 0.0], none, none, q, v[:p], mass))
         (found,) = supports(walker, Nodes(row[np.newaxis], biped.n, p), KNOWN, 0)
@@ -488,7 +498,7 @@ def test_rate_and_range_are_those_of_the_joint_behind_a_coordinate(tmp_path, tex
                 f"{biped.description.actuated[k]} turns at {abs(rate[k]):.4g} rad/s"
                 in texts["rate"]
             )
-    assert len(broken) == 2 * p
+    assert len(broken) == 2 * p  # each joint was out of its range in both supports
 
 
 def test_a_walk_beyond_a_rate_or_a_range_is_not_feasible_and_names_the_joint(slow_knee):
@@ -578,6 +588,7 @@ def test_clearance_is_that_of_the_middle_of_the_step(biped, gait):
             height[at] = lowest
             heights = np.column_stack((s.swing_foot[:, 0], height))
             (found,) = certificates(walk.walker, walk.trajectory, replace(s, swing_foot=heights))
+            # the middle is the part longer than half of the step
             assert found.clearance == (lowest if ends - begins > 0.5 else 0.05)
 
 

@@ -151,7 +151,8 @@ class Forgetful(NPD):
 @pytest.mark.parametrize("where", ["an array", "a dictionary", "an object", "noise"])
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_controller_that_keeps_its_state_in_itself_is_refused(engine, where, biped, gait):
-    """A memory would be lost in machine code, and noise would be one number for ever."""
+    """`where`: in what the controller keeps it. A memory would be lost in machine code, and noise would be one
+    number for ever."""
     controller = Forgetful(gait.constraint, still, where)
     method = "predict" if where == "noise" else "output"
     said = rf"^Forgetful\.{method} \(test_handed_out.py:\d+\) gave another result when asked again"
@@ -222,6 +223,7 @@ def test_what_is_stored_cannot_be_written_to(biped, gait):
     kept = [arc.t, arc.x, arc.dx, arc.event.x_minus, arc.event.x_plus, gait.q_minus, gait.v_minus]
     kept += [c.phase, c.curve.coefficients, c.curve.stacked, gains.K_p]
     kept += [biped.B, biped.phase, biped.R, biped.swap, *biped.friction_coefficients]
+    # "faulty": a detector of touchdowns, for a walk that has `touchdowns`
     told = ba.Scenario(
         "NPD", run={"impacts": 1}, hardware={"period": 1e-3, "touchdown": {"name": "faulty"}}
     )
@@ -375,6 +377,7 @@ def test_a_method_that_gives_something_else_is_refused_by_its_name(
 ):
     """`what`: the part whose `method` gives `bad` instead: nothing, another shape, complex numbers. `mode`:
     the integration method with which the engine calls it; sensors, correct and predict belong to ticks."""
+    # Watching, Calm and Blind: an observer, a push and sensors without a mistake
     npd = NPD(gait.constraint, still)
     if what == "observer":
         parts = {"controller": ba.ADRCController(gait.constraint, spoilt(Watching(), method, bad))}

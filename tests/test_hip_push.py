@@ -156,6 +156,7 @@ def test_the_static_gain_is_what_a_held_correction_does(bare, gait):
     beta = 1e-3
     law = stride()
     gains = StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
+    # a wanted speed of 5 m/s: e > 0 in every step
     held = ba.StridePI(law.inner, 5.0, law.step_length, STANCE_KNEE, gains)
     step = forced_walk(gait, bare, 0.0, 60, held)[-1]
     assert step.beta == -beta

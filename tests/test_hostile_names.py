@@ -1,7 +1,8 @@
 """Names from the files of a robot stay names in C, XML, HTML, MJCF, URDF, TOML and CSV.
 
 A robot may come from a stranger. `HOSTILE` has names that try to end a comment or a string and to plant
-something, which is always called "planted"; `hostile` is RABBIT with such a name for robot, source and joint.
+something, which is always called "planted"; `hostile` is RABBIT with such a name for robot, source and joint,
+`exported` the folder of a controller in C for it, with an FMU. `preprocessed(text)` is C without comments.
 A name that is not escaped shows as something planted.
 """
 

@@ -262,6 +262,7 @@ def test_a_mistake_on_the_command_line_is_one_sentence_with_its_exit_code(here, 
     done = CliRunner().invoke(app, shlex.split(line.replace("URDF", str(URDF))))
     error = done.exception
     sentence = isinstance(error, ba.BipedError)
+    # an unknown option, and a walk that fails, end the command without an error of the package
     assert sentence or code in (2, 4), done.output
     assert (error.exit_code if sentence else done.exit_code) == code
     assert words in (str(error) if sentence else done.output)
@@ -281,7 +282,7 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
         assert TABLES[text] in str(caught.value)
 
 
-def test_a_file_of_a_thousand_brackets_is_refused(tmp_path):
+def test_a_file_of_ten_thousand_brackets_is_refused(tmp_path):
     """10000 nested lists end TOML's reader by Python's limit of recursion, which must not reach the user as a
     traceback."""
     file = tmp_path / "deep.toml"

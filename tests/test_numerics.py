@@ -196,9 +196,11 @@ def test_static_friction_on_little_inertia_gets_a_shorter_step(bare, published, 
     method = default_method(walker)
 
     def ends(h):
+        # 1.02 q is off the gait's curve: rates of joints change their sign more often
         made = ba.walk(walker, published, 1, replace(method, h=h), start=(1.02 * q, v))
         return made.trajectory.final_state[:10]
 
+    # type(method)(): the same method with its usual step
     assert method.h < type(method)().h == default_method(replace(walker, plant=bare)).h
     assert (
         np.max(np.abs(ends(method.h) - ends(2e-5)))
@@ -221,6 +223,7 @@ def test_steps_that_a_switching_torque_makes_tiny_end_a_run(biped, gait, engine,
     monkeypatch.setattr(integrators, "CROWDED", 200)
     q, v = gait.start(biped)
     walker = ba.Walker(biped, Switching(gait.constraint))
+    # from rest, where a rate may change its sign at once
     run = ba.walk(
         walker, gait, 1, Adaptive(1e-10, 1e-12), start=(q, 0.0 * v), engine=engine
     ).trajectory

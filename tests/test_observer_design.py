@@ -4,7 +4,8 @@ An observer of order m has m + 2 poles and estimates the disturbance xi of one j
 Table I is the paper's, with nine poles from 180 to 19836 rad/s. The loop is linear: a = -K_p x1^ - K_d x2^ -
 xi^ is asked for and acts after a delay. The delay is known where the observer is fed with what acts, else
 hidden. Z are the observer's states, scaled by the geometric mean w of its poles. The laws that the robot runs
-are the independent side.
+are the independent side. FIRST is the observer of order 1 at 500 rad/s; K_P = 5000, K_D = 50. `delayed_loop` is
+the matrix of the loop by the robot's laws in continuous time, `tick_by_tick` a period of it in sampled time.
 """
 
 from __future__ import annotations
@@ -274,6 +275,7 @@ def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait):
     """The margin of the linear loop of one joint holds for the whole nonlinear robot: at 95 % of it errors do
     not grow from step to step, at 105 % the walk runs away. An approximant of order 6 instead of 4 changes
     nothing."""
+    # late: a walk with this share of the margin as delay, its status and the largest error of each step
     (below, errors), (_, finer) = (late(biped, gait, FIRST, 0.95, order) for order in (4, 6))
     assert below is ba.Status.COMPLETED
     assert np.max(errors[-2:]) < 3.0 * errors[1]
@@ -319,6 +321,7 @@ def test_ripple_on_the_robot_is_the_one_of_the_linear_loop(biped, gait):
         )
         run = ba.walk(walker, gait, 25, ba.RK4(5e-4), engine="compiled").trajectory
         assert run.status is ba.Status.COMPLETED
+        # x[-4]: the torque of the stance hip, first of the four at the end
         rms.append(np.sqrt(np.mean(np.concatenate([arc.x[:, -4] for arc in run.arcs]) ** 2)))
     report = observer_report(observer, robot=biped, gait=gait)
     assert math.sqrt(rms[1] ** 2 - rms[0] ** 2) == pytest.approx(report.ripple, rel=0.2)
@@ -354,14 +357,14 @@ def test_exact_reset_leaves_only_what_was_not_known(bare, published):
     )
     q, v = published.start(bare)
     assert none.position == pytest.approx(np.max(np.abs(q[:4] - published.q_minus[:4])))
-    jump = v[:4] - published.v_minus[[1, 0, 3, 2]]
+    jump = v[:4] - published.v_minus[[1, 0, 3, 2]]  # with the legs exchanged
     assert relabel.velocity == pytest.approx(np.max(np.abs(jump)), rel=1e-3)
 
 
 @pytest.mark.parametrize(
     ("observer_", "counts", "ratio"),
     [
-        (TABLE_I, 2e7, 1.25),
+        (TABLE_I, 2e7, 1.25),  # quiet with so many counts per turn alone
         (ba.GPIObserver.from_bandwidth(45.0, 5), 8192.0, 0.8),
         (ba.GPIObserver.from_bandwidth(30.0, 7), 8192.0, 0.8),
     ],

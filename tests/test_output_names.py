@@ -56,7 +56,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
     [
         ("gait export keep.json -o keep.json", ["keep.json"]),
         ("gait import keep.json -o link.json", ["link.json", "keep.json"]),
-        ("animate run.html -o run.html", ["run.html"]),
+        ("animate run.html -o run.html", ["run.html"]),  # a stored run, called like a page
         ("gait show keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
         ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exist already"]),
     ],

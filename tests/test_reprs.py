@@ -98,7 +98,7 @@ def test_a_long_text_is_shortened_and_a_short_one_is_whole():
     its default is left out, also where the default is an array."""
     assert short("v0.8") == "'v0.8'"
     assert short((1.0, 2.0)) == "(1.0, 2.0)"
-    assert short("x" * 200) == repr("x" * (SHORT - 5) + "...")
+    assert short("x" * 200) == repr("x" * (SHORT - 5) + "...")  # 5: two quotes and three dots
     assert short(tuple(range(200))) == "(200 items)"
     assert as_line(Own(np.zeros(3))) == "Own(x=[0 0 0])"  # of another length than its default
     assert as_line(Own()) == "Own()"

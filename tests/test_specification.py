@@ -193,8 +193,8 @@ DIFFERENCES = {"hardware.encoders.velocity": "differences"}
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
     """Two walks of the robot that start a little apart are compared with the powers of M, over ten periods. M
-    is frozen at a phase: what it misses is the gait's motion in ten periods, which falls with the period.
-    `missed` is this gap, relative to the deviation.
+    is frozen at a phase: what it misses (`missed`, relative) is the gait's motion in ten periods, which falls
+    with the period T. Delays, lags and filter times in `values` are in periods.
     """
     coarse, fine = (missed(T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
@@ -227,13 +227,13 @@ def test_a_controller_in_plain_python_has_a_specification():
 
 
 def test_the_torque_moves_the_outputs_by_L(biped, gait):
-    """y'' = (S - h' c) q'' is L u with L = (I - H_b - H_N A_N) kappa. For another robot (point.B[3]) the
-    error is a matrix that couples the joints, not one factor for all, which would be a multiple of the
-    unit matrix."""
+    """y'' = (S - h' c) q'' is L u with L = (I - H_b - H_N A_N) kappa. B[0] is of the plant, B[3] of a robot
+    with a heavier trunk and lighter legs: its error is a matrix that couples the joints, not one factor for
+    all, which would be a multiple of the unit matrix."""
     frozen = FrozenGait.of(biped, gait)
     n, p, h = biped.n, biped.p, gait.constraint
     heavy = ba.ModelErrors(mass={"torso": 0.2}, inertia={"torso": 0.2}).apply(biped)
-    assert heavy.p == p
+    assert heavy.p == p  # other masses leave the number of motors
     for point in frozen.points:
         H = np.outer(h.h(float(h.phase @ point.q))[1], h.phase)
         r = biped.reduction(point.q, point.v)

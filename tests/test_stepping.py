@@ -5,7 +5,8 @@
 Its `advance` moves it to the next sample instant or contact and tells so by a `Moved`. `loop()` is the ball
 with e = 0.5 under `Told`, a PD to q = 0.3 with a tick of 5 ms and a model of half the mass too much;
 `run(loop())` lets it fall from 0.4 m for 0.5 s. A contact ends a "single support" of it, as a touchdown does.
-In x: q, q', the controller's (ticks, jumps, time of the last tick), bounces, torque.
+In x: q, q', the controller's (ticks, jumps, time of the last tick), bounces, torque. `telling(change)` is a
+ball whose `Moved` is changed by a function, `at_contact(field=...)` one that changes it at contacts alone.
 """
 
 import re
@@ -300,7 +301,7 @@ def test_what_a_plant_tells_is_checked(name):
     a contact, which comes later, the run ends as RAISED."""
     change, said = LIES[name]
     expected = rf"(?s)Liar\.advance.*{said}"
-    if "contact" not in name:
+    if "contact" not in name:  # wrong from the start on
         with pytest.raises(InputError, match=expected):
             run(loop(plant=telling(change)))
         return
@@ -332,8 +333,8 @@ def test_values_that_are_not_finite_end_the_run_and_are_not_kept(change, last):
 
 
 def test_contacts_at_one_moment_are_one_event():
-    """Wall, floor and wall again are touched at once: one event with both names, one jump of the controller,
-    and the walk of a single contact.
+    """Wall, floor and wall again are touched at once: one event with both names, and the run ends as with a
+    single contact, where the controller's jumps are a number of the state.
     """
 
     def both(moved):

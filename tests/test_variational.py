@@ -137,6 +137,7 @@ def test_derivative_of_the_flow(biped):
     """
     saturated = 0
     for name, walker in loops(biped).items():
+        # random states may ask for torques at which a walk would end
         walker = replace(walker, runaway_torque=math.inf)
         for q, v, _ in states(biped, 3, size=0.1):
             x = np.concatenate((q, v))
@@ -244,9 +245,10 @@ NOISE = {"noise": np.array([1e-9, 1e-9, 1e-9, 2e-6])}
     ],
 )
 def test_methods_agree_within_tolerance_or_noise_in_any_order(agree, other, more):
-    """`other`: multipliers by differences, `EQUATION` [0.7, a pair, 1e-3] those of the variational equation.
-    They agree within 1e-6 relative or 1e-7 absolute, or their own noise, in any order; one in doubt is not
-    compared."""
+    """`other`: multipliers by differences, `EQUATION` [0.7, a pair, 1e-3] those of the variational equation, of
+    which LARGEST and LEAST move the first and the last.
+    They agree within 1e-6 relative or 1e-7 absolute, or their own noise (`NOISE`: 2e-6 of the least, 1e-9 of
+    the others), in any order; one in doubt is not compared."""
     table = StabilityTable(other, EQUATION, **more)
     assert table.agree == agree
     assert ("agrees within" in table.verdict) == (agree and not table.doubt)
@@ -261,6 +263,7 @@ def test_an_equation_that_misses_the_flow_hands_the_trust_over(published, residu
     table = stability_table(P, replace(step, flow_residual=residual))
     assert table.trusted is table.central
     assert table.verdict.startswith("Variational equation: not to be trusted, its Phi")
+    # 1.7 times the largest, 0.69, is above 1
     assert not replace(table, central=1.7 * table.central).stable
 
 
@@ -278,7 +281,7 @@ def test_recipe_gait_without_invariance(biped):
     w = vectors[:, first].real
     close(directional(P, step.s, w, 1e-5), values[first].real * w, 1e-5)
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    assert abs(delta2 - values[first].real) > 10.0 * RELATIVE
+    assert abs(delta2 - values[first].real) > 10.0 * RELATIVE  # the tolerance of the table, 1e-6
 
 
 # -- the noise of differences ----------------------------------------------------------------------

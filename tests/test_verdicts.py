@@ -3,7 +3,8 @@ reaches summary and exit code; and a plan has the runs that it says.
 
 `results(**odd)` are made-up results with which every check holds, but for the entries `odd`; `broken(**odd)`
 are the names of the checks that then do not hold. `outcome(controller, peak)` is a walk of nine impacts with
-this largest error [rad]: 1e-2 under NPD, of which ADRC may have 1 %.
+this largest error [rad]: 1e-2 under NPD, of which ADRC may have 1 %; `head` is one of the headline. `away(off)`
+are states before nine impacts, `off` [rad] beside x*; `cycle(...)` has these multipliers, 0.694 being right.
 """
 
 import json
@@ -62,7 +63,7 @@ def test_a_ratio_just_over_the_limit(ratio, count):
 
 
 @pytest.mark.parametrize("controller", ["NPD", "ADRC"])
-def test_a_fall_breaks_a_check_of_the_nominal_walk_alone(controller):
+def test_a_fall_breaks_checks_and_the_nominal_walks_distance_too(controller):
     """The walk ends after 8 of 9 impacts: an early end breaks the share of impacts made; of the nominal walk
     besides its distance to x*, which an unfinished walk does not have, though its last state here is x* itself.
     """
@@ -114,7 +115,8 @@ def test_a_step_that_is_no_step_of_the_gait(odd):
     ],
 )
 def test_what_is_off_breaks_its_check(odd, count):
-    """Each row has a number a little beyond the limit of `count` checks, or within it, where count is 0."""
+    """Each row has a number a little beyond the limit of `count` checks, or none at all; where count is 0 it is
+    within the limit."""
     assert len(broken(**odd)) == count
 
 
@@ -164,6 +166,7 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
     assert said["word"] == word
     report = (tmp_path / "report.html").read_text()
     assert summary["tally"] in report
+    # the preface of the claims comes before them
     assert report.index("no reproduction of their numbers") < report.index("independently")
     assert ("does not hold" in done.output) is not holds
     assert summary["tally"] in done.output
@@ -198,7 +201,7 @@ def test_a_quick_plan_leaves_out_what_it_says() -> None:
     assert not [name for name in quick if "tac2003" in name or "bare" in name]
     assert {"headline/NPD", "headline/ADRC", "multipliers/NPD"} <= set(quick)
     assert len(Plan(quick=True).left_out) == 5
-    assert len(Plan().left_out) == 1
+    assert len(Plan().left_out) == 1  # most of the map of pushes
     full = [task for name, task in tasks(Plan(full=True)).items() if name.startswith("map/")]
     assert sum(len(task.arguments[0]) for task in full) == 2400
 

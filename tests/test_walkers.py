@@ -58,6 +58,7 @@ def test_a_wheel_on_too_gentle_a_slope_does_not_come_round() -> None:
     square = 4.0 * math.sin(alpha) * math.sin(slope) / math.tan(2.0 * alpha) ** 2  # (l / g) rate^2
     assert square < 2.0 * (1.0 - math.cos(alpha - slope))
     wheel = ba.Biped.load("rimless_wheel")
+    # 10 s: a step that is only slow is not stopped
     walker = ba.Walker(wheel, ba.Passive(), slope=slope, max_step_time=10.0)
     before = np.array([math.pi - slope - alpha, -math.sqrt(9.81 * square) / math.cos(2 * alpha)])
     with pytest.raises(SimulationError, match="no return to the section: FELL"):

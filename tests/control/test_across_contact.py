@@ -87,6 +87,7 @@ def test_held_the_observer_begins_anew_at_each_tick_of_the_window(h, seen):
             s = off(inner, m)
             expected = inner.initial_state(m) if held else inner.correct(s, m)
             assert np.array_equal(law.correct(s, m), expected)
+            # m.v_b stands in for a torque: any four numbers
             assert np.array_equal(law.predict(s, m, m.v_b), inner.predict(s, m, m.v_b))
             assert np.array_equal(law.jump(s, m, SWAP), inner.jump(s, m, SWAP))
 
@@ -152,10 +153,11 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
     an impulse F on the swing foot changes, dt one period.
 
     N F dt moves the angles; for the observer of the momentum the rates jump instead. Compared with the change
-    without the policy. With rates=False the torque is that of the controller inside.
+    without the policy. Away from a touchdown the torque is that of the controller inside.
     """
     F = np.array([1.0, -2.0])
     for controller in inside(h):
+        # rates=False: the innovation alone is projected, not the rate error
         law = ImpactInvariant(controller, 0.015, rates=False, innovation=True).sampled(PERIOD)
         m = at_the_end(seen, gait, 0.4)
         s = off(law, m)
@@ -166,9 +168,10 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
             after = m._replace(q=m.q + moved)
         one, other, bare = law.correct(s, m), law.correct(s, after), law.inner.correct(s, after)
         change = np.max(np.abs(bare - law.inner.correct(s, m)))
-        # q_d moves with q, curved
+        # the output form measures q_b - q_d(Theta), which is not linear in q: a little is left
         limit = 2e-2 if type(controller) is OutputADRCController else 1e-9
         assert np.max(np.abs(other - one)) < limit * change
+        # a posture from the start of a step, 0.4 s after the last touchdown: outside the window
         away = m._replace(t_step=0.4, q=seen(0.4).q)
         assert np.array_equal(law.output(s, away), law.inner.output(s, away))
 
@@ -180,6 +183,7 @@ def test_the_innovation_that_no_impulse_makes_is_taken_whole(gait, h, seen):
     law = ImpactInvariant(ba.ADRCController(h, FAST), rates=False, innovation=True).sampled(PERIOD)
     m = at_the_end(seen, gait, 0.4)
     s, a = law.initial_state(m), struck(m, np.eye(2), landed=False) - m.v[:, np.newaxis]
+    # of the four joints with motors, at right angles to both columns; the torso's angle stays
     across = np.append(np.linalg.svd(a[:4])[0][:, -1], 0.0)
     x = m._replace(q=m.q + 1e-4 * across)
     whole = law.inner.correct(s, x)
@@ -194,6 +198,7 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
     """
     law = ImpactInvariant(ba.NPDController(h), 0.02)
     s, m = np.zeros(0), seen(0.3)
+    # v: the random rates, with the sign with which the phase runs to its end
     c, v = h.phase, m.v * np.sign(h.theta_minus - h.theta_plus) * np.sign(h.phase @ m.v)
     # seconds: to the next touchdown by the phase, to which q is moved; blind: whether the policy acts
     for seconds, t_step, blind in (
@@ -245,16 +250,20 @@ def test_wrong_inner_controllers_and_values_are_refused(biped, gait, h):
     for make in (
         lambda: ImpactInvariant(ba.Passive()),
         lambda: ImpactInvariant(ba.NPDController(h), innovation=True),
+        # a PD law that does not read what an impulse changes
         lambda: ImpactInvariant(PDGravityController(h)),
         lambda: Hold(ba.NPDController(h), -0.01),
         lambda: Hold(h),
+        # no period, so continuous time
         lambda: ba.walk_scenario(ba.Scenario({"name": "LESO", "contact": {"name": "hold"}})),
+        # a wrong name of the policy
         lambda: build(
             ba.Scenario({"name": "LESO", "contact": {"name": "hodl"}}, hardware={"period": PERIOD})
         ),
     ):
         with pytest.raises(InputError):
             make()
+    # a policy, and a controller that is in its discrete form already: both in continuous time
     for law in (Hold(ba.ADRCController(h)), ba.ADRCController(h).sampled(PERIOD)):
         for engine in ("pinocchio", "compiled"):
             with pytest.raises(InputError, match="sampled time only"):

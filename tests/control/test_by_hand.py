@@ -54,6 +54,7 @@ def test_wrong_rows_are_refused_with_the_reason(biped, rows, said):
 
 
 def test_a_push_by_hand_takes_no_torque():
+    """Its rows have their own `torques`; `torque` is the amplitude of other shapes of pushes."""
     push = {"shape": "hand", "step": 1, "times": [0.1], "torque": 30.0}
     with pytest.raises(InputError, match="takes no torque"):
         ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", pushes=[push]))

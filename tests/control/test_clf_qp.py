@@ -132,6 +132,7 @@ def test_limits_hold_where_they_can_and_the_solution_is_optimal(
         active = program.h - program.G @ z < 1e-5 * (scale * np.linalg.norm(z) + 1.0)
         multipliers, gap = nnls(program.G[active].T, -z) if active.any() else ([], 0.0)
         assert gap <= 1e-4 * np.linalg.norm(z)
+        # row 0 is the decrease of V and no limit
         limited = active[1:].any() and np.any(np.asarray(multipliers) > 0.0)
         seen["limited" if limited else "free"] += 1
     assert {name for name, count in seen.items() if count > 5} == expected, seen

@@ -202,8 +202,8 @@ def made(kind, name):
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_part_of_the_registry_conforms(kind, name):
-    """`conforms` asserts the promises; of a controller it returns whether it compiled, and only those of
-    IN_PYTHON, which call a solver of their own, do not.
+    """`conforms` asserts the promises; of a controller it returns whether it compiled, of other things None.
+    Only the controllers of IN_PYTHON, which call a solver of their own, do not compile.
     """
     for thing in made(kind, name):
         compiled = conforms(thing)
@@ -239,6 +239,7 @@ def test_parts_compare_by_class_and_values():
 
     push = ba.TorquePulse([30, 30, 30, 30, 0], step=2, start=0.1, stop=0.3)
     w = np.array([1.0, np.nan, 0.0])
+    # the third has -0.0 in place of 0.0
     same = [Own(w, push), Own(w.copy(), replace(push)), Own(-(-w + 0.0) * 1.0, push)]
     unlike = [
         Own(w.astype(np.float32), push),
@@ -250,7 +251,7 @@ def test_parts_compare_by_class_and_values():
     ]
     assert len(set(same)) == 1
     assert len({*same, *unlike}) == 1 + len(unlike)
-    assert Own(w) != w
+    assert Own(w) != w  # a part does not equal the array in it
 
     def walker():
         biped = ba.Biped.load("rabbit")
@@ -267,6 +268,7 @@ def test_a_controller_refuses_what_is_no_reference(name):
     """A `__post_init__` of its own has to call that of the base, which looks at all fields."""
     for thing in made("controller", name):
         if is_dataclass(thing) and "reference" in {x.name for x in fields(thing)}:
+            # a gait, which only contains a reference; a class in place of an object; gains
             for wrong in (gait(), ba.VirtualConstraint, ba.TABLE_II):
                 with pytest.raises(InputError, match="expected a Reference"):
                     replace(thing, reference=wrong)
@@ -315,17 +317,19 @@ def test_every_leaf_has_a_row_and_a_name():
     """The rows have all names of the registry, and make every concrete subclass of the classes in BASES that
     the package's folders define; so no leaf is left untested.
     """
+    # robots and gaits are files, which `names` finds without a line in the list of names
     assert "compass" in names("robot")
     assert "published-identified" in names("gait")
     for kind, rows in ROWS.items():
         assert set(rows) == set(names(kind))
-        assert all(find(kind, name).words for name in rows)
+        assert all(find(kind, name).words for name in rows)  # each name has a description
     things = [thing for each in EACH for thing in made(*each)]
     things += [thing for row in UNNAMED.values() for thing in row(gait().constraint)]
     # each field of Motors differs from its default in some row
     acted = [name for x in things if isinstance(x, Motors) for name in acting(x)]
     assert set(acted) == {x.name for x in fields(Motors)}
     listed = {type(thing) for thing in things}
+    # the discrete forms of observers and sensors are classes of their own
     listed |= {type(x.sampled(PERIOD)) for x in things if isinstance(x, ba.Observer)}
     listed |= {type(x.sampled(5, 4, PERIOD)) for x in things if isinstance(x, Sensor)}
     for base, (room, parts) in BASES.items():
@@ -333,7 +337,8 @@ def test_every_leaf_has_a_row_and_a_name():
         for module in pkgutil.iter_modules(package.__path__):
             importlib.import_module(f"biped_adrc.{room}.{module.name}")
         own = [cls for cls in below(base) if cls.__module__.startswith("biped_adrc.")]
-        own = [cls for cls in own if ".export." not in cls.__module__]  # what stands for another
+        # classes of an export stand for other leaves
+        own = [cls for cls in own if ".export." not in cls.__module__]
         # only classes that are in their module by name, not those that a function makes
         own = [cls for cls in own if getattr(sys.modules[cls.__module__], cls.__name__, 0) is cls]
         leaves = {cls for cls in own if cls.__name__ not in parts}

@@ -57,7 +57,9 @@ def placement(biped, q, link):
 
 # -- windows ---------------------------------------------------------------------------------------
 def test_a_pulse_acts_from_its_start_to_just_before_its_stop_in_its_single_support_alone():
-    """Times count from the touchdown that begins the step; a step function goes on in all later steps."""
+    """Times count from the touchdown that begins the step; a step function goes on in all later steps. A sum of
+    two disturbances has the sum of their torques.
+    """
     pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
     q = np.zeros(5)
     assert not np.any(pulse.zeta(1.05, 2, 1.0, q, q))
@@ -125,9 +127,9 @@ def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
 
 
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
-def test_pure_moments_leave_the_ground_alone_and_forces_do_not(robot):
-    """F_ground + F = m (p_com'' - g), by differences of Pinocchio's COM along the motion that the push makes,
-    for a force with a moment and for the moment alone.
+def test_a_force_is_in_the_balance_with_the_ground_and_a_moment_is_not(robot):
+    """F_ground + F = m (p_com'' - g), by differences of Pinocchio's COM along the motion that the push makes: a
+    force on a link is in this balance, and a moment is not (F = 0).
     """
     biped = ba.Biped.load(robot)
     random, d, n = np.random.default_rng(6), 1e-4, biped.n
@@ -266,9 +268,9 @@ def test_the_foot_strikes_at_the_height_of_the_ground_below_it(bare, published, 
     feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
     expected = [-sum(g.drop for g in ground if g.step == step) for step in range(1, 6)]
     np.testing.assert_allclose([z for _, z in feet], expected, atol=1e-11)
-    assert min(x for x, _ in feet) > 0.2
+    assert min(x for x, _ in feet) > 0.2  # each step goes ahead
     heights = walk.signals.foothold_height
-    assert np.max(np.abs(heights)) > 3e-3
+    assert np.max(np.abs(heights)) > 3e-3  # the ground was not level
     for arc, event in zip(walk.trajectory.arcs, walk.trajectory.events("foot_strike"), strict=True):
         swing = np.array([bare.swing_foot(x[:5])[1] for x in arc.x])
         below = arc.t[swing < -walker.drop(arc.mode.step) - 1e-9]
@@ -307,9 +309,10 @@ def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
     # in single support 4, from 0.1 to 0.9 s, of 2 Hz
     made = ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0), single_push(Scenario(pushes=[push]))
     for one, (step, begin) in zip(made, ((4, 0.0), (1, 0.0)), strict=True):
+        # share: of the amplitude; 1e-12 s before 0.35 s the sine is 0 to 1e-9 as well
         for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
             zeta = one.zeta(begin + s, step, begin, rest, rest)
-            if s <= one.stop:
+            if s <= one.stop:  # the scenario's push ends at 0.3 s, after the usual 0.2 s
                 np.testing.assert_allclose(zeta, share * amplitude, atol=1e-9)
 
 

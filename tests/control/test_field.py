@@ -199,6 +199,7 @@ def test_a_tick_of_the_filtered_pid_is_its_flow_under_a_held_error(biped, gait):
     """Two ticks of T / 2 are one of T, and a short one is T times the slope: both hold for the exact solution
     alone.
     """
+    # a filter that oscillates; by default it has a double pole
     law = NPIDController(gait.constraint, damping=0.3)
     m = Walker(biped, law).measure(0.0, *off_orbit(gait, biped), Mode())
     s, u, T = FilterState(*np.linspace(-1.0, 1.0, 12).reshape(3, 4)), np.zeros(4), 2e-3
@@ -313,7 +314,7 @@ def settled(**more):
 @pytest.mark.parametrize("order", [0, 1])
 def test_on_the_exact_model_adrc_walks_as_npd(order):
     """ADRC "assisted" adds the model's xi to the estimate: in continuous time nothing is left for the observer,
-    so (q, q') at the end is that of NPD to integration accuracy.
+    so (q, q') at the end is that of NPD to integration accuracy. order: m, of the observer.
     """
     law = {"name": "ADRC assisted", "observer": {"order": order, "bandwidth": 200.0}}
     npd, told = (

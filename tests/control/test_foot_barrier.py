@@ -195,8 +195,8 @@ def test_with_the_observer_s_estimate_the_barrier_knows_how_the_foot_moves(biped
 
 
 def test_instants_are_counted_at_which_the_limit_of_the_torque_breaks_the_bounds(biped, gait):
-    """20 N m are too few for the corridor, 10 kN m never are. 0.65 s have 651 ticks, both ends counted. A
-    controller without a barrier has no count.
+    """20 N m are too few for the corridor at many of the ticks, 10 kN m at none. 0.65 s have 651 ticks, both
+    ends counted. A controller without a barrier has no count.
     """
     inner = FootBarrier(ba.NPDController(gait.constraint), biped, (0.5,), step=0.4)
     counts = []

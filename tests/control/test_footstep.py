@@ -76,6 +76,7 @@ def test_a_family_comes_back_from_its_file(biped, tmp_path):
     family = load_family("flat", biped)
     family.save(tmp_path / "mine.json")
     again = load_family(tmp_path / "mine.json", biped)
+    # its arrays are read-only, also when read from a file
     assert (again, again.low.flags.writeable) == (family, False)
     mu = np.array((0.7, 0.35))
     assert np.array_equal(again.curve(mu)[0], family.curve(mu)[0])
@@ -83,8 +84,8 @@ def test_a_family_comes_back_from_its_file(biped, tmp_path):
 
 
 def test_a_family_that_does_not_fit_is_refused_with_what_there_is(biped, tmp_path):
-    """An unknown name, another robot, a speed out of range, too few gaits for the fit, another format of file:
-    each message says what there is instead.
+    """An unknown name, a missing file, another preset of the robot, a speed out of range, too few gaits for the
+    fit, another format of file: each message says what is wrong or what there is instead.
     """
     path = tmp_path / "mine.json"
     load_family("flat", biped).save(path)
@@ -114,8 +115,10 @@ def test_a_family_goes_through_the_gaits_of_its_library(biped, monkeypatch):
     speeds, lengths = (np.linspace(*ends, 5) for ends in zip(flat.low, flat.high, strict=True))
 
     def optimise(biped, request):
+        # "x" below stands for what a gait says of its origin
         if (request.speed, request.step) == (speeds[1], lengths[2]):
             raise GaitError("none here")
+        # at 8 phases of the step: few, to take less time
         zero = ba.ZeroDynamics.of(biped, flat.member(request.speed, request.step), 8)
         return SimpleNamespace(gait=ba.Gait.of_cycle("a", zero, dict.fromkeys(OF_LIBRARY, "x")))
 
@@ -161,6 +164,7 @@ def test_the_map_says_what_the_simulated_robot_does_under_a_force(biped, slow):
     walk = ba.walk(walker(biped, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
     law, y = walk.walker.law, decisions(biped, walk)
     w = [walk.walker.split_state(arc.x[-1])[2].own for arc in walk.trajectory.arcs[:4]]
+    # the steps 2 and 3, each of which has a whole step before it and one after it
     for k in (1, 2):
         begin, end = np.array((w[k].begin, w[k].before)), np.array((w[k].end, w[k].L))
         predicted = law.family.steps.next_square(y[k], begin, end, w[k + 1].L, w[k].r)
@@ -210,7 +214,7 @@ def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
 
 
 def test_steps_on_ground_of_random_height(biped, slow):
-    """Each of 25 steps ends up to 20 mm higher or lower."""
+    """Each of 25 steps, the usual number of a walk, ends up to 20 mm higher or lower."""
     s = ba.Scenario({"name": "footstep", "speed": 0.65, "step": 0.38, "inner": "NPD"}, gait="v0.6")
     s = s.replace({"hardware.period": "1 ms", "ground.step_height": "20 mm", "run.seed": 5})
     walk = ba.walk_scenario(s)
@@ -235,7 +239,9 @@ def test_steps_onto_stones_at_random_distances(inner):
 
 @pytest.mark.filterwarnings("ignore::biped_adrc.WalkWarning")
 def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
-    """NPD steps 438.8 mm whatever the stones are: the first, at 500 mm, reaches 25 mm to each side."""
+    """NPD steps 438.8 mm whatever the stones are: the first, at 500 mm, reaches 25 mm to each side, so the foot
+    is 61.2 - 25 = 36.2 mm off its edge. The second, at 440 mm, is hit.
+    """
     course = Stones((0.5, 0.44))
     npd = ba.Walker(biped, ba.NPDController(slow.constraint), stones=course)
     walk = ba.walk(npd, slow, impacts=3)

@@ -68,8 +68,8 @@ TRACKING = {
 
 @pytest.mark.parametrize("name", list(TRACKING))
 def test_observers_and_references_of_ones_own_compile(biped, gait, name):
-    """Under each controller of the package the user's observer and reference (`Luenberger`, `LeaningReference`)
-    run as machine code, not in Python, and walk as in Python.
+    """A user's reference (`LeaningReference`) and observer (`Luenberger`) inside the controller `name` run as
+    machine code, not in Python, and walk as in Python. DOB takes the reference alone.
     """
     controller = TRACKING[name](LeaningReference(gait.constraint), Luenberger(300.0))
     fast, slow = (walked(biped, gait, controller, engine) for engine in ("compiled", "pinocchio"))

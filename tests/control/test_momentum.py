@@ -46,7 +46,7 @@ def test_the_error_has_the_transfer_function_of_the_module(poles):
     A = observer.flow(unit, zero[0], zero[0])
     by_y = observer.flow(zero[:, :1], np.ones(1), np.zeros(1))[:, 0]
     s = 1j * w
-    Z = np.linalg.solve(s * unit - A, by_y / s)  # pi = zeta / s, with beta = 0
+    Z = np.linalg.solve(s * unit - A, by_y / s)  # the momentum is zeta / s, with beta = 0
     error = 1.0 - Z[1] * observer.scale
     chi = np.prod([s - pole for pole in poles])
     assert error == pytest.approx(s ** (order - 1) * (s + l_1) / chi, rel=1e-9)
@@ -100,8 +100,8 @@ def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
     for policy in ba.ResetPolicy:
         new = replace(law, reset=policy).jump(s, after, swap)
         x = law.observer.estimate(new)
-        kept = policy is ba.ResetPolicy.NONE
-        assert x.disturbance == pytest.approx(r if kept else r[[1, 0, 3, 2, 4]])
+        unchanged = policy is ba.ResetPolicy.NONE
+        assert x.disturbance == pytest.approx(r if unchanged else r[[1, 0, 3, 2, 4]])
         told = policy in (ba.ResetPolicy.MEASURED, ba.ResetPolicy.MODEL)
         assert x.position == pytest.approx(biped.inertia(q) @ v if told else np.ones(5))
         assert np.all(new[10:] == (0.0 if policy is ba.ResetPolicy.MODEL else 9.0))

@@ -112,7 +112,7 @@ def test_reset_policies():
     assert found.velocity == pytest.approx(dy)
     model = observer.estimate(reset("model"))
     assert model.disturbance == pytest.approx(xi)
-    assert not np.any(reset("model")[3])
+    assert not np.any(reset("model")[3])  # xi', which the model does not give
 
 
 @pytest.mark.parametrize("missing", ["correct", "predict"])

@@ -53,7 +53,9 @@ def stride(law, gait, biped, **options):
 
 
 def test_a_constraint_that_the_impact_leaves_is_tracked_all_the_same(bare, recipe):
-    """Without the reset the impact leaves an error of 4e-2 rad; with it, that of the method."""
+    """Without the reset the impact leaves an error of 4e-2 rad; with it, that of the method. The peak of the
+    torque is below 0.6 of that without.
+    """
     inner, method = ba.NPDController(recipe.constraint), ba.RK4(1e-3)
     plain = ba.walk(ba.Walker(bare, inner), recipe, 1, method)
     reset = ba.walk(ba.Walker(bare, ReferenceReset(inner)), recipe, 1, method)
@@ -136,6 +138,7 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
     """
     force = HipForce(bare, (-10.0, 0.0))
     inner = ba.NPDController(published.constraint)
+    # a step that lasts longer than 0.9 s counts as stalled
     alone = ba.walk(ba.Walker(bare, inner, force, max_step_time=0.9), published, 8, RK4)
     assert alone.trajectory.status in (ba.Status.FELL, ba.Status.STALLED)
     law = stride(ba.NPDController, published, bare)

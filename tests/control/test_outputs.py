@@ -126,8 +126,9 @@ def test_outputs_that_the_motors_cannot_move_apart(biped, gait, state):
     which nothing moves. In each case J D^-1 B, from torques to y'', is singular.
     """
     q, v = state
-    straight = q * [1, 1, 1, 0, 1]
+    straight = q * [1, 1, 1, 0, 1]  # the swing knee at 0
     same = LinearOutputs(np.eye(4, 5)[[0, 1, 2, 2]], gait.constraint)
+    # desired values that are 0: else they would tell the output that is there twice apart
     flat = replace(
         gait.constraint, curve=replace(gait.constraint.curve, coefficients=np.zeros((4, 7)))
     )

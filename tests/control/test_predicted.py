@@ -143,6 +143,7 @@ def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_w
     start = walker.initial_state(q, 1.02 * v)
     arc = ba.simulate(walker, start, ba.Mode(), ba.RK4(T / 5), t_end=0.03).arcs[0]
     count, worst, least = len(walker.law.weights[0]), 0.0, np.inf
+    # all k T + d are within the run of 30 ticks
     for k in range(5, 25):
         before, later = (np.searchsorted(arc.t, x - 1e-9) for x in (k * T, k * T + d))
         x, m = arc.x[before], walker.measure(k * T, *np.split(arc.x[before, :10], 2), ba.Mode())

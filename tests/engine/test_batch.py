@@ -113,7 +113,9 @@ def test_the_number_of_threads_changes_no_bit(mixed):
 
 
 def test_every_run_of_a_batch_is_the_single_run(mixed):
-    """Times, states and ends are those of `simulate_by`, bit for bit, whatever ends the run."""
+    """Times, states before impacts and ends are those of `simulate_by`, bit for bit, whatever ends the run; of
+    runs that are compiled also the last state.
+    """
     for case, walked in zip(mixed.values(), simulate_many(mixed.values()), strict=True):
         walker, mode = case.walker, case.mode
         x0 = walker.initial_state(case.q, case.v, mode)

@@ -85,8 +85,8 @@ def test_compiled_signals_are_those_of_python(biped, gait, name, sampled):
 
 
 def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait):
-    """Where nodes are kept at every fifth integration step alone. A step down of 2 mm on a slope that falls
-    puts the foothold deeper than that.
+    """The columns are Python's also where nodes are kept at every fifth integration step alone. A step down of
+    2 mm on a slope that falls puts the foothold deeper than that.
     """
     rough = ba.ModelErrors(mass={"torso": 0.05}).apply(ba.Biped.load("rabbit", friction=True))
     walker = ba.Walker(rough, controllers(gait)["ADRC"], model=biped, slope=0.02)
@@ -96,7 +96,9 @@ def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait):
 
 
 def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
-    """A reference that branches on the time is zero here, so the error is the angle."""
+    """A reference that branches on the time has no machine code, so `see` gives None and Python the signals. It
+    is zero here, so the error is the angle.
+    """
     walker = ba.Walker(biped, controllers(gait)["NPD"])
     run = walked(walker, gait, impacts=1)
     flat = TimeReference(lambda t: (np.zeros(4) if t < 9.0 else np.ones(4),) * 3)
@@ -105,7 +107,9 @@ def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
 
 
 def test_the_power_of_the_motors_is_the_energy_s_rate(biped, gait):
-    """d(T + V)/dt = q_b' u + q' zeta from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5."""
+    """d(T + V)/dt = q_b' u from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5. The power q'
+    zeta of a push is added and is zero here: PUSH begins at 0.05 s, after the end.
+    """
     walker = ba.Walker(biped, controllers(gait)["ADRC"], PUSH)
     x0 = walker.initial_state(*gait.start(biped))
     run = simulate(walker, x0, Mode(), ba.RK4(2.5e-4), t_end=0.04)

@@ -69,6 +69,7 @@ def test_what_may_change_is_not_remembered(biped, gait):
     two questions of the first, one of the second.
     """
     array = np.zeros(4)
+    # a read-only view, whose numbers change with `array`
     view = array.view()
     view.flags.writeable = False
     fixed = np.zeros(4)
@@ -104,6 +105,7 @@ def test_the_same_fields_give_the_same_copy_and_another_process_gets_none_of_it(
     a, b = shared(walker, slope=0.01), shared(walker, slope=0.02)
     assert shared(walker, slope=a.slope) is a
     assert b.slope == 0.02
+    # now the walker remembers them
     _ = walker.undisturbed, walker.law, hash(walker.controller)
     again = pickle.loads(pickle.dumps(walker))
     assert again.controller == walker.controller

@@ -74,7 +74,7 @@ def test_terms_and_impact_at_a_thousand_states(robot):
             inverse = np.max(np.abs(np.linalg.inv(expected.D)))
             assert gap <= EXACT * np.max(np.abs(expected.Omega)) * inverse
         after = biped.impact(q, v)
-        # the input of the impact: time 0, single support 2, and the state
+        # the input of the impact: time 0, single support 2, and the state; its output begins with (q, v)
         struck = np.concatenate(([0.0, 2.0], q, v))
         found = call(program.machine, "impact", program.K, struck, 2 * n + 1)
         close(found, np.concatenate((after.q, after.v)))
@@ -117,11 +117,12 @@ def test_a_plant_that_is_not_the_model(gait, timing):
     heavy = ba.ModelErrors(mass={"torso": 0.2}, inertia={"thigh": 0.15}).apply(biped)
     law = ba.ADRCController(gait.constraint)
     walker = Walker(heavy, law, timing=timing, model=biped, slope=0.05, torque_limit=150.0)
+    # at random states the law asks for torques that would end a walk as a runaway
     loop_compiles(replace(walker, runaway_torque=math.inf), 200)
 
 
 def test_one_compilation_serves_every_number(biped, gait):
-    """Robots, gains, gaits and limits change K alone."""
+    """Other masses, gains and limits change the numbers K alone: the machine code is the same object."""
 
     def program(walker):
         return Program(
@@ -160,6 +161,7 @@ def test_what_was_traced_is_forgotten_where_it_is_machine_code(biped, gait, monk
     """
     monkeypatch.setattr("biped_adrc.engine.generated.fetch", lambda key: None)
     monkeypatch.setattr("biped_adrc.engine.generated._IN_MEMORY", {})
+    # 1.1 ms: a period of no other test, so that no part remembers a walker with it
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=SampledTime(1.1e-3))
     traced = []
     init = Tracer.__init__

@@ -82,7 +82,7 @@ def test_an_observer_s_states_are_coordinates(gait, adrc):
     assert np.max(np.abs(compiled(moved) - value)) > 1e-9
     J = compiled.jacobian(s)
     assert J.shape == (21, 21)
-    column = 10
+    column = 10  # of one of the observer's states
     d = compiled.difference * np.eye(21)[column]
     difference = (python(s + d) - python(s - d)) / (2.0 * compiled.difference)
     # the maps agree to 1e-6 or better, and a difference divides by 2e-5

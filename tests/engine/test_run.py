@@ -155,8 +155,8 @@ SEVERAL = (
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_both_engines_make_the_same_walk_under_pushes(biped, gait, sampled):
-    """SEVERAL has three pushes: one within an integration step, one over an impact, one from the second single
-    support on, so that steps end at their jumps.
+    """SEVERAL has four pushes: a sine, one from the second single support on, one within an integration step,
+    one over an impact; so integration steps end at their jumps.
     """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     walker = ba.Walker(biped, npd(gait), SEVERAL, time)
@@ -257,7 +257,9 @@ class Closing(Stateless):
 
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_a_torque_limit_hides_neither_nan_nor_a_singular_matrix(biped, gait, sampled):
-    """min and max with the limit may turn NaN into a number, and the walk would go on."""
+    """min and max with the limit may turn NaN into a number, and the walk would go on. `Rooted` gives NaN after
+    0.1 s, `Closing` solves with a matrix that is singular from 0.05 s on.
+    """
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     for cls, status in ((Rooted, ba.Status.NOT_FINITE), (Closing, ba.Status.SINGULAR)):
         walker = ba.Walker(biped, cls(npd(gait)), timing=time, torque_limit=100.0)
@@ -395,7 +397,7 @@ def test_a_controller_in_python_is_called_at_the_same_ticks_on_a_compiled_plant(
     late = {"mode": Mode(3, 0.41237), "every": 2}
     runs_ = runs(walker, gait, ba.RK4(4e-4), **late)
     in_part(*runs_, TICKS, "InPython.output")
-    s = runs_[1].final_state[10]
+    s = runs_[1].final_state[10]  # the controller's state, behind q and v
     assert s > 800.0
     assert s % 1.0 == 0.0
 
@@ -432,7 +434,7 @@ def test_what_a_controller_in_python_keeps_stays_what_it_was(biped, gait):
     reference = Drifting(gait.constraint)
     walker = ba.Walker(biped, Keeping(reference), timing=ba.SampledTime(1e-3))
     x0, kept = walker.initial_state(*gait.start(biped)), walker.controller.kept
-    kept.clear()  # where its methods were tried
+    kept.clear()  # of the calls that tried the controller at the start
     run = simulate(walker, x0, Mode(), ba.RK4(1e-3), t_end=0.3)
     assert "Keeping.output" in run.settings["why"]
     at = dict(zip(run.arcs[0].t.tolist(), run.arcs[0].x, strict=True))
@@ -483,8 +485,8 @@ def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait,
 def test_a_controller_in_python_walks_on_a_compiled_plant_in_continuous_time(
     biped, gait, python, method
 ):
-    """By RK4 the walk is that of Python to round-off. Adaptive, which runs in Python, chooses other steps on
-    the compiled plant: states before impact are compared to 1e-6.
+    """By RK4 the walk is that of Python to round-off. Adaptive runs in Python, here with NPD itself; it chooses
+    other steps on the compiled plant: states before impact are compared to 1e-6.
     """
     walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):

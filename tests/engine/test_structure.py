@@ -67,8 +67,9 @@ def test_functions_in_modules_of_the_user_s_are_compiled_too(tmp_path, monkeypat
     monkeypatch.syspath_prepend(tmp_path)
     own = types.ModuleType("own")
     exec("import tools.shapes" + HEAD.format(torque="tools.shapes.f(v)"), vars(own))
-    before = value(own.Own())
-    assert before[0] == pytest.approx(before[1], rel=1e-15)
+    compiled, python = value(own.Own())
+    assert compiled == pytest.approx(python, rel=1e-15)
+    # else a later import of a `tools` would get this one
     for name in ("tools", "tools.shapes"):
         del sys.modules[name]
 
@@ -104,6 +105,7 @@ def test_a_type_of_another_name_is_the_type():
 
 def test_the_same_structure_is_compiled_once():
     """Of two calls with one key the first traces the function, and the second does not."""
+    # once: a key that no other call has
     made, once, x, y = [], (object(),), ca.SX.sym("x"), ca.SX.sym("y")
     for _ in range(2):
         # `made` counts the calls of the function that would trace it
@@ -115,13 +117,14 @@ def test_another_process_finds_what_is_this_packages_own(monkeypatch):
     """`lasting` names a structure for code on disk. It is empty for a user's class or function, and once a
     method of the package was replaced, since equal names may then mean other code.
     """
-    pulse, own = structure(ba.TorqueStep([1.0])), types.ModuleType("own")
+    load, own = structure(ba.TorqueStep([1.0])), types.ModuleType("own")
     exec(HEAD.format(torque="v"), vars(own))
-    assert lasting(pulse) == lasting(structure(ba.TorqueStep([2.0]))) != ""
-    assert lasting(pulse) != lasting(structure(ba.TorqueStep([2.0, 3.0])))
+    assert lasting(load) == lasting(structure(ba.TorqueStep([2.0]))) != ""
+    assert lasting(load) != lasting(structure(ba.TorqueStep([2.0, 3.0])))
     assert lasting(structure(own.Own())) == lasting((value,)) == ""
+    # a method of another class: any one of the package counts
     monkeypatch.setattr(ba.TorquePulse, "torque", own.Own.torque)
-    assert lasting(pulse) == ""
+    assert lasting(load) == ""
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ def test_a_text_fits_the_sources(files):
 
 @pytest.fixture
 def damaged(tmp_path, monkeypatch):
-    """A text in which a constant of a shipped one is another."""
+    """A text in which one instruction of a shipped one is another."""
     data = load.text_file(LOOPS).read_text(encoding="utf-8")
     path = tmp_path / "demands.ll"
     path.write_text(data.replace("fcmp", "fadd", 1), encoding="utf-8")
@@ -48,6 +48,7 @@ def test_a_damaged_text_is_written_anew(damaged):
     """numba writes it again, and the loop over nodes gives by hand: the largest |e|; the number of nodes that
     count; of these the sums of e^2, u^2, |u dq| and u dq, dq to the next node.
     """
+    # __wrapped__: the function without its cache
     # e = 4, then 16; u = 5; q from 6 to 18: the sums are over the first node
     assert totals_by(load.loops.__wrapped__(LOOPS)).tolist() == [16.0, 1.0, 16.0, 25.0, 60.0, 60.0]
 

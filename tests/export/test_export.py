@@ -71,7 +71,7 @@ def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
             flag, _ = loaded.step(x, loaded.measured(np.nan if i in bad else call.t, *call[2:4]))
             assert flag == (NOT_MEASURED if i in bad else OK)
             made.append(x["rate"].copy())
-        rates[len(bad)] = np.array(made)
+        rates[len(bad)] = np.array(made)  # by the number of lost samples, 3 or 0
     assert np.array_equal(rates[3][43], rates[3][39])
     off = np.max(np.abs(rates[3] - rates[0]), axis=1)
     assert np.all(np.diff(off[43:]) < 0.0)
@@ -113,7 +113,9 @@ def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
 
 
 def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_angles():
-    """q+ = R q- + r, R R = 1, R r = -r, on a made-up robot: no robot of the package has an r."""
+    """`impact` gets q+ = R q- + r, reads it as q- = R q+ + r first, and then relabels: R R = 1 and R r = -r. On
+    a made-up robot, since no robot of the package has an r.
+    """
     R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
     inner = ba.Sensors(filter_time=2e-3)
     # three coordinates, two motors, 1 ms
@@ -124,10 +126,11 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
     old = q + 2e-3 * v
     before = sampled.sense(w, old, v)
     wanted = sampled.impact(before, R @ old + r, R @ v, R @ sampled.reading(before, old, v)[1])
+    # zeros: rates by the model, which it does not use; 1.0 below: the next sample is this measurement again
     found = around.impact(Landing(w, 0.0), R @ old + r, R @ v, np.zeros(3))
     np.testing.assert_allclose(flatten(found), flatten(Landing(wanted, 1.0)), rtol=1e-12)
     with pytest.raises(InputError, match="do not exchange in pairs"):
-        Noticed(inner, R, np.abs(r))
+        Noticed(inner, R, np.abs(r))  # R r = r
 
 
 def test_header_and_readme_say_what_the_caller_has_to_do():
@@ -168,8 +171,8 @@ class Own(Sensor):
 
 def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     """Continuous time, a solver that has no C, sensors that do not say what of them is software or say
-    something else than encoders, NaN in a number; then names that are none in C or clash with its own, and an
-    unknown type of number. No file is written.
+    something else than encoders, NaN in a number; then prefixes of names that are none in C or clash with
+    others, and an unknown type of number. No file is written.
     """
     walker = build(ba.Scenario("NPD", hardware="ideal"))
     share = Share(walker.controller.reference, share=np.nan)
@@ -182,6 +185,7 @@ def test_a_scenario_without_c_is_refused_with_the_reason(tmp_path):
     ]:
         with pytest.raises(InputError, match=word):
             export_c(scenario, tmp_path / "out")
+    # no name in C; the name of a file of the export; a name of POSIX with _OK behind it
     wrong = [("prefix", "2nd", "prefix"), ("prefix", "main", "main.c"), ("prefix", "x", "X_OK")]
     for name, value, word in [*wrong, ("real", "half", "float64")]:
         with pytest.raises(InputError, match=word):
@@ -215,6 +219,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
     (new / "mine.txt").write_text("mine")
     with pytest.raises(OutputError, match=r"mine\.txt"):
         export_c(NPD, new)
+    # places where no folder can be made
     for name, word in [("new/mine.txt", "Not a directory"), (300 * "a", "too long")]:
         with pytest.raises(OutputError, match=word):
             export_c(NPD, tmp_path / name)

@@ -188,7 +188,7 @@ def test_a_state_that_was_saved_goes_on_equally_also_in_another_instance(folder,
     with Stepped(folder) as fmu, Stepped(folder) as other:
         fmu.run(calls[:half])
         state = fmu.slave.getFMUstate()
-        fmu.run(calls[half - 1 :])
+        fmu.run(calls[half - 1 :])  # - 1: `run` leaves out the first of its calls
         fmu.slave.setFMUstate(state)
         data = fmu.slave.serializeFMUstate(state)
         other.slave.setFMUstate(other.slave.deSerializeFMUstate(data))
@@ -255,13 +255,14 @@ def test_what_is_not_measured_ends_in_the_safe_torque_and_a_touchdown_then_waits
             fmu.given([np.nan, *q[1:]], np.zeros(N), touchdown=True)
             assert fmu.do_step(t) == fmi2Warning
             assert fmu.made == (NOT_MEASURED, u.tolist() if i < 5 else [0.0] * P)
+            # in C the time is NaN in place of an angle: the sample is lost in the same way
             assert loaded.step(x, loaded.measured(np.nan, q, q))[0] == NOT_MEASURED
         for i, call in enumerate(calls[landing + 8 : landing + 12]):
             t += PERIOD
             m = loaded.measured(t, call.q, call.v)
             fmu.given(call.q, call.v, touchdown=True)
             assert fmu.do_step(t) == fmi2OK
-            assert i > 0 or loaded.touchdown(x, m) == OK
+            assert i > 0 or loaded.touchdown(x, m) == OK  # in C called once, at the first of them
             assert fmu.made == (OK, loaded.step(x, m)[1].tolist())
         assert x["step"] == 2
         assert {x for x, _ in fmu.said} == {fmi2Warning}

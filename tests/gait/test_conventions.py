@@ -116,7 +116,7 @@ def test_knees_hip_and_foot_are_where_the_definition_says(name, biped):
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_conventions_place_the_feet_of_a_robot_without_knees(name):
     """Hip and foot are where the convention's definition (POSES) puts them, for legs of 1 m without a knee: its
-    thigh and shin are 0.5 m each, and its knee is straight.
+    thigh and shin are 0.5 m each, and its knee is straight. The row of the paper's phase is the robot's own.
     """
     biped = ba.Biped.load("three_link")
     c = convention(name, knees=False)

@@ -99,7 +99,7 @@ def test_a_step_length_is_met_and_the_impulse_limited(level: DesignedGait) -> No
 
 
 def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> None:
-    """The gait's slope of 0.06 rad is in its file too, and numbers come back to the last bit."""
+    """The gait's slope of 0.06 rad is in its file too, and q- comes back to the last bit."""
     downhill.gait.save(tmp_path / "downhill.json")
     again = load_gait(tmp_path / "downhill.json", Biped.load("rabbit", "identified-bare"))
     assert again.slope == 0.06
@@ -168,10 +168,13 @@ def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
 
 
 def test_a_gait_turns_no_faster_than_the_urdf_states_of_either_leg(tmp_path) -> None:
-    """The hips turn at up to 3.51 and 3.10 rad/s without a limit; one of them states 2.5, which binds both."""
+    """The hips turn at up to 3.51 and 3.10 rad/s without a limit. One of them states 2.5; it binds both, as the
+    legs change roles at each impact.
+    """
     folder = tmp_path / "own"
     shutil.copytree(data_folder("urdf") / "three_link", folder)
     text = (folder / "floating.urdf").read_text()
+    # 1000 rad/s in the package's file states no limit
     at = text.index("velocity=", text.index('name="right_hip"'))
     (folder / "floating.urdf").write_text(text[:at] + text[at:].replace("1000", "2.5", 1))
     slow = Biped.load(folder / "robot.toml")
@@ -229,6 +232,7 @@ def test_without_a_clearance_none_is_said_to_be_in_the_way() -> None:
         ({"speed": 1e9}, "faster"),
         ({"speed": 0.5, "objective": "speed"}, "objective"),
         ({"speed": 0.5, "limits": StepLimits(ranges={"ankle": (0.0, 1.0)})}, "ankle"),
+        # no step: both feet are in one place, and the robot is at rest
         ({"through": (np.zeros(5), np.zeros(5))}, "ground|sign"),
         ({"through": (np.zeros(5), np.zeros(4))}, "pass through has 9 numbers, expected 10"),
     ],

@@ -109,6 +109,7 @@ def test_limits_are_of_pinocchio_s_numbers_with_their_reserve(robot, gait, rows,
         expected[f"the range of {joint}"] = [(q[:, index(joint)], low + 0.025, high - 0.025)]
     for name, goals in expected.items():
         for (value, *ends), (goal, *least_most) in zip(rows(name), goals, strict=True):
+            # the rows at both ends of the step come last; where `goal` has none they are not compared
             np.testing.assert_allclose(
                 value[: np.size(goal)], np.ravel(goal), 1e-9, 1e-9, err_msg=name
             )
@@ -145,6 +146,7 @@ def test_a_clearance_of_zero_keeps_the_foot_up_in_the_whole_step(robot, unknowns
     [
         ({}, ""),
         ({"torque": 39.0}, "the torque limit by"),
+        # without a number of its own impulse_friction would be 0.2 too
         ({"friction": 0.2, "impulse_friction": 0.6}, "friction by"),
         ({"impulse_friction": 0.2}, "the impulse cone by"),
         ({"multiplier": 0.5}, "stability, delta^2 below 1 by"),

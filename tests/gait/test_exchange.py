@@ -142,6 +142,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
     H0 = np.array(
         [[0, 0, 0, 0, 1], [-1, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]], dtype=float
     )
+    # curves of all five angles; the record has those of the four motors
     curve = coordinates(record, own_convention(biped)).curve
     other = replace(record, coefficients=H0 @ curve.coefficients, outputs=H0)
     assert_same(gait, import_gait(other, biped), abs=1e-9)
@@ -188,13 +189,16 @@ def in_degrees(record):
 
 OPEN = {
     "damaged": ("frost", changed("coefficients", (3, -1), 0.01), "knee at the"),
+    # entry 3 is FROST's left hip: the swing leg's, which is the right one here
     "state": ("frost", changed("q_minus", 3, 0.02), "right_hip"),
     "rates": ("frost", changed("v_minus", 3, 0.02), "v_minus of right_hip"),
+    # all five angles are off in mid-step, so that the phase c q(s) of the curves is no straight line
     "another phase": (
         "optimtraj",
         changed("coefficients", (slice(None), 3), 0.05),
         "another phase",
     ),
+    # Theta changes by -0.4138 rad as in the gait, but begins at 0, as a time does
     "time": ("paper", lambda r: replace(r, theta_plus=0.0, theta_minus=-0.4138030549), "a time"),
     "exchanged": (
         "paper",
@@ -219,10 +223,10 @@ def test_a_gait_that_is_not_one_of_the_robot_is_refused(name, biped, gait, recor
     first, so that it is the change that is refused.
     """
     convention, change, word = OPEN[name]
-    words = record if convention == "paper" else record_of(gait, biped, convention)
-    import_gait(words, biped)
+    sound = record if convention == "paper" else record_of(gait, biped, convention)
+    import_gait(sound, biped)
     with pytest.raises(GaitError, match=word):
-        import_gait(change(words), biped)
+        import_gait(change(sound), biped)
 
 
 @pytest.mark.parametrize(
@@ -232,8 +236,9 @@ def test_wrong_convention_is_recognised(made, claimed, biped, gait):
     """made: the convention that the numbers are in; claimed: the one that the record states. The error names
     the true one, in which the gait would close.
     """
-    words = replace(record_of(gait, biped, made), phase=None)  # each with its own phase
-    wrong = replace(words, convention=claimed)
+    # phase None: the row of the convention that the record states
+    right = replace(record_of(gait, biped, made), phase=None)
+    wrong = replace(right, convention=claimed)
     with pytest.raises(GaitError, match=made):
         import_gait(wrong, biped)
 
@@ -274,6 +279,7 @@ def test_what_is_no_number_is_refused(record, wrong):
         ("damaged.mat", b"not a MATLAB file", "MATLAB file"),
         (
             "new.mat",
+            # the header of a MAT-file, of 128 bytes, then HDF5's own first bytes
             b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + b"\x89HDF\r\n\x1a\n" * 64,
             "-v7'",
         ),

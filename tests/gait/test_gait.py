@@ -66,10 +66,10 @@ def test_published_gait_closes_on_the_published_state(any_biped):
     g = ba.load_gait("published", any_biped)
     x = np.append(g.q_minus, g.v_minus)
     assert np.max(np.abs(x - X_STAR)) < 5e-4
-    made = ba.walk(ba.Walker(any_biped, ba.NPDController(g.constraint)), g, 2, ba.RK4(2.5e-4))
-    assert np.max(np.abs(made.trajectory.before("foot_strike")[-1] - x)) < 2e-8
-    assert np.max(np.abs(made.signals.error)) < 1e-7
-    assert not made.certificates[-1].violations(but=("impulse",))
+    walk = ba.walk(ba.Walker(any_biped, ba.NPDController(g.constraint)), g, 2, ba.RK4(2.5e-4))
+    assert np.max(np.abs(walk.trajectory.before("foot_strike")[-1] - x)) < 2e-8
+    assert np.max(np.abs(walk.signals.error)) < 1e-7
+    assert not walk.certificates[-1].violations(but=("impulse",))
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,8 @@
 """Gaits for any robot: own coordinates, names and structs of other tools, samples over time, own cycles.
 
 biped and gait are RABBIT and its published gait. Fixtures: step, samples (t, q, v) of one simulated step of
-this gait; turned, a robot whose phase grows. close(h, gait): the curves have the same coefficients.
+this gait; turned, a robot whose phase grows. close(h, gait): the curves have the same coefficients, to 1e-5 of
+each (NumPy's rtol) and `within`.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ def turned_gait(gait, biped):
 @pytest.mark.parametrize("kind", ["json", "mat"])
 def test_a_robot_of_its_own_coordinates_gives_and_takes_gaits(turned, gait, tmp_path, kind):
     """`turned` is RABBIT under another name with the phase -Theta, which no convention has. In the convention
-    "own" its gaits are written and read to the last bit.
+    "own" its gait is written and read: phase and q- to the last bit, curves to 1e-5 of each coefficient.
     """
     biped = turned
     own, path = turned_gait(gait, biped), tmp_path / f"own.{kind}"
@@ -90,7 +91,8 @@ def test_a_robot_of_its_own_coordinates_gives_and_takes_gaits(turned, gait, tmp_
 
 def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait):
     """Row 3 of the curves is the right knee's: 0.1 rad more at its start and the error names this joint, not
-    one of a convention. Other conventions, and three rows for four motors, are refused too.
+    one of a convention. The same record in another convention, or with three rows for four motors, is refused
+    too; so is the gait's export in another convention.
     """
     biped = turned
     own = turned_gait(gait, biped)
@@ -153,7 +155,7 @@ def test_elements_of_arrays_are_named(suffix, biped, gait, tmp_path):
     steps = [{"a": 0.0 * column, "p": [9.0, 9.0]}, {"a": column, "p": [minus, plus]}]
     if suffix == "mat":
         savemat(path, {"R": structs(*steps), "one": structs({"x": 1.0})})
-        assert read_mat(path)["one"] == {"x": 1.0}
+        assert read_mat(path)["one"] == {"x": 1.0}  # an array of one struct is read as the struct
     else:
         path.write_text(json.dumps({"R": [dict(s, a=[*s["a"]]) for s in steps]}))
     names = {"theta_plus": "R{2}.p(2)", "theta_minus": "R(1,2).p(1)", "coefficients": "R(2).a"}
@@ -208,6 +210,7 @@ def test_results_of_frost_as_they_are(form, where, left, step, biped, gait, tmp_
     gait is that of the samples each time.
     """
     course, impact = frost_domains(step, biped, left)
+    # the name is "all(2,1)(3)": row 2 of the cell, and in it the third domain
     domains, names = (
         (course, impact, course),
         {"step": "all{2,1}(3)".replace("{", "(").replace("}", ")")},
@@ -215,6 +218,7 @@ def test_results_of_frost_as_they_are(form, where, left, step, biped, gait, tmp_
     content = {
         "structs": lambda: {"gait": structs(*domains)},
         "cells": lambda: {name: cells(*(d[name] for d in domains)) for name in course},
+        # two equal rows of a gait and a number, such as its speed
         "library": lambda: {"all": np.vstack([cells(structs(*domains), 0.8)] * 2)},
     }
     savemat(tmp_path / "walk.mat", content[form]())

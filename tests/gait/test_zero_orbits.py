@@ -236,13 +236,16 @@ def test_zero_dynamics_without_a_fixed_point_name_the_condition(bare, published,
         _ = orbits_of(*wheel(-0.05)).zeta_star
     with pytest.raises(GaitError, match="expected below 1"):
         _ = dataclasses.replace(orbits, delta=1.1).zeta_star
+    # delta = 1: the impact takes nothing, so zeta* is at infinity
     assert dataclasses.replace(orbits, delta=1.0).existence == math.inf
     c = published.constraint
     steep = np.zeros((4, 2))
+    # joints stay at their first angles, but the swing hip turns by 4 rad
     steep[:, 0], steep[1] = c.h(c.theta_plus)[0], [3.0, 4.0]
     bent = ba.VirtualConstraint(Polynomial(steep), c.phase, c.theta_plus, c.theta_minus)
     with pytest.raises(GaitError, match="sign"):
         orbits_of(bare, bent)
+    # the last one is so near the top that the duration cannot be computed to 1e-6 of it
     for zeta in (0.9 * orbits.lowest, float("nan"), orbits.lowest * (1.0 + 1e-15)):
         with pytest.raises(GaitError):
             orbits.period(zeta)
@@ -272,7 +275,9 @@ settled         to 0.1% of zeta* after 18 steps from the lower end, 20 from the 
 
 # -- report, picture, command ----------------------------------------------------------------------------
 def test_report_says_what_does_not_hold(bare, published):
-    """A torque limit that the gait exceeds; a gait that is not hybrid invariant. Another slope is refused."""
+    """The text for the published gait is REPORT. Then what does not hold: friction 0.01 leaves no speed, a
+    torque limit of 60 N m is exceeded, the recipe is not hybrid invariant. Another slope is refused.
+    """
     good = zero_report(bare, published.constraint, DomainLimits(0.6, 150.0))
     assert good.walkable
     assert good.text() == REPORT

@@ -54,6 +54,7 @@ def test_bounds_are_two_turns_the_speed_of_a_runaway_and_the_lower_torque_limit(
     """
     high = np.repeat([4 * np.pi, 1000.0, 8 * np.pi, 2000.0, 150.0, 8 * np.pi], [5, 5, 4, 4, 4, 1])
     for limit, torque in ((None, 150.0), (200.0, 150.0), (100.0, 100.0)):
+        # effort, a weight of the reward, has no effect here
         space = made(effort=1.0, **{"hardware.torque_limit": limit}).observation_space
         high[18:22] = torque
         np.testing.assert_array_equal([space.high, space.low], [high, -high])
@@ -131,6 +132,7 @@ def test_observation_and_reward_are_those_of_the_walks_signals():
     for k in (200, 450):
         observation, reward, info = rows[0][k], rows[1][k], rows[4][k]
         i = int(np.searchsorted(signals.t, info["t"]))  # before the sample instant there
+        # None: the rates of the errors, which are no column; they are computed below
         expected = (signals.q, signals.v, signals.error, None, signals.u, signals.theta[:, None])
         parts = np.split(observation, [5, 10, 14, 18, 22])
         for part, found in zip(parts, expected, strict=True):

@@ -52,6 +52,7 @@ def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
             assert (rewards[i], fallen[i], late[i]) == tuple(expected[1:4])
             if len(expected) == 5:
                 assert {name: infos[name][i] for name in expected[4]} == expected[4]
+                # Gymnasium's mask: which walks have this entry
                 assert all(infos[f"_{name}"].all() for name in expected[4])
         over = fallen | late
     assert again >= count

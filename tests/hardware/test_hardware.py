@@ -2,9 +2,9 @@
 
 T = 1 ms is the period of the ticks (sample instants). `ticks(sensors, path, count)` are the readings (q^, v^)
 of two coordinates, the first with a motor, along a path t -> (q, v); `steady(rate)` is one of a constant rate.
-`Sensors` are encoders: with counts per turn, noise, rates from differences and a low-pass. A `Line` holds the
-torques on their way to the motors: a queue of those that wait for whole periods, one that waits for the
-fraction of a period, and u, which acts.
+`Sensors` are encoders: with counts per turn, noise, rates from differences and a low-pass; sampled(n, p, T) is
+one of n coordinates, the first p with motors. A `Line` holds the torques on their way to the motors: a queue of
+those that wait for whole periods, one that waits for the fraction of a period, and u, which acts.
 """
 
 from dataclasses import replace
@@ -60,6 +60,7 @@ def test_differences_of_a_steady_motion_are_its_rate():
     counted = ticks(Sensors(counts=8192.0), steady(2.0), 500)
     step = 2 * np.pi / 8192
     assert np.max(np.abs(counted[:, 2:] - 2.0)) <= step / T
+    # differences add up to the last angle less the first one, at most a count off over 499 periods
     assert abs(counted[1:, 2].mean() - 2.0) < step / (400 * T)
 
 
@@ -112,6 +113,7 @@ def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
     w = sensor.start(q, v)
     for i in range(4):
         seen = sensor.reading(w, q, v)
+        # i = 0: at the start, before the first tick; i = 1: at that tick, k = 0
         assert np.allclose(seen, (q + (bias + max(i - 1, 0) * drift * T) * off, v + drift * off))
         w = sensor.sense(w, q, v)
     last, w = sensor.reading(w, q, v)[0], sensor.impact(w, q + 1.0, hit, v)

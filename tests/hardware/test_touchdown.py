@@ -165,6 +165,7 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
     """
     # shortly before the touchdown at 0.416 s; the first tick from 0.4105 s on is at 0.411 s
     early = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.4105)))
+    # two touchdowns until 0.9 s: the first is noticed early, the second at the next tick
     found = touchdowns(early, run(early, gait, 0.9))
     assert found.rates.early_share == 0.5
     assert found.late[0] == pytest.approx(0.411 - found.t[0], abs=1e-9)
@@ -199,13 +200,14 @@ def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
     walked = run(system, gait, 0.43)
     found = touchdowns(system, walked)
     q, v = np.split(walked.events("foot_strike")[0].x_minus[:10], 2)
-    slip = 1e-7
-    speed = (biped.swing_foot(q - slip * v)[1] - biped.swing_foot(q + slip * v)[1]) / (2 * slip)
+    h = 1e-7  # [s]
+    speed = (biped.swing_foot(q - h * v)[1] - biped.swing_foot(q + h * v)[1]) / (2 * h)
     assert speed > 0.1
     assert -height / speed - 1e-4 < found.late[0] < -height / speed + T + 2e-4
     arc = walked.arcs[0]
     z = np.array([biped.swing_foot(x[:5])[1] for x in arc.x])
     at = np.flatnonzero(arc.t == found.t[0] + found.late[0])
+    # nodes just before and just after the tick; the last node of the tick before is not below the height
     assert len(at) == 2
     assert z[at[0]] < height <= z[np.flatnonzero(arc.t < arc.t[at[0]] - 0.9 * T)[-1]]
 
@@ -273,9 +275,9 @@ def test_by_force_of_a_push_is_newton_s_law(biped, gait):
     x[-4:] = [10.0, -20.0, 5.0, 15.0]  # torques that act
     stance, swing = system.foot_forces(0.1, q, v, semantics.parts(system, x).tail, Mode())
     a = system.flow(0.1, x, Mode())[5:10]
-    slip = 1e-5
-    pairs = [(q + s * v + 0.5 * s * s * a, v + s * a) for s in (slip, -slip)]
-    rate = np.subtract(*(biped.momentum(*pair)[1] for pair in pairs)) / (2.0 * slip)
+    h = 1e-5  # [s]
+    pairs = [(q + s * v + 0.5 * s * s * a, v + s * a) for s in (h, -h)]
+    rate = np.subtract(*(biped.momentum(*pair)[1] for pair in pairs)) / (2.0 * h)
     weight = 9.81 * biped.body_terms(q, v).mass
     assert stance == pytest.approx(rate + weight - 40.0, rel=1e-5)
     assert swing == 0.0

@@ -142,6 +142,7 @@ def test_balls_that_land_at_one_instant_all_bounce(method, apart):
         found = [event.t for event in run.events(f"floor {k}")]
         assert found == pytest.approx([event.t for event in alone.events()], abs=1e-8)
     assert run.final_state[::2] == pytest.approx(alone.final_state[:1].repeat(3), abs=1e-8)
+    # 0.3 s: before the first landing, all still fall
     assert run(0.3)[::2] == pytest.approx(np.full(3, 1.0 - 0.5 * G * 0.09), abs=1e-8)
 
 
@@ -176,6 +177,7 @@ def test_a_jump_below_a_floor_fires_at_once_and_a_time_that_is_over_does_not_aga
     0.32 s later. In the second run the guard of 0.2 s stays after it has fired, with a negative witness, and is
     silent.
     """
+    # Switched(height after 0.2 s, None: the same; whether the guard of 0.2 s stays)
     jump = simulate(Switched(-0.5, False), np.array([1.0, 0.0]), 0, RK4(1e-3), t_end=0.7)
     assert [event.guard for event in jump.events()] == ["switch", "bounce", "bounce"]
     times = [0.2, 0.2, 0.2 + 2 * 0.8 * 0.2]
@@ -274,7 +276,7 @@ def test_a_double_crossing_inside_a_long_step_is_found():
 
 def test_a_crossing_that_is_flat_is_found():
     """A triple root takes Brent's method more than SciPy's 100 iterations."""
-    root = 1.0998
+    root = 1.0998  # in steps of 2 ms from 0.5 ms before it, where 100 iterations are too few
     flat = Timer(lambda t: (root - t) ** 3)
     run = go(flat, RK4(2e-3), t0=root - 5e-4, t_end=2.0)
     assert run.events()[0].t == pytest.approx(root, abs=1e-9)
@@ -296,9 +298,9 @@ def test_a_terminal_guard_ends_the_run_with_its_status():
     assert run.events()[0].x_plus is None
 
 
-def test_clock_ticks_are_counted_not_accumulated_and_restart_at_events():
-    """Ticks are at k times 0.1 s bit for bit, not sums of 0.1 s; the event at 0.25 s begins mode 1, where the
-    count starts anew, and without restart does not.
+def test_clock_ticks_are_at_multiples_of_the_period_and_restart_at_events():
+    """Ticks are at k times 0.1 s bit for bit, not at steps of the method, 0.03 s; the event at 0.25 s begins
+    mode 1, where the count starts anew, and without restart does not.
     """
     ticks = []
 
@@ -391,6 +393,7 @@ def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(metho
 
     class Wall(HybridSystem):
         def flow(self, t, x, mode):
+            # a rejected step goes on to its other stages; their words must not replace the first ones
             if np.isnan(x[0]):
                 raise NotFiniteError(
                     "the state is nan, as of every stage after the first that was lost"
@@ -418,7 +421,7 @@ def test_a_run_that_cannot_begin_or_end_is_refused():
 
 
 def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
-    """All arrays come back bit for bit, modes by a function of the user (`int_mode`) from their numbers; a file
+    """States come back bit for bit, modes by a function of the user (`int_mode`) from their numbers; a file
     that is cut off, missing or of another kind is refused by name.
     """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(1e-2), t_end=3.0, stop_after=("bounce", 3))
@@ -457,9 +460,9 @@ def twice(x):
 )
 @pytest.mark.filterwarnings("ignore:.*divi.*:RuntimeWarning")
 def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage):
-    """damage: array of the file -> its change. In turn: an arc shorter than its times; twice too many rates; a
-    short state after the event; times that fall, and that begin before or after the end of the arc before;
-    integers; infinite rates.
+    """damage: array of the file, with the number of its arc -> its change. In turn: an arc shorter than its
+    times; twice too many rates; a short state after the event; times that fall, and that begin before or after
+    the end of the arc before; integers; infinite rates.
     """
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.1), t_end=9.0, stop_after=("bounce", 2))
     arrays = dict(np.load(save(run, tmp_path / "run.npz")))
@@ -479,6 +482,7 @@ def int_mode(*numbers):
     [
         ({"format": "another"}, "it has format 'another', expected '"),
         ({"events": []}, "there are events of 0 arcs"),
+        # the second arc has no arrays in the file: their key is missing
         ({"events": [None, None]}, "the key"),
         ({"settings": {"method": 1}}, "its method or engine is not text"),
     ],

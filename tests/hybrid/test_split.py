@@ -96,7 +96,7 @@ def impact(walker, gait, h, engine="pinocchio"):
 )
 def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit):
     """With steps of 0.5 ms (q, q') at the first impact is within 1e-4 of that with 0.1 ms, by the compiled
-    engine, and 1 us in time.
+    engine, and 1 us in time. The foot is on the ground there, and the reset is the walker's impact.
     """
     adrc = ba.ADRCController(gait.constraint)
     walker = ba.Walker(plant(biped), adrc, push, model=biped, torque_limit=limit)

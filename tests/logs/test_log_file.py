@@ -65,6 +65,7 @@ def test_in_the_file_a_joint_keeps_its_name_over_a_touchdown(log, lines):
     """`lines` has 12 rows before and after the first touchdown. In the labels of the robot's legs no angle
     jumps; in the log, labelled by stance and swing, the legs change places there.
     """
+    # columns of the file: t, contact, then five q, five v and four u
     q = np.array([[float(x) for x in line[2:7]] for line in lines[1:]])
     assert np.max(np.abs(np.diff(q, axis=0))) < 0.02
     at = int(np.flatnonzero(log.step == 2)[0])
@@ -188,6 +189,7 @@ LATER = (1, 1, 1, 2, 2, 2)
         ({"ways": (1, 1, -0.5, 1, 1)}, r"row 4 of the log has .*, 0.0078125 s before the row"),
         ({"ways": (9, 9, 9, 9, 9)}, r"6 rows that are 0.140625 s apart, .* 1e-05 to 0.1 s apart"),
         ({"ways": (6e-4,) * 5}, "6 rows that are 9.375e-06 s apart"),
+        # no single support has two rows, so there is no period
         ({"step": (1, 2, 3, 4, 5, 6)}, "6 rows that are nan s apart"),
         (
             {"ways": (1, 1, 1.6, 1, 1)},
@@ -199,8 +201,8 @@ LATER = (1, 1, 1, 2, 2, 2)
 )
 def test_arrays_that_are_no_log_are_named_by_the_row(arrays, said):
     """Six rows, with one thing wrong each; ways: times between rows in 1/64 s, which binary numbers hold
-    exactly; step: numbers of the single supports. Rows may be 1e-5 to 0.1 s apart, and half a period early or
-    late.
+    exactly; step: numbers of the single supports, with LATER the second from row 4 on. Rows may be 1e-5 to 0.1
+    s apart, and half a period early or late.
     """
     with pytest.raises(InputError, match=said):
         log_of(**arrays)
@@ -221,7 +223,7 @@ def test_what_lies_at_the_limits_is_a_log(biped):
         for other in (0.0, 4.0 * np.pi, -4.0 * np.pi):
             q[3:, 0], q[:, 1] = half, other
             log = np.arange(6.0) / 64.0, np.array(step), q, np.full((6, 4), -15000.0), 0.0 * q
-            check_plausible(log, np.zeros(5), biped, ["row"] * 6)
+            check_plausible(log, np.zeros(5), biped, ["row"] * 6)  # zeros: no rate was measured
 
 
 @pytest.mark.parametrize(
@@ -244,9 +246,9 @@ def test_a_rate_is_within_half_and_twice_that_of_its_angle(biped, speed, rate, r
 
 
 def test_a_log_of_one_window_is_compared_with_the_model_and_a_shorter_one_is_not(log, biped):
-    """A window of 40 rows of 1 ms, with 10 on each side for the differences, takes 61 rows. All torques have
-    the wrong sign here, so that a = -b in the balance of momentum and |a - b| is sqrt(2) = 141 % of sqrt(|a|^2
-    + |b|^2). With 60 rows nothing can be said.
+    """A window of 40 periods of 1 ms has 41 rows; with 10 on each side for the differences it takes 61, and of
+    60 rows nothing can be said. All torques have the wrong sign here, so that a = -b in the balance of momentum
+    and |a - b| is sqrt(2) = 141 % of sqrt(|a|^2 + |b|^2).
     """
     one, short = (RobotLog(log.t[:K], log.step[:K], log.q[:K], -log.u[:K]) for K in (61, 60))
     assert check_reading(short, biped) == ()

@@ -224,6 +224,7 @@ def test_the_parts_of_the_estimate_make_the_whole(log):
     assert np.any(x.xi_contact[inside])
     assert not np.any(x.xi_contact[~inside])
     assert not np.any(x.xi_model_error[inside])
+    # the second panel of the figure has the residual in mrad, with gaps (NaN) at impacts
     residual = [line.get_ydata() for line in found.plot().axes[1].lines]
     for y, known in zip(residual, 1e3 * x.residual.T, strict=True):
         np.testing.assert_array_equal(y[np.isfinite(y)], known)
@@ -250,15 +251,16 @@ def test_another_period_is_resampled_and_said(log):
     """From 1 ms to 2 ms each second row stays, and a torque is the mean of the two that were held in its
     period.
     """
-    half = replace(log, t=log.t, remarks=())
-    found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
+    plain = replace(log, t=log.t, remarks=())
+    found = ba.replay(plain, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1
     rows = np.flatnonzero(log.step == 1)[::2]
     assert np.allclose(found.log.q[first], log.q[rows], atol=1e-12)
     pairs = 0.5 * (log.u[rows] + log.u[rows + 1])
+    # without the last pair, which may reach into the next single support
     assert np.allclose(found.log.u[first][:-1], pairs[:-1], atol=1e-9)
     assert "resampled from 0.001 s to 0.002 s" in found.remarks[0]
-    assert ba.replay(half, ba.Scenario(hardware={"period": 1e-3}, **LESO)).remarks == ()
+    assert ba.replay(plain, ba.Scenario(hardware={"period": 1e-3}, **LESO)).remarks == ()
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,9 @@ def test_angular_momentum_about_the_new_contact_is_kept(any_biped):
 
 
 def test_impact_at_the_published_state(any_biped):
-    """Impulse ratio and delta^2 are as in NOTES; Theta [rad] after it follows from the published angles."""
+    """Impulse ratio and delta^2 are as in NOTES, numbers worked out without this package; Theta [rad] after the
+    impact follows from the published angles.
+    """
     b = any_biped
     q, v = X_STAR[:5], X_STAR[5:]
     hit = b.impact(q, v)

@@ -88,7 +88,9 @@ def test_inertia_and_bias_are_those_of_mujoco(own):
 
 
 def test_places_in_the_world_are_places_in_the_bodies(tmp_path):
-    """An old Walker2d: each place in a body is the sum of those of the bodies above it and its own."""
+    """An old Walker2d: each place in a body is the sum of those of the bodies above it and its own. With a body
+    that is turned (euler) this sum is wrong, and the file is refused.
+    """
     root = ET.fromstring(WALKER2D.read_text())
 
     def raise_by(body, above):
@@ -128,6 +130,7 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     assert d.viscous["right_hip"] == 0.2
     assert (d.static["right_knee"], d.static.get("right_hip", 0.0)) == (0.3, 0.0)
     left = "\n".join(note.text for note in derived.notes if note.kind == "left out")
+    # shapes: the plane, the trunk's, and three of each leg
     for word in ("'right_ankle'", "'left_ankle'", "8 shapes"):
         assert word in left
     again = ba.Biped.load(derived.write(tmp_path / "robot"))
@@ -140,7 +143,9 @@ def test_limits_friction_and_rotors_are_read_and_the_rest_is_said(own, tmp_path)
     [
         ('knee" gear="60"', 'knee" gear="60" forcelimited="true" forcerange="-0.4 0.3"', 18.0),
         ('knee" gear="60"', 'knee" gear="-60" ctrlrange="-0.4 0.5"', 24.0),
+        # replaced only to put the joint's own limit, -9 to 8 N m, into both knees
         ('frictionloss="0.3"', 'actuatorfrclimited="true" actuatorfrcrange="-9 8"', 8.0),
+        # 30: the left knee, 60 x 0.5; the right one has 50 by both motors, and 20 by the new one alone
         (
             '<motor joint="right_ankle"',
             '<motor joint="right_knee" gear="40"/><motor joint="right_ankle"',
@@ -168,6 +173,7 @@ def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
     stance foot, are where MuJoCo has them at the zero of six joints and the pitch.
     """
     joints = [f"{side}_{joint}" for joint in ("hip", "knee", "ankle") for side in ("right", "left")]
+    # torque: the left ankle has no motor in the file, hence no limit
     hints = Hints(("right_sole", "left_sole"), tuple(joints), torque=5.0, tip=(0.1, 0.0, 0.0))
     biped = derive(own, hints).biped
     m = mujoco.MjModel.from_xml_path(str(own))
@@ -178,7 +184,7 @@ def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
         for s in ("right", "left")
     )
     np.testing.assert_allclose(biped.swing_foot(np.zeros(7)), (left - right)[[0, 2]], atol=1e-12)
-    torso = d.body("trunk").xpos
+    torso = d.body("trunk").xpos  # 0.1 m above the hip, so that it cannot be taken for it
     hip = d.xanchor[m.joint("right_hip").id]
     assert torso[2] > hip[2]
     np.testing.assert_allclose(biped.hip(np.zeros(7)), (hip - right)[[0, 2]], atol=1e-12)
@@ -223,7 +229,7 @@ def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
     q = np.array([0.3, -0.2, 0.1])
     place = 0.8 * (np.exp(0.4j) - np.exp(-0.1j))  # z + i x of the feet below the hip
     np.testing.assert_allclose(derived.biped.swing_foot(q), [place.imag, place.real], atol=1e-12)
-    assert derived.record["urdf"] == "legs.xml"
+    assert derived.record["urdf"] == "legs.xml"  # the record's key for a file of any format
 
 
 @pytest.mark.parametrize(
@@ -232,6 +238,7 @@ def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
         ('range="-120 0"', 'range="-120 0.1."', "'range' Element 'joint'"),
         ("</actuator>", "</actuator><equality><joint joint1='left_hip'/></equality>", "equality"),
         ('"left_knee" pos', '"left_knee" axis="1 0 0" pos', "left_knee"),
+        # limited="false": MuJoCo itself refuses a ball joint with the range that is OWN's default
         (
             '<joint name="left_ankle"',
             '<joint type="ball" limited="false" name="left_ankle"',

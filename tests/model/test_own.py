@@ -66,6 +66,7 @@ SIDEWAYS = f"0 0 {math.pi / 2!r}"
         (rabbit(rpy=SIDEWAYS, leg_axis="1 0 0", lateral="x"), TURNED),
         (rabbit(base=False), TURNED),
         (rabbit(axis="0 -1 0", base=False), COUNTER),
+        # the left hip is 0.1 m to the side, along y, which does not enter planar motion
         (
             rabbit().replace(
                 '<child link="left_thigh"/><origin xyz="0 0',
@@ -140,6 +141,7 @@ def test_a_file_as_frost_writes_it(urdf):
     """No base, no limits, no feet, inertia about y alone, a zero axis on what is fixed."""
     text = rabbit(base=False).replace(LIMIT, "")
     text = re.sub(r'ixx="[^"]*" iyy="([^"]*)" izz="[^"]*"', r'ixx="0" iyy="\1" izz="0"', text)
+    # a link that is called a toe would be taken for a foot
     text = text.replace("_toe", "_ankle").replace(
         'type="fixed">', 'type="fixed"><axis xyz="0 0 0"/>'
     )
@@ -329,7 +331,7 @@ def test_legs_that_differ_by_more_than_one_percent_are_refused_with_the_number(
     urdf, key, value, gap
 ):
     """key: what differs in the right leg (m mass, c COM, yy inertia); value: its number, where the left leg has
-    2, 0.3, 0.03 and 0.8; gap: the relative difference that the message states.
+    2, 0.3, 0.03 and 0.8; gap: the difference over the larger one, which the message states.
     """
     with pytest.raises(ModelError, match=f"legs differ.*_(leg|foot)', '{gap}'"):
         derive(urdf(leg(two_legs(), "right", **{key: value})))
@@ -350,12 +352,15 @@ def test_point_masses_have_the_inertia_of_points(urdf, inertia):
         )
         D = sum(m * np.real(np.outer(d.conj(), d)) for m, d in points)
         np.testing.assert_allclose(derived.biped.inertia(q), D, rtol=0, atol=1e-12)
+    # a missing tag is remarked, zeros that the file states are not
     said = [note for note in derived.notes if "<inertia>" in note.text]
     assert len(said) == (inertia == "")
 
 
 def test_rotors_of_transmissions_are_reflected_by_their_gears(urdf):
-    """D_s has N^2 J on its diagonal, by joint; either leg has an equal rotor."""
+    """D_s has N^2 J on its diagonal, by joint; either leg has an equal rotor, 40^2 x 2e-4 = 0.32. A rotor in
+    one leg alone, and an inertia that is no number, are refused.
+    """
     gear = "<mechanicalReduction>40</mechanicalReduction>"
     left, right = (
         f'<transmission><joint name="{side}_hip"/><actuator name="m">{x}</actuator></transmission>'
@@ -666,11 +671,15 @@ WITHOUT_TOES = rabbit().replace(TOE, "").replace('<link name="left_toe"/>', "")
         (rabbit(), Hints(actuated=("q1_left",) * 2), "expected each at most once and from"),
         (rabbit(), Hints(tip=(0.0, 0.0, 0.1)), "give the links with this tip by .* found None"),
         (rabbit(), Hints(("world", "left_toe")), "'world' lies on the axis of its own joint"),
+        # an arm with a hand is a third end of the tree, and no end has the name of a foot
         (ARM, Hints(), r"which two of the links \['right_tip', 'left_tip', 'hand'\] are the feet"),
         (STILL, Hints(), "no revolute joint below the trunk 'torso'; a biped"),
+        # "ground" and "stance_pin" are the package's own link and joint at the stance foot
         (rabbit().replace('left_shin"', 'ground"'), Hints(), "joint 'q2_left': link 'ground' and"),
         (rabbit().replace("q1_left", "stance_pin"), Hints(), "'stance_pin': .* rename it"),
+        # an arm without mass
         (EMPTY, Hints(), "'shoulder': it moves no mass; give link 'arm' an <inertial>, or make it"),
+        # the right leg hangs on the left one, so the left foot has to be the stance foot, named first
         (COMPASS, Hints(("right_foot", "left_foot")), r"feet=\('left_foot', 'right_foot'\)"),
     ],
 )
@@ -752,6 +761,7 @@ def test_what_a_urdf_states_of_its_joints_is_read_said_and_written(urdf, tmp_pat
     for name, limit in limits.items():
         at = text.index("<limit", text.index(f'name="{name}"'))
         text = text[:at] + limit + text[text.index("/>", at) + 2 :]
+    # revolute, so that the missing end alone is why q1_right has no range
     text = text.replace('name="q1_right" type="continuous"', 'name="q1_right" type="revolute"')
     derived, free = derive(urdf(text)), (-math.inf, math.inf)
     # [1]: the joints of odd single supports, in which the left leg stands as in the file

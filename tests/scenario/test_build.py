@@ -117,8 +117,8 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     assert row["speed"] == pytest.approx(speed, rel=1e-6)
     last = sum(lengths[1:]) / sum(c.duration for c in walk.certificates[1:])
     assert row["last_speed"] == pytest.approx(last, rel=1e-6)
-    weighed = scene.biped.mass * 9.81 * row["distance"]
-    assert row["cost_of_transport"] == pytest.approx(row["work"] / weighed, rel=1e-12)
+    m_g_L = scene.biped.mass * 9.81 * row["distance"]
+    assert row["cost_of_transport"] == pytest.approx(row["work"] / m_g_L, rel=1e-12)
     assert row["speed_change"] == pytest.approx((speed - usual) / usual, abs=1e-6)
 
 
@@ -132,7 +132,8 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
 )
 def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
     """idle: a value that can have no effect, as a delay without a clock; said: its name in the error.
-    with_effect: the value beside it with which it acts and is taken; None where there is none.
+    with_effect: the value beside it with which it acts; None where there is none. The scenario with both equals
+    that of its own record; no walker is built of it.
     """
     with pytest.raises(ba.BipedError, match=said):
         build(Scenario(**idle))
@@ -181,6 +182,7 @@ def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_p
         ({"hardware": 5}, "hardware: found 5"),
         ({"run": 5}, "run: found 5"),
         ({"run": {"method": "adaptive", "h": 1e-3}}, "run.h: is 0.001 s, and 'adaptive' chooses"),
+        # `fine` is a step too, and the message is that of h
         (
             {"run": {"method": "adaptive", "fine": 1e-3}},
             "run.h: is 0.001 s, and 'adaptive' chooses",
@@ -199,6 +201,7 @@ def test_wrong_values_of_a_scenario_are_refused_by_name(values, message) -> None
         ({"name": "super twisting", "slope": "0.05 1/ms"}, 50.0),
         ({"name": "foot barrier", "tolerance": "3 mm"}, 3e-3),
         ({"name": "stride PI", "inner": {"name": "PD", "K_d": "250 N m s/rad"}}, 250.0),
+        # a class of one's own, which is not imported here: any unit is taken
         ({"name": "my_law:Mine", "width": "3 mm"}, 3e-3),
         ({"name": "NPD", "K_p": "4900 ms"}, None),
         ({"name": "NPD", "K_p": "4900 N m"}, None),
@@ -236,15 +239,16 @@ FROM_THE_SCENARIO = {
 
 
 def test_each_number_of_a_packaged_part_has_a_unit() -> None:
-    """A unit is given for every number that the part takes, and for nothing else.
-
-    Shapes of pushes are not looked at: their numbers are fields of `Push`, which has units.
+    """A unit is given for every number that a controller, contact, sensor or touchdown takes, and for nothing
+    else. Shapes of pushes are not looked at: their numbers are fields of `Push`, which has units.
     """
     for kind in ("controller", "contact", "sensor", "touchdown"):
         for name, entry in REGISTRY[kind].items():
+            # K_p and K_d are no arguments of their own, but numbers of the argument `gains`
             assert not set(entry.units) - {"K_p", "K_d"} - set(takes(entry.load())), name
             for value, parameter in takes(entry.load()).items():
-                number = re.search("loat", str(parameter.annotation))
+                number = re.search("loat", str(parameter.annotation))  # float, PositiveFloat, ..
+                # a contact's window is a field of the scenario, with a unit there
                 if (
                     number
                     and value not in FROM_THE_SCENARIO
@@ -312,6 +316,7 @@ def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> N
     """
     found = operator.attrgetter(name)(build(Scenario("NPD", **values)))
     if isinstance(expected, tuple | float) and name != "ground_steps":
+        # rtol: PERIOD has four digits
         np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-12)
     else:
         assert found == expected
@@ -334,6 +339,7 @@ def test_each_value_is_that_of_a_part_of_the_walker(values, name, expected) -> N
             {"pushes": [{"shape": "hip force", "torque": 3.0}]},
             "torque: .*'hip force' takes no torque",
         ),
+        # no push: a controller without torque on a robot with motors
         ({"controller": "passive"}, "'passive' does not fit robot 'rabbit' with 4 motors"),
     ],
 )
@@ -419,6 +425,7 @@ FINE = {"pushes": "q1=3@2:0.1-0.3", "run": {"fine": 1e-4, "h": 1e-3, "impacts": 
             "return map takes no start.speed; leave",
         ),
         (lambda: specification_of(Scenario(ground="mujoco")), "'mujoco', expected 'rigid'"),
+        # fine steps make three parts of the walk; a clock with a touchdown detector does not restart
         (
             lambda: walk_scenario(Scenario(**NOTICED, **FINE)),
             "of 3 parts needs a clock that restarts",

@@ -51,7 +51,7 @@ def test_an_own_controller_and_its_gain_are_taken_on_the_command_line(own: str) 
 def test_a_push_of_ones_own_and_an_observer_of_the_package_are_built_by_their_names(
     own: str,
 ) -> None:
-    """The scenario's torque, epsilon and order reach the constructors of both classes."""
+    """The scenario's torque reaches the push and its order the observer, which takes epsilon too."""
     push = build(ba.Scenario(pushes=[{"shape": f"{own}:Shove", "torque": 3.0}])).disturbance
     assert type(push).__name__ == "Shove"
     assert push.amplitude[0] == 3.0
@@ -67,6 +67,7 @@ def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, name: str) -> 
     in its rows, and half the gain has a larger error.
     """
     if name:
+        # a copy, so that the name is forgotten after the test
         monkeypatch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
         ba.register("controller", name, registry.find("controller", f"{own}:Mine").load())
     tables = {
@@ -84,10 +85,12 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     """The name is found in any case of letters. Names that are taken, read as module:Class or are empty, kinds
     that do not exist, and what is no class are refused.
     """
+    # a copy, so that the names are forgotten after the test
     monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
     Mine = registry.find("controller", f"{own}:Mine").load()
     ba.register("controller", "mine", Mine)
     assert isinstance(build(ba.Scenario("Mine")).controller, Mine)
+    # "ADRC-output" is the package's "ADRC output": case, spaces and hyphens do not count
     for taken in ("mine", "npd", "ADRC-output", "a.b:C", " "):
         with pytest.raises(InputError, match="taken or reads as module:Class"):
             ba.register("controller", taken, Mine)
@@ -142,6 +145,7 @@ def test_a_controller_is_made_of_the_scenarios_values_and_of_its_own_defaults() 
     leso = made(controller="LESO")
     assert (leso.observer.m, set(leso.observer.poles)) == (1, {-500.0})
     assert made(controller={"name": "LESO", "observer": {"bandwidth": 300.0}}).observer.m == 1
+    # an observer of order m has m + 2 poles
     poles = {"controller": "LESO", "controller.observer.poles": "-10,-20,-30,-40"}
     assert made(**poles).observer.m == 2
     assert made(controller="ADRC").observer == ba.GPIObserver.from_poles(ba.TABLE_I)

@@ -65,7 +65,7 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
     judged = walk.feasible_within(ba.Limits()).supports
     assert [i for i, _ in over] == [0] * walk.impacts
     for (_, ours), theirs in zip(over, judged, strict=False):
-        for name in (
+        for number in (
             "step",
             "duration",
             "mean_friction",
@@ -73,15 +73,15 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
             "peak_torque",
             "impulse_ratio",
         ):
-            assert getattr(ours, name) == pytest.approx(getattr(theirs, name), rel=1e-9), name
+            assert getattr(ours, number) == pytest.approx(getattr(theirs, number), rel=1e-9), number
     assert sample.status[0] is ba.Status.COMPLETED
 
 
 @pytest.mark.parametrize("restart", [True, False])
 @pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
 def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in_python):
-    """Sample instants are t0 + k T: with `restart` t0 is the time of the last impact, else 0. The impact is no
-    sample instant itself (T = 7 ms, by more than 1 % of T), so that both clocks differ.
+    """Sample instants are t0 + k T: with `restart` t0 is the time of the last impact, else 0. The impact is at
+    no multiple of T = 7 ms, by more than 1 % of T, so that both clocks differ.
     """
     T, push = 7e-3, InPython() if in_python else None
     timing = ba.SampledTime(T, restart=restart)
@@ -103,7 +103,7 @@ def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in
 
 @pytest.mark.parametrize("s", [NPD, IN_PYTHON, WAITING], ids=["NPD", "CLF-QP", "MuJoCo"])
 def test_save_and_restore_repeat_exactly(s):
-    """A saved state, restored in the same walk and in another one, goes on to the same numbers to the last bit;
+    """A saved walk, restored in its own place and in another one, goes on to the same states to the last bit;
     40 samples of 1 ms in all.
     """
     stepper = ba.Stepper(s, 2)
@@ -214,6 +214,7 @@ def test_a_walk_that_has_ended_stays_where_it_is():
     rows = moved(stepper, 900, force=[-400.0, 0.0])
     assert rows[-1].status[0] is ba.Status.RAN_AWAY
     assert rows[-1].t[0] == rows[-2].t[0] < 0.9
+    # COMPLETED is also the status of a walk that goes on
     assert stepper.reset(0).status[0] is ba.Status.COMPLETED
 
 
@@ -228,7 +229,7 @@ def test_a_stepper_is_refused_what_it_cannot_step(biped, gait):
     stepper = ba.Stepper(NPD, 2)
     with pytest.raises(InputError, match="call reset"):
         stepper.step()
-    assert stepper.reset(1).status[0] is None
+    assert stepper.reset(1).status[0] is None  # walk 1 has begun, walk 0 not
     stepper.reset()
     for inputs in ({"torque": np.zeros(5)}, {"force": [[np.nan, 0.0]] * 2}):
         with pytest.raises(InputError, match=r"expected \(2, .\)|finite"):

@@ -76,11 +76,11 @@ def test_a_walk_comes_back(values: dict, tmp_path: Path) -> None:
 def test_a_walk_without_motors_has_an_outcome() -> None:
     """No joint is driven: no error and no torque, both 0."""
     s = ba.Scenario("passive", robot="compass", **FAST)
-    left = ba.walk_scenario(s).outcome
-    assert left.walked
-    assert left.x_minus.shape == (left.impacts, 4)
-    assert left.durations[0] > 0.1
-    assert (left.peak_error, left.rms_error, left.peak_torque) == (0.0, 0.0, 0.0)
+    outcome = ba.walk_scenario(s).outcome
+    assert outcome.walked
+    assert outcome.x_minus.shape == (outcome.impacts, 4)  # two angles and two rates
+    assert outcome.durations[0] > 0.1
+    assert (outcome.peak_error, outcome.rms_error, outcome.peak_torque) == (0.0, 0.0, 0.0)
 
 
 def test_a_walk_of_python_goes_on_where_it_was_stored(biped, gait, tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_a_walk_of_python_goes_on_where_it_was_stored(biped, gait, tmp_path: Pat
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), torque_limit=120.0)
     again = ba.load_walk(ba.walk(walker, gait, 1, engine="compiled").save(tmp_path / "a.npz"))
     assert again.scenario is None
-    assert again.walker.model is None
+    assert again.walker.model is None  # the controller's model is the plant, as in the walk
     ends = [
         ba.walk(w, gait, 2, engine="compiled").trajectory.final_state
         for w in (walker, again.walker)

@@ -62,7 +62,7 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
         "hardware.touchdown.late": 4e-3,
         "hardware.touchdown.false_at": [1, 0.4105],
         "ground.plant": plant,
-        "hardware.torque_limit": 150.0,
+        "hardware.torque_limit": 150.0,  # reached, as an early notice makes the controller ask for more
     }
     row = run_trials([values])[0]
     assert row["status"] == "COMPLETED"

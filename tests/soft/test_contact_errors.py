@@ -36,7 +36,8 @@ def test_each_error_is_looked_for_in_its_own_time():
     assert found.pushed_error == 2.0  # not 4, which is 0.1 s after its end
     assert found.settled_error == 4.0
     squares = 9.0 + 4.0 + 1.0 + 16.0
-    nodes = 2 * (500 - 61)  # without the 61 of each step in which contact settles
+    nodes = 2 * (500 - 61)  # of both steps, without the 61 in which contact settles
+    # each node has two errors, of which one has the humps
     assert found.settled_rms == pytest.approx(np.sqrt(squares / (2 * nodes)), rel=1e-3)
 
 

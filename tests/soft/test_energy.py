@@ -70,7 +70,8 @@ def test_energy_closes_but_for_the_step_in_which_a_foot_comes_down(gait, frictio
         rest = np.sum(np.delete(before, jump)) + np.sum(after)
         assert abs(rest) < 0.01 * done
         assert abs(before[jump]) < 0.55 * h * most
+        # the other steps before the touchdown miss little beside it
         assert np.sum(np.abs(np.delete(before, jump))) < 0.1 * abs(before[jump])
-        gaps.append(abs(np.sum(after)))
+        gaps.append(abs(np.sum(after)))  # nothing jumps after the touchdown
     if not friction:  # static friction is a constraint of the engine's own, with jumps of its own
         assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.25)

@@ -2,6 +2,7 @@
 
 walker_on(biped, gait, *steps) is RABBIT under NPD with these steps of the ground, walked(walker, gait) its loop
 and run in MuJoCo; the fixture level is both on level ground. StepDown(k, h): single support k ends h [m] lower.
+steps_of has what the feet did in each single support, SOFT the values of a scenario in MuJoCo.
 """
 
 from __future__ import annotations
@@ -62,6 +63,7 @@ def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, leve
     found = run.events("foot_strike")[1].t - level[1].events("foot_strike")[1].t
     assert found == pytest.approx(longer, abs=1.5e-3)
     assert biped.swing_foot(run.arcs[2].x[-1, :5])[1] == pytest.approx(0.0, abs=4e-4)
+    # of single support 3 its first 40 nodes alone, in which the foot lands
     after = replace(run, arcs=tuple(replace(arc, **first(arc, 40)) for arc in run.arcs[2:]))
     (landing,) = steps_of(loop, after)
     assert 0.2e-3 < landing.depth < 0.45e-3  # 0.41 mm on level ground
@@ -100,6 +102,7 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
     that was sent to another process (pickle).
     """
     ground = SoftGround(foot_radius=5e-3)
+    # any step of the ground gives each foot a plane of its own
     plant = MuJoCoPlant(biped, ground, slope, ground_steps=(ba.StepDown(1, 0.01),))
     q, out = gait.start(biped)[0], ground_axes(slope)[1]
     q = q - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
@@ -128,5 +131,6 @@ def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
     falls = [foot[1] - foot[3] for foot in feet]
     np.testing.assert_allclose(falls, [walk.walker.drop(k) for k in (1, 2, 3)], atol=5e-4)
     assert np.ptp(falls) > 2e-3
+    # the steps are stored with the walk
     kept = walk.trajectory.settings["plant"]["ground_steps"]
     assert kept[0]["height"] == walk.walker.ground_steps[0].height

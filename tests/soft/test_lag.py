@@ -1,6 +1,7 @@
-"""Motors with lag in MuJoCo: tau u_m' = u - u_m, by closed form, by energy and against the rigid plant.
+"""Motors with lag in MuJoCo: tau u_m' = u - u_m, by closed forms and against motors without lag.
 
-u is the torque asked for, u_m the one on the joints; TAU = 5 ms is the lag. TICK is a clock of 1 kHz.
+u is the torque asked for, u_m the one on the joints; TAU = 5 ms is the lag. TICK is a clock of 1 kHz, SOFT the
+values of a scenario in MuJoCo, U four torques.
 """
 
 from __future__ import annotations
@@ -38,6 +39,7 @@ def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau, method):
     """For a constant torque u asked for from the start on, u_m = u (1 - exp(-t / tau)): for lags much shorter
     and longer than the period of 1 ms, in both loops (`made`) and both methods.
     """
+    # Holds asks for u; None: no push
     loop = made(MuJoCoPlant(biped, lag=tau, integrator=method), Holds(), None, TICK, biped)
     arc = run_of(loop, gait, 0.02).arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
@@ -49,7 +51,7 @@ U = np.array([40.0, -30.0, 20.0, -10.0])
 
 def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
     """In free flight, 9 m up, where no contact jumps, half the step leaves a quarter of the error; 1/64 ms is
-    the exact one.
+    the exact one. All fly for 10 ms under constant torques U, without a load (None).
     """
     soft = SoftGround(time_constant=5e-3)
     plants = [MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
@@ -64,7 +66,7 @@ def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
     assert coarse / fine == pytest.approx(4.0, rel=0.05)
 
 
-def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
+def test_a_walk_of_a_scenario_has_the_u_m_of_the_closed_form():
     """The recorded torque goes to the torque that is held in x (its last four numbers) by exp(-dt / TAU),
     stretch by stretch; in machine code and in Python alike.
     """
@@ -76,7 +78,7 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
     ]
     for walk in walks:
         assert walk.trajectory.settings["plant"]["lag"] == TAU
-        assert walk.walker.held.motors.speed == 1.0 / TAU
+        assert walk.walker.held.motors.speed == 1.0 / TAU  # the rate [1/s] of the lag
         arc, u = walk.trajectory.arcs[0], walk.signals.u[walk.signals.step == 1]
         ways, asked = np.diff(arc.t)[:, np.newaxis], arc.x[:-1, -4:]
         expected = asked + np.exp(-ways / TAU) * (u[:-1] - asked)
@@ -115,6 +117,7 @@ def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
     # [:15]: without u_m, which ideal motors do not have
     expected = ideal.footing(row[:15], u_m, still).force
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+    # the row has its own u_m, so that u does not count
     np.testing.assert_allclose(plant.footing(row, u, still).force, expected, rtol=1e-6)
     assert np.max(np.abs(expected)) > 100.0
 

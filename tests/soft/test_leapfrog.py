@@ -47,6 +47,7 @@ def test_a_pendulum_is_of_second_order_and_of_first_without_the_shifts():
         (0.0, 0.8), (0.3, -1.0), method="DOP853", rtol=1e-12, atol=1e-12,
     ).y[:, -1]  # fmt: skip
     for move, order in ((leapfrog, 2), (mujoco().mj_step, 1)):
+        # swung: angle and rate after 0.8 s in MuJoCo, by steps of h
         coarse, fine = (np.abs(swung(move, h, 0.8) - exact) for h in (2e-3, 1e-3))
         np.testing.assert_allclose(coarse / fine, 2.0**order, rtol=0.02)
 
@@ -85,6 +86,7 @@ def test_leapfrog_goes_through_a_touchdown_as_with_a_sixteenth_of_the_step(biped
     places of the foot within 0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
     """
     first = walked(gait, ba.NPDController, MuJoCoPlant(biped), 1).arcs[0]
+    # nodes are 1 ms apart: the first one later than 8.5 ms before the end is 8 ms before it
     x = first.x[np.searchsorted(first.t, first.t[-1] - 8.5e-3)]
 
     def feet(h, integrator):
@@ -93,7 +95,7 @@ def test_leapfrog_goes_through_a_touchdown_as_with_a_sixteenth_of_the_step(biped
             # under the last torques of that state, x[-4:], and no load; [1]: the swing foot
             row = engine.moved(k * 1e-3, row, x[-4:], None, (k + 1) * 1e-3)
             found.append(engine.points()[1])
-        return 1e3 * np.array(found)
+        return 1e3 * np.array(found)  # [mm]
 
     exact = feet(1.25e-5, "rk4")
     for integrator, place, depth in (("rk4", 0.06, 0.03), ("leapfrog", 0.3, 0.1)):

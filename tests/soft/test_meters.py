@@ -2,7 +2,7 @@
 
 Readings are force, place and velocity of both feet, computed after a run for each stored instant; feet_of(arc)
 has them (K, 2, 2): instant, stance and other foot, (x, z). steps_of has slip, support and depth of each step.
-under_npd makes a loop in MuJoCo; the fixture walk is such a loop with its run of two steps.
+under_npd makes a loop in MuJoCo; the fixture walk is such a loop with its run of two steps. STILL is no push.
 """
 
 from __future__ import annotations
@@ -78,6 +78,7 @@ def test_the_point_that_touches_moves_as_the_places_say(walk):
     """
     arc = with_readings(*walk).arcs[1]
     _, place, speed = feet_of(arc)
+    # a time stands twice where something jumps
     inside = np.flatnonzero(np.diff(arc.t) > 0.0)
     h = np.diff(arc.t)[inside, np.newaxis, np.newaxis]
     slope = (place[inside + 1] - place[inside]) / h
@@ -117,9 +118,10 @@ def test_a_block_that_slides_to_rest():
     feet = (x.reshape(-1, 4) for x in (force, place, speed))
     read = dict(zip(FEET, (*feet, none), strict=True))
     arc = Arc(Mode(), t, none, none, read=read)
-    found = step_of(arc, mu, FLAT)
+    found = step_of(arc, mu, FLAT)  # axes of level ground
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
+    # a second arc that is 1000 times shorter: no foot slips as far as SLIP in it
     run = SimpleNamespace(arcs=(arc, replace(arc, t=1e-3 * t)))
     far = (v0 - np.sqrt(v0**2 - 2.0 * mu * g * SLIP)) / (mu * g)  # v0 t - mu g t^2 / 2 = SLIP
     assert slip_times(run, mu, FLAT) == pytest.approx((far, np.inf), rel=5e-3)
@@ -129,6 +131,7 @@ def test_less_friction_slips_and_flies(biped, gait):
     """With friction 0.2 the stance foot slips and uses all of it, with 1.0 none slips. Both feet are in the air
     for more than 5 ms where the robot slips, for less where it does not. A step lasts as long as its arc.
     """
+    # SoftGround: friction and time constant [s]
     rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0, 4e-3), h=4e-4), gait)
     holds = steps_of(rough, run_of(rough, gait, impacts=1))
     smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2, 4e-3), h=4e-4), gait)
@@ -156,22 +159,23 @@ def standing(biped, time_constant, impedance=(0.9, 0.9)):
 
 
 @pytest.mark.parametrize(
-    ("time_constant", "impedance", "place"),
+    ("time_constant", "impedance", "index"),
     [(4e-3, (0.9, 0.9), 0), (8e-3, (0.9, 0.9), 1), (4e-3, (0.9, 0.92), 0), (1.2e-2, (0.5, 0.6), 1)],
 )
 def test_feet_at_rest_stand_as_deep_as_the_reported_stiffness_says(
-    biped, time_constant, impedance, place
+    biped, time_constant, impedance, index
 ):
     """Weight over depth is the stiffness that the plant reports: index 0 at the surface, for hard ground, and 1
     below 1 mm, for soft ground, where the impedance has its second value. Both feet together carry the weight:
     soft ground still rocks a little, which loads one of them.
     """
+    # standing: on both feet without motors, its joints held by static friction
     loop, run = standing(biped, time_constant, impedance)
     force, place_of, _ = feet_of(with_readings(loop, run).arcs[-1])
     plant, depth = loop.plant, -place_of[-1, :, 1]
     load = force[-1, :, 1].sum()
     assert load == pytest.approx(biped.weight, rel=5e-3)
-    assert load / depth.sum() == pytest.approx(plant.stiffness[place], rel=5e-3)
+    assert load / depth.sum() == pytest.approx(plant.stiffness[index], rel=5e-3)
     if impedance[0] == impedance[1]:  # d = 0.9: depth r = (1 - d) T^2 F / m
         expected = 0.1 * time_constant**2 * force[-1, :, 1] / plant.foot_mass
         np.testing.assert_allclose(depth, expected, rtol=5e-3)

@@ -43,8 +43,8 @@ def test_the_file_read_back_is_the_model_that_walks(robot):
 
 
 def test_shapes_are_seen_and_touch_nothing(biped):
-    """The shapes are Rabbit's own; all but the two feet and the ground are without contact, and nothing has
-    their mass.
+    """The shapes are Rabbit's own, and three more: two feet and the ground. No shape touches another by
+    itself (feet and ground do by MuJoCo's <pair>), and masses are those without shapes.
     """
     plant = MuJoCoPlant(biped)
     model = read_back(mjcf(plant))
@@ -54,6 +54,7 @@ def test_shapes_are_seen_and_touch_nothing(biped):
     np.testing.assert_array_equal(model.body_mass, plant.model.body_mass)
     first = biped.tree.links["left_shin"].visuals[0]
     seen = [k for k in range(model.ngeom) if model.geom_bodyid[k] == model.body("left_shin").id]
+    # MuJoCo's cylinders have half the length
     assert model.geom_size[seen[0], :2] == pytest.approx([first.size[0], first.size[1] / 2])
 
 

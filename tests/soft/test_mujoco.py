@@ -48,6 +48,7 @@ def test_the_plant_on_a_pinned_foot_accelerates_as_pinocchio_computes(robot):
     """The robot is pinned at its foot, at random states under random forces: MuJoCo's accelerations, mapped by
     T to our joints, are those of Pinocchio, to round-off.
     """
+    # 1e-3: an integration step, which is not used
     mj, model, random = mujoco(), model_of(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
     for _ in range(20):
@@ -82,7 +83,7 @@ def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plan
     mujoco().mj_forward(plant.engine.model, data)
     power = (data.qfrc_actuator + data.qfrc_applied) @ data.qvel
     assert power == pytest.approx(u @ v[:4] + load.zeta @ v, rel=1e-12)
-    read = plant.engine.read(np.zeros(15))
+    read = plant.engine.read(np.zeros(15))  # a row of zeros that is filled
     np.testing.assert_allclose(read, np.concatenate((q, v, own)), rtol=0.0, atol=1e-14)
 
 
@@ -160,6 +161,7 @@ def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, 
 
 def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait):
     """In free flight a torque A on the torso for T = 0.2 ms within a period of 1 ms changes the spin by A T."""
+    # a run usually ends where the stance foot is 2 cm up; here it may be at 99 m
     plant, (q, v) = MuJoCoPlant(biped, flight_height=99.0), gait.start(biped)
     push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 500.0], start=1.4e-3, stop=1.6e-3)
     system = loop_on(plant, ba.Passive(), disturbance=push)
@@ -198,8 +200,8 @@ def test_a_foot_inside_the_ground_is_no_start(biped, gait):
 
 
 def test_wrong_values_and_a_missing_mujoco_are_refused(biped, monkeypatch):
-    """None in sys.modules makes the import fail, as where MuJoCo is not installed: the message says how to
-    install it.
+    """Values out of range, a robot without motors (compass), a method and a step that do not exist. None in
+    sys.modules makes the import fail, as where MuJoCo is not installed: the message says how to install it.
     """
     for make in (
         lambda: SoftGround(friction=-1.0),
@@ -211,9 +213,9 @@ def test_wrong_values_and_a_missing_mujoco_are_refused(biped, monkeypatch):
     ):
         with pytest.raises(InputError):
             make()
-    with pytest.warns(UserWarning, match="time constant"):
+    with pytest.warns(UserWarning, match="time constant"):  # a step too long for the contact
         MuJoCoPlant(biped, h=1e-3)
-    mujoco_robot.mujoco.cache_clear()
+    mujoco_robot.mujoco.cache_clear()  # which keeps the module once it was imported
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(InputError, match=r"biped-adrc\[mujoco\]"):
         MuJoCoPlant(biped)

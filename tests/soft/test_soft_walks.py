@@ -49,7 +49,7 @@ def test_a_scenario_on_soft_ground_is_the_walk_of_a_loop_around_the_plant(made, 
 
 
 def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
-    """plant="mujoco" gives the scenario's walk to the last bit; a plant itself keeps its own friction."""
+    """With plant="mujoco" the walk ends as the scenario's, to the last bit; a plant keeps its own friction."""
     walker = Walker(biped, ba.NPDController(gait.constraint), timing=TICK, torque_limit=150.0)
     walk = ba.walk(walker, gait, impacts=2, plant="mujoco")
     assert np.array_equal(walk.trajectory.final_state, made.trajectory.final_state)
@@ -154,6 +154,7 @@ def test_values_of_ground_and_engine_come_from_the_scenario(ground, h):
     s = ba.Scenario("NPD", ground=own | ground, run={"impacts": 1}, **SOFT)
     plant = ba.walk_scenario(s).trajectory.settings["plant"]
     found = plant | plant["ground"]
+    # numbers alone, as other values cannot be in a set; the plant has plant_step as h
     assert (own | ground).items() - {("plant_step", h)} <= {
         (name, x) for name, x in found.items() if isinstance(x, float)
     }
@@ -186,8 +187,8 @@ PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3
 
 def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_error(biped, gait):
     """ADRC with a slow observer that restarts at each tick for 15 ms after a touchdown (Hold) is under the same
-    push as NPD: compared is the largest error from the push's onset to 50 ms after its end. Not held, the
-    observer takes contact for a disturbance and leaves more than half of NPD's.
+    push as NPD: compared is the largest error from the push's onset to 50 ms after its end. The observer is
+    held since it would take contact for a disturbance.
     """
     h, plant, found = gait.constraint, MuJoCoPlant(biped, SoftGround(friction=0.8)), []
     slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))

@@ -74,7 +74,7 @@ def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
     loop, run = walked(plant, gait, FaultyTouchdown(late=4e-3), controller=ba.NPDController)
     (event,) = run.events("foot_strike")
     arc, biped = run.arcs[1], plant.biped
-    for k in np.flatnonzero(arc.t[:-1] < event.t + 3.5e-3):
+    for k in np.flatnonzero(arc.t[:-1] < event.t + 3.5e-3):  # before it is noticed
         # at sample instants: of two nodes of equal time the later one
         if (
             round(arc.t[k] / T) * T == pytest.approx(arc.t[k], abs=1e-12)

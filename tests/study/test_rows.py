@@ -151,6 +151,7 @@ def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
     """errors: the first is raised by the work; a second one already where work is handed in. A broken executor
     is named as a dead worker, any other error by itself.
     """
+    # DEAD: the error of a broken executor, to which the second sentence belongs
     said = r"to a worker or back: ValueError\('no'\)|a worker of the executor died, which the study"
     with pytest.raises(SimulationError, match=said.split("|")[errors[0] is DEAD]):
         plants.carried(plants.ROWS, tmp_path, plants.rows, Broken(*errors))
@@ -160,10 +161,13 @@ def test_an_executor_that_fails_ends_the_study(tmp_path, errors):
     ("kind", "ends"), [("rows", (signal.SIGKILL, signal.SIGINT)), ("costs", (signal.SIGKILL,))]
 )
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind, ends):
-    """A kill and then a Ctrl-C at random moments of a study, a kill of a search."""
+    """A kill and then a Ctrl-C at random moments of a study (rows), a kill of a search (costs): each goes on,
+    and in the end has the rows of one that was never ended.
+    """
     script, random = FOLDER / "plants.py", np.random.default_rng(38)
     out = tmp_path / "killed"
     for by in ends:
+        # the study in a process of its own, with 0.03 s per row
         process = started(sys.executable, str(script), kind, str(out), "0.03")
         process.stdout.readline()  # it has begun
         time.sleep(random.uniform(0.05, 0.3))
@@ -257,7 +261,7 @@ def test_a_walk_without_anything_drawn_is_made_once(tmp_path):
     assert [row["run.seed"] for row in others] == [*range(6)]
     exact, noisy = found.table()
     assert (exact.walks, noisy.walks, noisy.ratio.pairs) == (1, 6, 6)
-    assert noisy.ratio.p < 1.0
+    assert noisy.ratio.p < 1.0  # there is a p, not NaN, though NPD has one walk
     assert found.notes == (notes[0].note,)
 
 
@@ -270,6 +274,7 @@ HOLD = {"controller.contact.name": "hold", "hardware.period": None}
         ({"base": {"robot.name": "rabit"}}, "study 'typo', at base: .*rabit"),
         ({"grid": {"controller.name": ["ADRC", "ADCR"]}}, "controller.name: .*ADCR"),
         ({"base": {"start.q9": 0.1}}, "q9"),
+        # HOLD: a controller that needs a period, and the period None
         ({"cases": {"a": {}, "b": HOLD}}, "at case = b: .*period"),
     ],
 )
@@ -283,8 +288,8 @@ def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tabl
 
 
 def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
-    """The file has results of a study with another value, a text in their place, and half a file: each is
-    refused and no byte of them changes.
+    """A file of results (RESULTS) of a study with another value, a text in its place, and half a file: each is
+    refused, and the first file keeps all its bytes.
     """
     made(tmp_path, 1)
     before = (tmp_path / RESULTS).read_bytes()
@@ -425,7 +430,9 @@ def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
 
 
 def test_the_command_walks_writes_and_goes_on(tmp_path):
-    """8 walks are 9 lines of a table; the same command again makes the same page."""
+    """8 walks are 9 lines of a table; the same command again makes the same page. The study's name has markup,
+    which is text in the page. Of two walks a median has no interval, which is said.
+    """
     path, out, table = tmp_path / "walks.toml", tmp_path / "out", tmp_path / "rows.csv"
     path.write_text(
         'name = "a <b> $x$"\nseeds = 2\nbase = { run.impacts = 1, start.rate_spread = 0.05 }\n'
@@ -440,7 +447,7 @@ def test_the_command_walks_writes_and_goes_on(tmp_path):
     assert len(table.read_text().splitlines()) == 9
     page = (out / "study.html").read_text()
     assert "a &lt;b&gt; $x$" in page
-    assert page.count("<figure>") == 4
+    assert page.count("<figure>") == 4  # errors, their ratio, and two maps over the period
     command(*line)
     assert (out / "study.html").read_text() == page
     few = tmp_path / "few.toml"

@@ -143,10 +143,12 @@ def test_variables_that_have_no_effect_are_left_out_of_a_candidate():
     assert list(search.some({})) == [npd, npd, middle]
     # 3 candidates; 5 finalists and the case; the choice and the case: times the walks of each set
     assert search.count({"search": 2, "choice": 3, "test": 5}) == 3 * 2 + 6 * 3 + 2 * 5
+    # walks(x): a walk that ended well, with the objective x
     walk = lambda asked: [walks(float(c.values.get(order, 9))) for c in asked]  # noqa: E731
     search = search.model_copy(update={"budget": 30, "generation": 5, "walks": search.walks})
     found = searched(search, {}, walk, lambda c: None)
     assert len(found) == 30
+    # [0] is the case itself, for which nothing was chosen
     assert {type(c.chosen[order]) for c in found[1:]} == {int}
     assert {c.chosen[order] for c in found[1:]} == {1, 2, 3, 4}
     assert {c.chosen["controller.name"] for c in found[1:]} == {"NPD", "LESO"}
@@ -179,7 +181,7 @@ def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path
     """
     limits = [{"column": "peak_error", "most": 0.5, "over": "median"}]
     tables = plants.tables(budget=8, generation=4, limits=limits)
-    message = r"median peak_error at most 0.5: missed by 8.*nearest is"
+    message = r"median peak_error at most 0.5: missed by 8.*nearest is"  # by all 8 candidates
     with pytest.raises(InputError, match=message):
         plants.carried(tables, tmp_path / "none", plants.costs)
     tables["cases"] = {"none": {}, "some": {"controller.bonus": 100.0}}
@@ -296,6 +298,7 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     assert dry[0] == "walks: at most 7 walks"
     assert dry[1] == "Walked once, as nothing that acts is drawn from the seed: walks."
     command(*line)
+    # errors, their ratio, and the path of the search
     assert (out / "study.html").read_text().count("<figure>") == 3
     best = command("simulate", "--scenario", out / "chosen.toml", "--impacts", "2")
     assert "2 impacts" in best

@@ -75,6 +75,7 @@ def test_points_are_all_combinations_in_si_units(tmp_path):
         found = s.hardware.period, s.start.own["v5"], s.hardware.encoders.noise, s.run.seed
         assert found == tuple(p.at[k] for k in names[3:])
         first, pushed = p.at["case"] == "first", p.at["condition"] == "pushed"
+        # as STUDY says: its case "first" has no limit, its condition "pushed" a later push
         assert s.hardware.torque_limit == (None if first else 150.0)
         assert s.pushes[0].onset == (0.1 if pushed else 0.05)
 
@@ -121,6 +122,7 @@ def test_another_study_has_another_hash_and_another_description_has_not(tmp_path
         ('controller.name = "LESO"', "run.seed = 4", "run.seed is in 'base' and in 'seeds'"),
         ("pushes.0.onset = 0.1", "controller.observer.order = 2", "in 'cases' and in 'conditions'"),
         ("[grid]", "[grid", "is not valid TOML.*line 8"),
+        # 2^63, one above the largest seed
         ("seeds = 3", "seeds = [9223372036854775808]", "seeds.0: found 9223372036854775808"),
         ("seeds = 3", "seeds = [1, 1]", r"seeds: found \[1, 1\], expected how many"),
         ("seeds = 3", 'seeds = 3\ncolumn = "rms_eror"', "did you mean 'rms_error'"),
@@ -289,7 +291,7 @@ def test_paired_ratios_against_a_closed_form():
     fell = paired([*x[:10], *[math.inf] * 10], y.tolist())
     assert (fell.ratio.high, fell.pairs) == (math.inf, 20)
     assert paired([math.inf], [math.inf]) is None
-    assert math.isnan(median([1.0, 2.0]).low)
+    assert math.isnan(median([1.0, 2.0]).low)  # too few numbers for an interval
     assert share(8, 10) == pytest.approx((0.8, 0.4902, 0.9433), abs=1e-4)
 
 
@@ -297,6 +299,7 @@ def test_equal_numbers_have_no_sign_and_one_walk_no_interval():
     """Zeros on both sides are a tie; the next float is none, though its ratio rounds to 1: six pairs on one
     side have p = 2 x 2^-6. One walk has a number without interval or p.
     """
+    # [0]: the median ratio, [1:]: p and the number of pairs
     assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[0].value == 1.0
     assert paired([0.0, 1.0, 1.0], [0.0, 1.0, 2.0])[1:] == (1.0, 3)
     y = np.array([1.9] * 6)
@@ -341,7 +344,7 @@ def test_the_table_pairs_walks_by_seed_and_counts_what_is_feasible(tmp_path):
     assert a_x.median.value == 10.5
     assert b_x.ratio.ratio == (0.5, 0.5, 0.5)
     assert b_x.ratio.p == pytest.approx(2.0**-19)
-    assert b_y.ratio.ratio[:2] == (0.5, 0.5)
+    assert b_y.ratio.ratio[:2] == (0.5, 0.5)  # the median and its lower end
     assert b_y.feasible == share(15, 20)
     assert (b_y.made, b_y.ratio.pairs) == (20, 20)
 
@@ -369,6 +372,7 @@ def test_rows_that_are_equal_to_the_last_bit_are_one_walk(tmp_path):
     assert a_x.feasible[:1] == (1.0,)
     assert math.isnan(a_x.feasible.low)
     assert b_x.ratio.pairs == 2
+    # its two walks are 0.5 and 1 times those of a; 20 + 20 walks became 1 + 2
     assert (b_x.ratio.ratio.value, b_x.ratio.p) == (0.75, 1.0)
     assert "37 walks are equal" in found.notes[0]
     assert len(list(found.rows())) == 80

@@ -54,6 +54,7 @@ def end_of(walks: dict[str, Walk]) -> float:
 def test_nothing_else_is_loaded_and_nothing_is_complained_of(opened: tuple[Chrome, Path]) -> None:
     """The browser asked for the page's own file and no other address, and its console has no warning."""
     browser, path = opened
+    # it plays, or has been loaded
     assert browser.execute_script("return viewer.animator.time > 0 || document.readyState") in (
         True,
         "complete",

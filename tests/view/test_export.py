@@ -57,12 +57,14 @@ def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(wa
     """There are two panels of half the width, each 1.5 m wide around the hip of its own walk."""
     figure, show = moving_figure(walks, "2 times slower", apart=True)
     show(0.1)
+    # left edge and width, as shares of the figure
     assert [axes.get_position().bounds[::2] for axes in figure.axes] == [(0.0, 0.5), (0.5, 0.5)]
     texts = [axes.texts[-1].get_text() for axes in figure.axes]
     assert texts == [f"{name}\nt = 0.10 s, step 1, 2 times slower" for name in walks]
     hips = [np.mean(axes.get_xlim()) for axes in figure.axes]
     assert np.allclose(
         hips,
+        # at 0 s, less than 0.1 m behind
         [w.walker.plant.hip(w.trajectory.arcs[0].x[0, :5])[0] for w in walks.values()],
         atol=0.1,
     )
@@ -81,7 +83,7 @@ def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 8
-        assert image.size[0] == 600
+        assert image.size[0] == 600  # width [px]
         assert image.info["duration"] == 50
         assert image.info["loop"] == 0
         frames = []
@@ -109,7 +111,7 @@ def test_the_suffix_says_what_is_written_and_what_a_clip_may_ask_for(
         ("walk.gif", Clip(fps=100.0)),
         ("walk.gif", Clip(start=0.5, stop=0.1)),
         ("walk.html", Clip(apart=True)),
-        ("walk.png", Clip(view="perspective")),
+        ("walk.png", Clip(view="perspective")),  # pictures are from the side
     ):
         with pytest.raises(InputError):
             export(tmp_path / name, walks, wrong)
@@ -124,7 +126,7 @@ def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
     """
     frames = [np.full((20, 60, 3), 255, dtype=np.uint8) for _ in range(40)]
     for k, frame in enumerate(frames):
-        frame[5:15, k : k + 15] = 0
+        frame[5:15, k : k + 15] = 0  # a bar that moves, since equal frames would be joined
     with Image.open(io.BytesIO(encoded(frames, fps, 2.0))) as image:
         durations = []
         for k in range(image.n_frames):
@@ -202,7 +204,9 @@ def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
 def test_the_run_is_drawn_solid_and_its_ghost_behind(
     walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What is drawn last lies in front."""
+    """What is drawn last lies in front. `export` is replaced by a list of what it would draw: the ghost
+    (runs[1]) is first, and the run is last.
+    """
     drawn: list[str] = []
     monkeypatch.setattr(
         "biped_adrc.view.export.export", lambda path, walks, clip: drawn.extend(walks)

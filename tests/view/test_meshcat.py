@@ -113,7 +113,7 @@ def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
     d = data(scene(animation_html({"NPD": made}, Clip(fps=FPS)))[0]["walks"][0])
     zeta, begin = d["loads"][:, 2:], made.trajectory.arcs[1].t[0]
     inside = (d["t"] >= begin + 0.1) & (d["t"] < begin + 0.2)
-    assert inside.sum() >= 6
+    assert inside.sum() >= 6  # 0.1 s at 60 frames per second
     # in step 2 the stance leg is the right one: hips and knees are drawn the other way round
     expected = np.tile([0.0, 30.0, 0.0, -20.0, 5.0], (inside.sum(), 1))
     np.testing.assert_array_equal(zeta[inside], expected)
@@ -130,13 +130,14 @@ def test_the_page_stands_alone(page: str) -> None:
     outside = set(re.findall(r"https?://[\w./-]+", page))
     assert outside <= {"http://www.w3.org/1999/xhtml"}  # a namespace, never loaded
     settings, _ = scene(page)
-    assert settings["walks"][0]["name"] == "ADRC"
+    assert settings["walks"][0]["name"] == "ADRC"  # the last walk is drawn in front
 
 
 def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> None:
     """A name that would end the script and begin markup is text in the page; the mark comes back unchanged."""
     bad = "</script><b>&"
     text = animation_html({bad: walks["NPD"]}, Clip(fps=30.0), [(0.1, 0.3, bad)])
+    # between the styles and the first script
     assert "<b>" not in text.split("</style>")[1].split("<script>")[0]
     assert scene(text)[0]["marks"] == [[0.1, 0.3, bad]]
 

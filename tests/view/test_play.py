@@ -56,6 +56,7 @@ def test_a_station_that_the_scenario_does_not_take_is_left_out_and_those_behind_
     """A walk in continuous time has no encoders: the two stations with encoders go, and no other."""
     walks: dict[str, ba.Scenario] = {}
     stations = guided(ba.Scenario("passive", robot="compass"), walks)
+    # without encoders: those that name no counts, or counts of "none"
     titles = [
         x["title"]
         for x in tour()
@@ -224,6 +225,7 @@ def test_sliders_set_the_values_of_the_scenario(
     text, t, step, state = browser.execute_script(TUNED, values)
     file.write_text(text, encoding="utf-8")
     s = read_scenario(file)
+    # the order is that of Table I, which has no slider here
     assert (s.controller.observer.bandwidth, s.controller.observer.order) == (300.0, 7)
     assert (s.hardware.delay, s.errors.friction) == (delay, -0.5)
     arc = ba.walk_scenario(s).trajectory.arcs[step - 1]
@@ -246,8 +248,8 @@ def test_a_slider_ends_where_its_controller_refuses_more() -> None:
 
 
 def test_a_fallen_robot_gets_up_again_and_the_timeline_goes_back(browser: Chrome) -> None:
-    """Number 3 of the timeline is t = 0.03 s. The walk goes back there, a key moves it on by 1 ms, and the
-    timeline then ends at number 3.
+    """A push throws the robot, and the button "up" begins the walk again. Number 3 of the timeline is t =
+    0.03 s: the walk goes back there, a key moves it on by 1 ms, and the timeline then ends at number 3.
     """
     fallen = """
 play.push({ force: [-300, 0], seconds: 1 });
@@ -324,8 +326,8 @@ def torso(browser: Chrome) -> tuple[int, int]:
 
 def test_the_mouse_pulls_the_torso_and_keys_step_slow_down_and_go_on(browser: Chrome) -> None:
     """A drag gives the hand a force of at most 300 N, which ends with the drag. Keys: the arrow goes on by a
-    sample, two - slow down to 0.2 of real time, two + undo that, space plays and pauses, b goes back to where
-    the step began. The console stays empty.
+    sample, two - slow down to 0.2 of real time, space plays and pauses. Two + undo that and b goes back to
+    where the step began: of these only the console is looked at, which stays empty.
     """
     mouse = ActionChains(browser)
     mouse.w3c_actions.pointer_action.move_to_location(*torso(browser))
@@ -360,7 +362,7 @@ def test_a_finger_on_the_robot_pulls_it(browser: Chrome) -> None:
 
     keys(browser, "v")
     until(browser, "return view === 'perspective'")
-    x, y = torso(browser)
+    x, y = torso(browser)  # where it is in the window [px]
     touch("touchStart", x, y)
     hand = until(browser, "return page.last.hand")  # at rest: the force is that of the next sample
     assert hand["anchor"][0] == pytest.approx(hand["at"][0], abs=1e-6), "slack"
@@ -484,7 +486,7 @@ return all.filter(low).map((x) => x.outerHTML.slice(0, 200));
 
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
     """This holds on a telephone, 390 px wide, and on two screens; on these no control is below the window
-    either.
+    either. The scripts list fields without a name, and what is too wide or too low.
     """
     assert browser.execute_script(NAMELESS) == []
     try:
@@ -605,4 +607,5 @@ def test_a_slider_begins_at_the_value_that_gives_the_walks_numbers() -> None:
     """The slider begins at x with number = a + b x^k; a relative error of 0.2 is a factor of 1.2."""
     error = Slider("errors.mass", -0.5, 0.5, False)  # from -0.5 to 0.5, not logarithmic
     for form, number, value in (((1.0, 1.0, 1), 1.2, 0.2), ((3.0, 2.0, 2), 3.02, 0.1)):
+        # form: (a, b, k) of number 0
         assert at_base(error, np.array([number]), {0: form}).value == pytest.approx(value)

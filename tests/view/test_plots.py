@@ -133,6 +133,7 @@ def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> 
     assert "push" in axes.get_legend_handles_labels()[1]
 
     axes = over_time.tracking_errors(axes_of_my_own(), s)
+    # [16:-1]: what is behind "tracking error ["
     unit = {"rad": 1.0, "mrad": 1e3, "µrad": 1e6, "nrad": 1e9}[axes.get_ylabel()[16:-1]]
     np.testing.assert_allclose(drawn_lines(axes)["$q_2$"], unit * s.error[:, 1])
 
@@ -155,7 +156,7 @@ def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
     assert (x1 - x0) / (y1 - y0) == pytest.approx(0.5)
     np.testing.assert_array_equal(drawn_lines(axes)["ground reaction"], s.ground_reaction[:, 1])
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("$F_T$ [N]", "$F_N$ [N]")
-    for x, z in axes.patches[0].get_xy()[1:3]:
+    for x, z in axes.patches[0].get_xy()[1:3]:  # the two corners beside the tip
         assert abs(x) / z == pytest.approx(0.5)
     with pytest.raises(InputError, match="positive"):
         over_time.friction_cone(axes, s, mu=0.0)
@@ -207,6 +208,7 @@ def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Pa
     """com: centre of mass of the trunk, in its frame at the hip; without a shape the trunk is a line from the
     hip to `end`, which is there. A leg without shapes is a ball and a rod.
     """
+    # LIMB and HIP: texts of a link, by name and centre of mass, and of its joint
     legs = "".join(LIMB.format(x, "0 0 -0.4") + HIP.format(x) for x in ("left_leg", "right_leg"))
     path = tmp_path / "points.urdf"
     path.write_text(f'<robot name="points">{LIMB.format("trunk", com)}{legs}</robot>')
@@ -239,6 +241,7 @@ def test_a_checked_robot_is_drawn_with_its_joints_masses_and_feet(name):
             assert np.sign(np.sum(x[:-1] * z[1:] - x[1:] * z[:-1])) == -axis
     texts = {text.get_text() for text in axes.texts}
     assert {"stance foot", "swing foot", "hip"} < texts
+    # the title ends with "= +1 q1 +0.5 q3", factors and angles in turn
     written = axes.get_title("left").partition("= ")[2]
     row = {int(q[1:]) - 1: float(c) for c, q in zip(*[iter(written.split())] * 2, strict=True)}
     phase = [row.get(i, 0.0) for i in range(biped.n)]
@@ -346,6 +349,7 @@ def test_an_observer_without_extended_states_has_no_curve_of_an_estimate(
     observer, gait = GPIObserver.from_bandwidth(300.0, m=m), load_gait("published", biped)
     report = observer_report(observer, robot=biped, gait=gait)
     panels = observer_figure(report).axes
+    # Line2D([], []): for a panel without lines
     curves = [
         max(len(line.get_xdata()) for line in [*x.get_lines(), Line2D([], [])]) for x in panels
     ]

@@ -59,7 +59,7 @@ ANIMATION = '<!DOCTYPE html><html><body><p id="a">"&amp;\'</p></body></html>'
 
 
 def test_report_escapes_and_stands_alone(biped: Biped, svg: bytes) -> None:
-    """SUMMARY has markup in each of its texts: none of it is markup in the page. The page is the same twice,
+    """SUMMARY has markup in texts of every kind: none of it is markup in the page. The page is the same twice,
     has no address of another, and holds its figures and the animation itself.
     """
     picture = render(check_figure(biped), "png", dpi=30)

@@ -132,7 +132,7 @@ def test_stones_are_drawn_where_the_next_foot_has_to_land() -> None:
     walk = ba.walk_scenario(s.replace({"ground.stones": [0.4, 0.3], "run.impacts": 2}))
     scene, axes = WalkScene.of(walk), Figure().subplots()
     moving_parts.ground(axes, [SideView(scene)])
-    half, stones = walk.walker.stones.tolerance, axes.lines[1:]
+    half, stones = walk.walker.stones.tolerance, axes.lines[1:]  # [0]: the ground
     for line, x, L in zip(stones, scene.footholds, (0.4, 0.3), strict=True):
         np.testing.assert_allclose(line.get_xdata(), [x + L - half, x + L + half])
         np.testing.assert_allclose(line.get_ydata(), scene.level(x + L))
@@ -165,12 +165,14 @@ def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) 
 def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) -> None:
     """There are eight lines of 1 m at equal angles, in the same places before and after an impact."""
     view = SideView(WalkScene.of(walks["wheel"]))
+    # after the last event nothing is drawn any more
     for event in walks["wheel"].trajectory.events("foot_strike")[:-1]:
         before, after = (view.segments(event.t + d) for d in (-1e-9, 1e-9))
         assert before.shape == (8, 2, 2)
         hub, rim = before[:, 0], before[:, 1]
         np.testing.assert_allclose(np.hypot(*(rim - hub).T), 1.0, atol=1e-9)
         apart = np.hypot(*(rim - np.roll(rim, 1, axis=0)).T)
+        # ALPHA: half the angle between two spokes
         np.testing.assert_allclose(apart, 2.0 * math.sin(ALPHA), atol=1e-9)
         nearest = np.linalg.norm(rim[:, np.newaxis] - after[:, 1], axis=2).min(axis=1)
         assert np.max(nearest) < 1e-6
@@ -187,12 +189,12 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
         assert scene.surface.height(float(x)) == pytest.approx(z, abs=1e-9)
         assert scene.level(float(x)) == pytest.approx(z, abs=1e-12)
     corners = scene.surface.line(-1.0, 5.0)
-    rises = np.diff(corners, axis=0)
+    rises = np.diff(corners, axis=0)  # in turn along the ground and down a step
     np.testing.assert_allclose(rises[::2, 1], -math.tan(slope) * rises[::2, 0], atol=1e-12)
     np.testing.assert_allclose(rises[1::2, 0], 0.0)
     expected = list(DROPS.values()) if name == "down" else []
     np.testing.assert_allclose(-rises[1::2, 1], expected, atol=1e-12)
-    ends = np.array([ends for ends, _ in scene.surface.tiles(-2, 10)])
+    ends = np.array([ends for ends, _ in scene.surface.tiles(-2, 10)])  # of 0.5 m each
     np.testing.assert_array_equal(ends[1:, 0, 0], ends[:-1, 1, 0])
     assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
 
@@ -212,6 +214,7 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
     for rows in np.split(np.arange(len(s.t)), starts):
         np.testing.assert_allclose(total[rows], total[rows[0]], atol=1e-6)
     np.testing.assert_allclose(s.potential[starts], s.potential[starts - 1], atol=1e-9)
+    # the walk ends just before its last impact
     lost = [c.energy_lost for c in walk.certificates[:-1]]
     np.testing.assert_allclose(total[starts - 1] - total[starts], lost, atol=1e-9)
     assert min(lost) > 0.5
