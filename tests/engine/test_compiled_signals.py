@@ -107,12 +107,12 @@ def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
 
 
 def test_the_power_of_the_motors_is_the_energy_s_rate(biped, gait):
-    """d(T + V)/dt = q_b' u from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5. The power q'
-    zeta of a push is added and is zero here: PUSH begins at 0.05 s, after the end.
+    """d(T + V)/dt = q_b' u + q' zeta from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5. PUSH
+    begins at 0.05 s, so it acts over the last third.
     """
     walker = ba.Walker(biped, controllers(gait)["ADRC"], PUSH)
     x0 = walker.initial_state(*gait.start(biped))
-    run = simulate(walker, x0, Mode(), ba.RK4(2.5e-4), t_end=0.04)
+    run = simulate(walker, x0, Mode(), ba.RK4(2.5e-4), t_end=0.075)
     s = signals(walker, run, gait.constraint)
     power = np.sum(s.v[:, :4] * s.u, axis=1) + np.sum(s.v * s.zeta, axis=1)
     gained = np.diff(s.kinetic + s.potential)

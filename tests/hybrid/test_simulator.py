@@ -298,7 +298,7 @@ def test_a_terminal_guard_ends_the_run_with_its_status():
     assert run.events()[0].x_plus is None
 
 
-def test_clock_ticks_are_at_multiples_of_the_period_and_restart_at_events():
+def test_clock_ticks_are_counted_not_accumulated_and_restart_at_events():
     """Ticks are at k times 0.1 s bit for bit, not at steps of the method, 0.03 s; the event at 0.25 s begins
     mode 1, where the count starts anew, and without restart does not.
     """
@@ -317,9 +317,10 @@ def test_clock_ticks_are_at_multiples_of_the_period_and_restart_at_events():
     go(
         Timer(lambda t: 0.25 - t, clock=Clock("c", 0.1, update, restart=False)),
         RK4(0.03),
-        t_end=0.5,
+        t_end=0.75,
     )
-    assert [t for _, t in ticks] == [0.0 + k * 0.1 for k in range(5)]
+    # sums of 0.1 differ from multiples from the sixth on
+    assert [t for _, t in ticks] == [0.0 + k * 0.1 for k in range(8)]
 
 
 def test_order_at_equal_times_is_reset_tick_flow():
