@@ -107,8 +107,8 @@ def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
 
 
 def test_the_power_of_the_motors_is_the_energy_s_rate(biped, gait):
-    """d(T + V)/dt = q_b' u + q' zeta from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5. PUSH
-    begins at 0.05 s, so it acts over the last third.
+    """d(T + V)/dt = q_b' u + q' zeta from the columns alone; the trapezoidal rule over 0.25 ms leaves 1e-5.
+    PUSH begins at 0.05 s, so it acts over the last third.
     """
     walker = ba.Walker(biped, controllers(gait)["ADRC"], PUSH)
     x0 = walker.initial_state(*gait.start(biped))
