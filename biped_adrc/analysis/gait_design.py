@@ -50,7 +50,7 @@ from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import JointCurve, ZeroDynamics, configuration, gauss_nodes
-from biped_adrc.hybrid.integrators import Adaptive
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
 
@@ -58,6 +58,8 @@ RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
 _STEPS = 2
 """Steps of the walk that proves a gait."""
+_H = 2.5e-4
+"""Integration step of that walk [s]."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +153,7 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     """Simulate two steps of an optimised gait under NPD and check its first step against the limits.
 
     NPD is the paper's feedback linearisation with PD. optimum: the result of `optimise`. The simulation shares
-    neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
+    neither nodes nor quadrature with the design, only the robot.
 
     Raises GaitError when the gait does not walk, violates a limit, or leaves its orbit.
     """
@@ -161,7 +163,7 @@ def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGai
     walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
     # _STEPS: steps of the walk that proves the gait
     x, end = walker.initial_state(*gait.start(biped)), _STEPS * longest
-    run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=_STEPS, t_end=end)
+    run = simulate_by(COMPILED, walker, x, Mode(), RK4(_H), impacts=_STEPS, t_end=end)
     if not run.status.ok:
         raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
     # WINDOW, over which the force of the ground is averaged
