@@ -33,7 +33,7 @@ from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.kernels.compiled_run import STATUS, CompiledRun
 from biped_adrc.engine.kernels.load import kernels
@@ -56,21 +56,29 @@ At = tuple[ClosedLoop[Any], float, Array, Mode]
 sample instant, and the single support."""
 
 
-def with_inputs(walker: Walker) -> tuple[Walker, Array]:
-    """The walker under a torque and a force from outside, both zero at first, and the array (p + 2,) of the
-    torque [N m] and the force [N], which its owner overwrites before a sample that runs in Python.
-    """
-    # both parts below keep views of `outside`, so what is written there reaches them
-    plant, p = walker.plant, walker.plant.p
-    outside = np.zeros(p + 2)
-    force = AddedForce(outside[p:], _trunk(plant))
-    push = force if walker.disturbance is None else walker.disturbance + force
-    law = AddedTorque(walker.controller, outside[:p])
-    return replace(walker, controller=law, disturbance=push), outside
-
-
 _trunk = once(lambda biped: link_point(biped, biped.description.trunk))
 """The origin of a robot's trunk as a `LinkPoint`; computed once for each robot."""
+_unmoved = once(lambda controller, p: AddedTorque(controller, read_only(np.zeros(p))))
+"""A controller under no torque from outside."""
+_unpushed = once(lambda plant: AddedForce(read_only(np.zeros(2)), _trunk(plant)))
+"""No force on the trunk of a robot."""
+
+
+def with_inputs(walker: Walker, outside: Array | None = None) -> Walker:
+    """The walker under a torque [N m] and a force [N] from outside: views of `outside` (p + 2,), which its
+    owner overwrites before a sample that runs in Python.
+
+    None: read-only zeros, for machine code, which has its inputs elsewhere. Such walkers share their parts, and
+    what is computed once for these.
+    """
+    plant, p = walker.plant, walker.plant.p
+    if outside is None:
+        law, force = _unmoved(walker.controller, p), _unpushed(plant)
+    else:
+        law = AddedTorque(walker.controller, outside[:p])
+        force = AddedForce(outside[p:], _trunk(plant))
+    push = force if walker.disturbance is None else walker.disturbance + force
+    return replace(walker, controller=law, disturbance=push)
 
 
 def torque_place(program: Program) -> int:

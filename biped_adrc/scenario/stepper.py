@@ -48,6 +48,7 @@ from biped_adrc.engine.numbers import Reading
 from biped_adrc.engine.program import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, SampledWalks, with_inputs
 from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import Limits
@@ -154,37 +155,50 @@ class Stepper:
         It becomes a `CompiledWalk`, or a `PythonWalk` where its plant moves by itself or one of its parts has
         no machine code; from then on this stepper tries to compile no walk that begins (`why`).
         """
+        walk: CompiledWalk | PythonWalk | None = None
+        if not self.why:
+            walker, loop, method, x, mode = self._start(seed, start)
+            # curve: the gait, from which errors are read; of the compiled walk the nodes are kept (last
+            # argument) only if single supports are to be judged
+            judged = self.within is not None
+            try:
+                if loop is not walker:
+                    raise NotCompiled("the plant moves by itself")
+                walk = CompiledWalk.of(walker, method, x, mode, self.curve, judged)
+            except NotCompiled as reason:
+                self.why = str(reason)
+        if walk is None:
+            # torque and force that a sample in Python reads
+            outside = np.zeros(self.walks.inputs.shape[1])
+            walker, loop, method, x, mode = self._start(seed, start, outside)
+            walk = PythonWalk.of(loop, outside, method, x, mode)
+        self.walkers[i] = walker
+        self.walks.put(i, walk, 0)  # 0 is the code of a walk that goes on
+
+    def _start(
+        self, seed: int | None, start: tuple[Array, Array] | None, outside: Array | None = None
+    ) -> tuple[Walker, ClosedLoop[Any], OneStepMethod, Array, Mode]:
+        """Build a walk, with seed and start as in `reset`: its walker, the closed loop that moves, the method
+        of integration, the state x (nx,) and the single support at the start. outside: see `with_inputs`.
+        """
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
             mode = Mode(s.run.first_step)
             if seed is not None:  # only the seed changes, so nothing else is checked again
                 s = s.model_copy(update={"run": s.run.replace(seed=seed)})
-            # outside (p + 2,): torque and force that a sample in Python reads
-            walker, outside = with_inputs(build(s, self.scene))
+            walker = with_inputs(build(s, self.scene), outside)
             start = self.scene.start(s) if start is None else start
             loop, method = soft_loop(s, walker) or walker, methods_of(s.run, walker)[0]
         elif start is None or seed is not None:
             raise InputError("a walker has no seed or start; call reset(start=gait.start(biped))")
         else:
-            walker, outside = with_inputs(s)
+            walker = with_inputs(s, outside)
             loop, method = walker, default_method(walker)
         check_start(*start, walker)
         x = loop.initial_state(*start, mode)
         if loop is walker:
             walker.check_foot(*start, mode)
-        else:
-            self.why = "the plant moves by itself"
-        walk: CompiledWalk | PythonWalk | None = None
-        # curve: the gait, from which errors are read; of the compiled walk the nodes are kept (last argument)
-        # only if single supports are to be judged
-        if not self.why:
-            try:
-                walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.within is not None)
-            except NotCompiled as reason:
-                self.why = str(reason)
-        self.walkers[i] = walker
-        # 0 is the code of a walk that goes on
-        self.walks.put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
+        return walker, loop, method, x, mode
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
         """One sample of every walk that goes on.
