@@ -23,7 +23,6 @@ from biped_adrc.core.errors import InputError
 
 _T = TypeVar("_T")
 """Type of a task's result."""
-T_co = TypeVar("T_co", covariant=True)
 
 TaskProgress = Callable[[int, int, str], None]
 """A function called after each task with tasks done, tasks in all, and the name of the one just finished."""
@@ -37,12 +36,12 @@ SAFE_PATH = "PYTHONSAFEPATH"
 
 
 @dataclass(frozen=True)
-class Task(Generic[T_co]):
+class Task(Generic[_T]):
     """function(*arguments) under a name; function and arguments are pickled to reach another process."""
 
     name: str
     """Name for messages of progress."""
-    function: Callable[..., T_co]
+    function: Callable[..., _T]
     arguments: tuple[object, ...] = ()
 
 

@@ -345,10 +345,8 @@ class Record(BaseModel):
         return hash(repr(sorted(self.dotted().items())))
 
 
-class OpenRecord(Record):
+class OpenRecord(Record, extra="allow"):
     """A record that takes names that it does not declare, for a part of the user's, and keeps them in `own`."""
-
-    model_config = ConfigDict(extra="allow")
 
 
 def converted(what: Described, x: Any) -> Any:
