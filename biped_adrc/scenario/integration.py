@@ -123,12 +123,10 @@ def rate_of_law(walker: Walker) -> float:
         # rows: s moved in one entry by the half width of the differences; most flows are linear in s, so that
         # any width will do
         moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
-        ahead, behind = (
-            [flatten(law.flow(layout.tree(s + d * side), m, u)) for d in moved]
-            for side in (1.0, -1.0)
-        )
+        flows = [flatten(law.flow(layout.tree(x), m, u)) for x in (*(s + moved), *(s - moved))]
+        ahead, behind = np.split(np.array(flows), 2)
         # row i is the derivative to s_i: J is the transpose of ds'/ds, with the same eigenvalues
-        J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
+        J = (ahead - behind) / (2.0 * np.diag(moved))[:, np.newaxis]
         return float(np.max(np.abs(np.linalg.eigvals(J))))
     except Exception:  # whatever a method may raise: the walk itself says what is wrong
         return 0.0
