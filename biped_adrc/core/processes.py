@@ -14,7 +14,6 @@ import signal
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
 from threading import Thread
 from typing import Generic, NamedTuple, TypeVar
@@ -35,8 +34,7 @@ SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: new interpreters import nothing from the working directory."""
 
 
-@dataclass(frozen=True)
-class Task(Generic[_T]):
+class Task(NamedTuple, Generic[_T]):
     """function(*arguments) under a name; function and arguments are pickled to reach another process."""
 
     name: str
