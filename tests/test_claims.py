@@ -327,7 +327,7 @@ def test_every_claim_has_a_row_with_every_column():
     assert len(table) == len({row.claim for row in table}) == 28
     assert {row.word for row in table} <= set(all_texts()["words"])
     for row in table:
-        assert set(CLAIM_COLUMNS) < set(vars(row))
+        assert set(CLAIM_COLUMNS) < set(row._fields)
         assert row.claim
         assert row.where
         assert row.number

@@ -127,7 +127,7 @@ def stubbed(monkeypatch):
 
     def stub(r):
         replaced = {
-            "planned_tasks": lambda plan: {"made/up": None},
+            "tasks": lambda plan: {"made/up": None},
             "run_tasks": lambda *_: [Timed(None, 0.0)],
             "tables": lambda *_: {},
             "rebuilt_walk": lambda *_: SimpleNamespace(save=lambda _: None),

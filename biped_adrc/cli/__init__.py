@@ -54,6 +54,7 @@ def _run() -> int:
     """Run the command and return its exit code. An error of the package is printed as one line; after Ctrl-C a
     line says that no half-written file is left.
     """
+    code = 0
     try:
         app(standalone_mode=True)
     except BipedError as error:
@@ -64,8 +65,6 @@ def _run() -> int:
         code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
     except KeyboardInterrupt:
         code = EXIT_INTERRUPTED
-    else:
-        return 0
     if code == EXIT_INTERRUPTED:
         errors.say("interrupted; what was already written is complete")
     return code

@@ -52,11 +52,7 @@ def robot_list(robot: str | None = None, preset: str | None = None) -> None:
             n, p = str(len(d.joints)), str(len(d.actuated))
             rows.append((name, each.name + default, n, p, each.source))
     console.table(("robot", "preset", "n", "p", "source"), rows)
-    _print_values()
-
-
-def _print_values() -> None:
-    """Print all values of a scenario, a line each: name, unit, default, range and text."""
+    # all values of a scenario, a line each
     console.say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
     for what in map(ba.Scenario.field_of, ba.Scenario.names()):
         default = "" if what.default in (None, {}) else f"{what.default}"

@@ -98,7 +98,9 @@ def check_part(value: object, what: str, *kinds: type) -> None:
     The class NoneType among them allows None; for float every real number will do. The message ends with an
     example, the text SUCH_AS of the first class that has one.
     """
-    if isinstance(value, kinds) or (float in kinds and _is_number(value)):
+    # an array without axes is a number too
+    no_axes = getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
+    if isinstance(value, kinds) or (float in kinds and (isinstance(value, Real) or no_axes)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
     words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
@@ -355,16 +357,21 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], bool, Range | None
     """
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)] if is_dataclass(cls) else []
-    members = ((name, *_members(hints[name])) for name in names if name in hints)
-    result = ((name, kinds, all(map(_looked_at, kinds)), range) for name, kinds, range in members)
+    allowed = ((name, *_allowed(hints[name])) for name in names if name in hints)
+    result = ((name, kinds, all(map(_looked_at, kinds)), range) for name, kinds, range in allowed)
     # x[2]: whether the types can be tested; x[3]: the range
     return tuple(x for x in result if x[2] or x[3] is not None)
 
 
-def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
+def members(hint: Any) -> tuple[Any, ...]:
+    """The types of a union `A | B`; a type that is none is alone."""
+    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+
+
+def _allowed(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
     """The types that an annotation allows, and its range, None where it has none."""
     # Annotated[float, Range(..)] | None: its members, of which one may carry a Range as metadata
-    each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    each = members(hint)
     ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
     kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
     if ranges and int in kinds:  # NumPy's whole numbers count too; the range itself refuses True
@@ -378,12 +385,6 @@ def _looked_at(kind: Any) -> bool:
     """
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
     return (own and not getattr(kind, "_is_protocol", False)) or kind in (*_NUMBERS, NoneType)
-
-
-def _is_number(value: object) -> bool:
-    """Whether a value is a real number, or an array without axes."""
-    no_axes = getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
-    return isinstance(value, Real) or no_axes
 
 
 def _shown(value: Any) -> str:

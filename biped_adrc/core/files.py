@@ -26,9 +26,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.resources import files
-from json import JSONDecodeError
 from pathlib import Path
-from tomllib import TOMLDecodeError
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -168,7 +166,7 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
                 why = " not found"
             case OSError():
                 why = f" cannot be read: {found.strerror}"
-            case JSONDecodeError() | TOMLDecodeError() | UnicodeDecodeError():
+            case json.JSONDecodeError() | tomllib.TOMLDecodeError() | UnicodeDecodeError():
                 why = f" is not valid {kind}: {found}"
             case KeyError():
                 why = f": the key {found} is missing"

@@ -17,7 +17,7 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
-from functools import cached_property
+from functools import cached_property, wraps
 from typing import Any, TypeVar
 
 from biped_adrc.core.checks import Checked, hints_of, per_class
@@ -27,7 +27,7 @@ from biped_adrc.core.types import frozen
 _T = TypeVar("_T")
 
 
-class derived(cached_property[_T]):
+class derived(cached_property[Any]):
     """A method whose value is computed once for each object, from its fields, and is read-only.
 
     func: the method, with no argument but `self`. Machine code uses the numbers that it returns: a pole
@@ -44,15 +44,8 @@ class derived(cached_property[_T]):
     100.0
     """
 
-    def __get__(self, instance: Any, owner: Any = None) -> Any:
-        """The value for an object, computed when it is first read; for the class, this descriptor itself."""
-        if instance is None:
-            return self
-        name = self.attrname
-        assert name is not None
-        if name not in vars(instance):
-            vars(instance)[name] = frozen(self.func(instance))
-        return vars(instance)[name]
+    def __init__(self, func: Callable[[Any], Any]) -> None:
+        super().__init__(wraps(func)(lambda part: frozen(func(part))))
 
 
 class Part(Checked, Shown, ABC):

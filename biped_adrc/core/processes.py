@@ -14,7 +14,6 @@ import signal
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
 from threading import Thread
 from typing import Generic, NamedTuple, TypeVar
@@ -23,7 +22,6 @@ from biped_adrc.core.errors import InputError
 
 _T = TypeVar("_T")
 """Type of a task's result."""
-T_co = TypeVar("T_co", covariant=True)
 
 TaskProgress = Callable[[int, int, str], None]
 """A function called after each task with tasks done, tasks in all, and the name of the one just finished."""
@@ -36,13 +34,12 @@ SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: new interpreters import nothing from the working directory."""
 
 
-@dataclass(frozen=True)
-class Task(Generic[T_co]):
+class Task(NamedTuple, Generic[_T]):
     """function(*arguments) under a name; function and arguments are pickled to reach another process."""
 
     name: str
     """Name for messages of progress."""
-    function: Callable[..., T_co]
+    function: Callable[..., _T]
     arguments: tuple[object, ...] = ()
 
 

@@ -25,7 +25,6 @@ SAME_INSTANT = 1e-9
 """Times that differ by less are the same instant up to round-off [s], in both engines."""
 _WORDS = f"at least {LEAST_PERIOD} s, at most {LONGEST_PERIOD} s"
 _PERIODS = Range(_WORDS, lambda T: LEAST_PERIOD <= T <= LONGEST_PERIOD)
-PeriodFloat = Annotated[float, _PERIODS]
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class SampledTime(Checked):
 
     SUCH_AS = "SampledTime(1e-3)"
 
-    period: PeriodFloat
+    period: Annotated[float, _PERIODS]
     restart: bool = True
     delay: float = 0.0
     delay_known: bool = False

@@ -14,14 +14,13 @@ compare, and a value of NaN never holds.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 _KINDS = ("law", "consistency", "reproduced")
 """The kinds of a check, in the order of the list above."""
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(NamedTuple):
     """One check that was carried out.
 
     name: what was computed, with its unit. kind: one of `_KINDS`. value: the number found. limit:

@@ -33,7 +33,6 @@ from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.check_figure import check_figure
 from biped_adrc.view.plots import figures
-from biped_adrc.view.plots.figures import push_window
 from biped_adrc.view.plots.study import map_figure
 from biped_adrc.view.style import render
 
@@ -66,7 +65,7 @@ def pictures(r: Runs, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[by
     walks, by controller.
     """
     # window: start and stop of the push [s], the same under both controllers
-    npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
+    npd, adrc, window = signals["NPD"], signals["ADRC"], figures.push_window(signals["NPD"])
     # a quick plan has no multipliers of ADRC
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     biped = Biped.load("rabbit", r.plan.preset)

@@ -73,11 +73,11 @@ def distance(o: Outcome) -> float:
 def error(pair: Pair) -> AtTwoSteps:
     """Ratio [1] of the peak error under ADRC to that under NPD; infinite unless both walks make all impacts."""
 
-    def ratio(npd: Outcome, adrc: Outcome) -> float:
+    def of_peaks(npd: Outcome, adrc: Outcome) -> float:
         return peak_ratio((npd, adrc)) if npd.walked and adrc.walked else math.inf
 
-    # at_two: `ratio` of these outcomes, and of those at half the integration step
-    return at_two(ratio, *pair)
+    # at_two: the ratio of these outcomes, and of those at half the integration step
+    return at_two(of_peaks, *pair)
 
 
 def largest(name: str, o: Outcome) -> float:
@@ -161,18 +161,13 @@ def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
     return getattr(o.walked[controller], name)
 
 
-def deviation(o: MemberOutcome) -> AtTwoSteps:
-    """Ratio [1] of the tracking error that the push adds under ADRC to that which it adds under NPD, each
-    against the same walking step without the push.
-    """
-    return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
+def ratio(name: str, o: MemberOutcome) -> AtTwoSteps:
+    """The field `name` of the `MemberWalk` of a member under ADRC over that under NPD [1].
 
-
-def error_ratio(o: MemberOutcome) -> AtTwoSteps:
-    """Ratio [1] of the peak tracking error in the pushed step under ADRC to that under NPD; the peaks contain
-    the error that is there without a push too.
+    Of "deviation", the tracking error that the push adds, each is against the same walking step without the
+    push; of "peak" both contain the error that is there without a push too.
     """
-    return o.walked["ADRC"].peak.over(o.walked["NPD"].peak)
+    return walked("ADRC", name, o).over(walked("NPD", name, o))
 
 
 def longest(o: MemberOutcome) -> AtTwoSteps:

@@ -28,8 +28,7 @@ import numpy as np
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.signals import integrate
-from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.closed_loop.walker import Mode as StepMode
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array
@@ -117,25 +116,23 @@ HELD_STEP = 1e-3
 """Integration step of the held joint [s]."""
 
 
-def held_joint(
-    frequency: float = 5.0, factor: float = 0.05, t_end: float = 2.0, h: float = HELD_STEP
-) -> tuple[float, float, float]:
-    """Steady amplitude of the tracking error per unit of disturbance [s^2]: simulated, by (23) of the paper
-    corrected, and by (23) as printed.
+def held_joint(t_end: float = 2.0, h: float = HELD_STEP) -> tuple[float, float, float]:
+    """Steady amplitude of the tracking error per unit of disturbance at 5 Hz [s^2]: simulated, by (23) of the
+    paper corrected, and by (23) as printed.
 
-    frequency [Hz]: of the disturbance. t_end, h [s]: duration and integration step. The observer's poles are
-    those of Table I times `factor`: slow enough for the error to stand clear of round-off. The simulated
-    amplitude is that of the sine which fits the last two periods best; the reference is 0, so the error is q.
+    t_end, h [s]: duration and integration step. The observer's poles are those of Table I times 0.05: slow
+    enough for the error to stand clear of round-off. The simulated amplitude is that of the sine which fits the
+    last two periods best; the reference is 0, so the error is q.
     """
-    observer = GPIObserver.from_poles([factor * pole for pole in TABLE_I])
+    observer = GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
     zero = np.zeros(1)  # q_d, q_d', q_d'' of the one joint
     controller = ADRCController(TimeReference(lambda t: (zero, zero, zero)), observer)
-    w = 2.0 * math.pi * frequency
+    w = 2.0 * math.pi * 5.0
     start = np.concatenate((np.zeros(2), observer.initial_state(zero, zero, zero)[:, 0]))
     # None: the system has one mode only
     run = simulate(HeldJoint(controller, w), start, None, RK4(h), t_end=t_end)
     t, e = run.arcs[0].t, run.arcs[0].x[:, 0]
-    last = t >= t_end - 2.0 / frequency - 1e-9  # two periods; 1e-9 s for round-off of the times
+    last = t >= t_end - 2.0 / 5.0 - 1e-9  # two periods; 1e-9 s for round-off of the times
     basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
     amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
     loop, at = ObserverLoop(observer), np.array([w])
@@ -178,9 +175,9 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))
 
-    # (q, q') (10,) after 0.1 s with integration step h [s]; StepMode(): single support 1, from t = 0 on
+    # (q, q') (10,) after 0.1 s with integration step h [s]; Mode(): single support 1, from t = 0 on
     def end(h: float) -> Array:
-        moved = simulate_by(COMPILED, walker, x0, StepMode(), Exponential(h), t_end=0.1)
+        moved = simulate_by(COMPILED, walker, x0, Mode(), Exponential(h), t_end=0.1)
         return moved.final_state[:10]
 
     exact = end(3.125e-5)

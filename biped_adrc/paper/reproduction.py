@@ -40,8 +40,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all
 from biped_adrc.paper.poincare import regression_of
 from biped_adrc.paper.pushes import OUTCOME_WORDS, PushCell, word_of
-from biped_adrc.paper.runs import PRELOADED, Runs
-from biped_adrc.paper.runs import tasks as planned_tasks
+from biped_adrc.paper.runs import PRELOADED, Runs, tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.table import all_texts, checks, findings, rows, tally
 from biped_adrc.scenario.recording import Outcome, Walk
@@ -69,7 +68,7 @@ def reproduce(
     """
     started = time.perf_counter()
     probe(out)
-    named = planned_tasks(plan)
+    named = tasks(plan)
     done = run_tasks(list(named.values()), workers, PRELOADED, progress)
     r = Runs.of(plan, {name: one.value for name, one in zip(named, done, strict=True)})
     summary = judgement(r)

@@ -83,8 +83,7 @@ def twice(run: Scenario) -> Outcome:
     return replace(walk.outcome, half=half.outcome)
 
 
-@dataclass(frozen=True)
-class Headline:
+class Headline(NamedTuple):
     """A pushed run with its trajectory, from which the figures are drawn."""
 
     outcome: Outcome
@@ -138,8 +137,7 @@ def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
         return str(error)
 
 
-@dataclass(frozen=True)
-class Start:
+class Start(NamedTuple):
     """A walk that starts on the constraint with a chosen speed after the impact."""
 
     least: float

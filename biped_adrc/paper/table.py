@@ -30,7 +30,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from operator import attrgetter, methodcaller
 from typing import Any, NamedTuple
@@ -86,8 +85,7 @@ class Probe(NamedTuple):
         return self.holds and not self.marginal
 
 
-@dataclass(frozen=True)
-class Claim:
+class Claim(NamedTuple):
     """A claim of the paper with what became of it, in words."""
 
     claim: str

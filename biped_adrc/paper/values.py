@@ -89,7 +89,8 @@ def of_members(r: Runs) -> dict[str, object]:
 
 def of_recipe_push(r: Runs) -> dict[str, object]:
     """The ratios of the peak errors, ADRC over NPD, under the push on gait (b)."""
-    return {"peaks": Extremes.of(map(m.error_ratio, m.pushed("pushed_recipe", r).values()))}
+    every = m.pushed("pushed_recipe", r).values()
+    return {"peaks": Extremes.of(m.ratio("peak", o) for o in every)}
 
 
 def of_map(r: Runs) -> dict[str, object]:

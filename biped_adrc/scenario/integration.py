@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.walker import Mode, Walker
-from biped_adrc.core.checks import handing_out, numbers
+from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.tree import Layout, flatten
 from biped_adrc.core.types import Array
@@ -115,22 +115,18 @@ def rate_of_law(walker: Walker) -> float:
         return 0.0
     still = np.zeros(walker.plant.n)
     try:
-        # an exception in the user's code becomes an error of this package; it is caught below
-        with handing_out():
-            m = walker.measure(0.0, still, still, Mode())
-            state, law = walker.law.initial_state(m), walker.law
-            layout, s, u = Layout.of(state), flatten(state), law.output(state, m)
-            if len(s) == 0:
-                return 0.0
-            # rows: s moved in one entry by the half width of the differences; most flows are linear in s, so
-            # that any width will do
-            moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
-            ahead, behind = (
-                [flatten(law.flow(layout.tree(s + d * side), m, u)) for d in moved]
-                for side in (1.0, -1.0)
-            )
+        m = walker.measure(0.0, still, still, Mode())
+        state, law = walker.law.initial_state(m), walker.law
+        layout, s, u = Layout.of(state), flatten(state), law.output(state, m)
+        if len(s) == 0:
+            return 0.0
+        # rows: s moved in one entry by the half width of the differences; most flows are linear in s, so that
+        # any width will do
+        moved = np.diag(1e-3 * np.maximum(1.0, np.abs(s)))
+        flows = [flatten(law.flow(layout.tree(x), m, u)) for x in (*(s + moved), *(s - moved))]
+        ahead, behind = np.split(np.array(flows), 2)
         # row i is the derivative to s_i: J is the transpose of ds'/ds, with the same eigenvalues
-        J = (np.array(ahead) - np.array(behind)) / (2.0 * np.diag(moved))[:, np.newaxis]
+        J = (ahead - behind) / (2.0 * np.diag(moved))[:, np.newaxis]
         return float(np.max(np.abs(np.linalg.eigvals(J))))
     except Exception:  # whatever a method may raise: the walk itself says what is wrong
         return 0.0

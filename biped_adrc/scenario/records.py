@@ -21,13 +21,14 @@ import operator
 from collections.abc import Collection, Mapping
 from dataclasses import asdict
 from functools import lru_cache
-from types import NoneType, UnionType
-from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
+from types import NoneType
+from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, ValidationInfo
 from pydantic.functional_validators import field_validator, model_validator
 
+from biped_adrc.core.checks import members
 from biped_adrc.core.errors import InputError, complaint, dotted_place, unknown
 from biped_adrc.core.files import plain as as_json
 from biped_adrc.core.registry import construct, find, known_name, portable, takes, unit_in
@@ -132,7 +133,7 @@ class Described(NamedTuple):
 
         Raises ValueError for a value of another type, out of its range, or not among its choices.
         """
-        x = converted(self, as_python(x))
+        x = converted(self, x)
         # an int is also a float here; a bool, which Python counts as an int, is neither. Without types, as of a
         # value of a user's part, anything is right
         known = (*self.types, int) if float in self.types else self.types
@@ -344,29 +345,23 @@ class Record(BaseModel):
         return hash(repr(sorted(self.dotted().items())))
 
 
-class OpenRecord(Record):
+class OpenRecord(Record, extra="allow"):
     """A record that takes names that it does not declare, for a part of the user's, and keeps them in `own`."""
-
-    model_config = ConfigDict(extra="allow")
-
-
-def as_python(x: Any) -> Any:
-    """A value without NumPy's types, and lists of numbers and texts as tuples."""
-    if isinstance(x, np.generic | np.ndarray):
-        x = x.tolist()
-    if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
-        return tuple(x)
-    return x
 
 
 def converted(what: Described, x: Any) -> Any:
     """Convert a value x that is a text to the type of the field `what`: "none" to None, a number to the field's
     unit, a registered name to its spelling, "1, 2" to a tuple. In a table each text becomes a number. A whole
-    float becomes an int in a field of ints; other values stay.
+    float becomes an int in a field of ints, a list of numbers and texts a tuple, NumPy's types become Python's;
+    other values stay.
 
     Raises ValueError for a text that does not fit.
     """
     types = what.types
+    if isinstance(x, np.generic | np.ndarray):
+        x = x.tolist()
+    if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
+        return tuple(x)
     if isinstance(x, Mapping) and dict in types:
         return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
@@ -399,7 +394,7 @@ def by_default(cls: type[Record]) -> Record:
 def described(cls: type[Record], name: str, place: str = "") -> Described:
     """The description of the field `name` of a class of records; place: its dotted name, if that is longer."""
     info = cls.model_fields[name]
-    kinds = _members(info.annotation)
+    kinds = members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
     # a Literal is a text with choices; get_origin(tuple[float, ...]) is tuple
     types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
@@ -412,18 +407,11 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     return Described(place or name, types, limits, default, text, choices, **more)
 
 
-def _members(hint: Any) -> tuple[Any, ...]:
-    """The types of a union `A | B`; a type that is none is alone."""
-    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
-
-
 def record_in(cls: type[Record], name: str) -> type[Record] | None:
     """The class of the record, or of the records, that a field holds; None for a value."""
-    for kind in _members(cls.model_fields[name].annotation):
-        for inner in (kind, *get_args(kind)):
-            if isinstance(inner, type) and issubclass(inner, Record):
-                return inner
-    return None
+    kinds = members(cls.model_fields[name].annotation)
+    inner = (x for kind in kinds for x in (kind, *get_args(kind)))  # those of a tuple too
+    return next((x for x in inner if isinstance(x, type) and issubclass(x, Record)), None)
 
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:

@@ -190,7 +190,6 @@ class StartRecord(OpenRecord):
 
     __pydantic_extra__: dict[str, float]
     SHORT = ""
-    _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)
     speed: float = field(0.0, "1", gt=-1, le=2)
     """All rates change by this share."""
     speed_spread: float = field(0.0, "1", ge=0, le=1)
@@ -203,7 +202,7 @@ class StartRecord(OpenRecord):
     @classmethod
     def own_value(cls, name: str) -> Described:
         """The description of a coordinate's offset, q1.. or v1... Raises Misfit for another name."""
-        if not cls._COORDINATE.fullmatch(name):
+        if not re.fullmatch("[qv][1-9][0-9]*", name):
             raise Misfit(name, "expected speed, spread, or a coordinate such as q5 or v5")
         return Described(name, (float,), default=0.0, unit="rad" if name[0] == "q" else "rad/s")
 

@@ -276,10 +276,6 @@ def _row(known: WalkRow) -> WalkRow:
     """The row with all columns in the order of columns.toml: the `known` ones, None where there is no value or
     a number is not finite.
     """
-    row: WalkRow = dict.fromkeys(COLUMNS)
-    for k, x in known.items():
-        if not isinstance(x, float):
-            row[k] = x
-        elif math.isfinite(x):
-            row[k] = float(x)  # NumPy's floats too
-    return row
+    kept = {k: x for k, x in known.items() if not isinstance(x, float) or math.isfinite(x)}
+    plain = {k: float(x) if isinstance(x, float) else x for k, x in kept.items()}  # NumPy's floats
+    return dict.fromkeys(COLUMNS) | plain

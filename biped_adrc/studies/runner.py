@@ -17,7 +17,6 @@ import itertools
 import json
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from concurrent import futures
-from concurrent.futures import BrokenExecutor, Executor, Future
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -61,7 +60,7 @@ class Crew:
     As a context manager it ends its processes; they begin to load the package as soon as it is constructed.
     """
 
-    workers: Executor | int | None = None
+    workers: futures.Executor | int | None = None
 
     def __post_init__(self) -> None:
         """Start the executor, so that its processes load the package while the caller goes on."""
@@ -77,8 +76,8 @@ class Crew:
 
     def start(self) -> None:
         """Set `executor`: the user's own, or a new pool of processes."""
-        if isinstance(self.workers, Executor):
-            self.executor: Executor = self.workers
+        if isinstance(self.workers, futures.Executor):
+            self.executor: futures.Executor = self.workers
         else:
             self.executor = processes(self.workers, _PRELOADED)
 
@@ -118,7 +117,7 @@ class Runner:
     progress: Callable[[StudyProgress], None] | None = None
     done: int = 0
     crashed: int = 0
-    pending: dict[Future[Any], Sequence[Point]] = field(default_factory=dict)
+    pending: dict[futures.Future[Any], Sequence[Point]] = field(default_factory=dict)
 
     def run(self, points: Iterable[Point], count: int | None = None) -> None:
         """Walk those of the points that have no row yet; they may come from a generator.
@@ -161,7 +160,7 @@ class Runner:
             # FOLDERS: where modules of the user's are, which the worker has to import too
             records, folders = [p.record for p in chunk], dict(FOLDERS)
             future = self.crew.executor.submit(rows_of, self.function, records, folders)
-        except BrokenExecutor:
+        except futures.BrokenExecutor:
             return chunk
         self.pending[future] = chunk
         return ()
@@ -177,7 +176,7 @@ class Runner:
             if error is None:
                 self.crashed = 0
                 self._keep(chunk, future.result())
-            elif isinstance(error, BrokenExecutor):
+            elif isinstance(error, futures.BrokenExecutor):
                 lost += chunk
             else:
                 raise WorkersError(
