@@ -62,14 +62,16 @@ class Nodes:
         return node_layout(self.n, self.p).tree(self.rows)
 
     @cached_property
-    def _starts(self) -> Indices:
-        """Where in a row each column begins."""
+    def _columns(self) -> Indices:
+        """Index in a row of the first number of each column of `at`, as the compiled loops read it."""
         return np.array(node_layout(self.n, self.p).starts())
 
     @property
     def pointers(self) -> tuple[int, int, int, int]:
-        """The first arguments of the compiled loops: address of the rows, width, address of `_starts`, p."""
-        return self.rows.ctypes.data, self.rows.shape[1], self._starts.ctypes.data, self.p
+        """The first arguments of the compiled loops: address of the rows, numbers in a row, address of
+        `_columns`, p.
+        """
+        return self.rows.ctypes.data, self.rows.shape[1], self._columns.ctypes.data, self.p
 
     @property
     def steps(self) -> range:

@@ -383,7 +383,8 @@ def event(r: Run, t0: float, t1: float) -> int:
     # before: up to here the step has been searched [s]
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
-        # TOGETHER: events closer than this are not told apart
+        # `lift` judges the first TOGETHER [s] of the arc, where an event function begins at zero or below, and
+        # returns the code of an event there; the search below begins after that time
         before = min(t0 + TOGETHER, t1)
         code = lift(r, t0, before)
         if code != 0:

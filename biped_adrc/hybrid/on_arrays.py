@@ -307,10 +307,11 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
 
 def passed(r: Run, guard: int, fall: float) -> bool:
-    """Whether an event function crossed zero well before the last event, so that its event is over.
+    """Whether an event function crossed zero more than TOGETHER [s] before the last event, so that its own
+    event is over and not one of this instant.
 
-    guard: its number. True where, just before the last event, it was below zero by `fall` or more; `fall` > 0
-    is by how much it falls in the first TOGETHER [s] after that event.
+    guard: its number. fall > 0: by how much it falls within TOGETHER. If it fell as fast before, it was below
+    zero by `fall` just before the last event exactly where it had crossed zero so long ago.
     """
     return bool(r.before[guard] + fall <= 0.0)
 

@@ -204,8 +204,9 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
         for before in range(TICKS_BEFORE, -1, -1):
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
-        # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it; u:
-        # the rows of the torque that this tick sent, z: those of z+; columns 2 n on are of z, before of (q, q')
+        # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it.
+        # u: rows of the torque that this tick sent. z: those of z when a torque that waits for a fraction of
+        # the period has begun to act (`_released`). Columns 2 n on are of z, before of (q, q')
         u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))

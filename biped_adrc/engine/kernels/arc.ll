@@ -1,4 +1,4 @@
-; sources c009f4908d074a0e4538b6ec5be064d8, text 76a099898943c9107fd37fec1ad4fdd5
+; sources e821def0db30fd356d135b42be6e1aeb, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
