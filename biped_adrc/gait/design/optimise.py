@@ -88,20 +88,6 @@ def standing(robot: PlanarRobot) -> Array:
     return np.asarray(np.linalg.solve(robot.A, a), dtype=np.float64)
 
 
-def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
-    """A copy of q (n,) [rad] whose joints with a range are moved a little inside of it.
-
-    ranges: (low, high) [rad] by joint; the distance from an end is then at least BEND, or a quarter of the
-    range if that is less. A guess at a bound would have only one direction to move in.
-    """
-    q = q.copy()
-    for joint, (low, high) in ranges.items():
-        k = biped.description.joint_index(joint)
-        off = min(BEND, 0.25 * (high - low))
-        q[k] = np.clip(q[k], low + off, high - off)
-    return q
-
-
 def apart(
     biped: Biped, step: float, slope: float, ranges: Mapping[str, tuple[float, float]]
 ) -> Array:
@@ -112,11 +98,15 @@ def apart(
     that of the angles from `standing`. ranges: (low, high) [rad] by joint, kept as bounds.
     """
     robot = robot_of(biped)
-    near, K = _inside(standing(robot), biped, ranges), robot.K
+    near, K = standing(robot), robot.K
     target = step * ground_axes(slope)[0]  # place of the swing foot (x, z) [m], along the ground
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
-    for joint, ends in ranges.items():
-        bounds[:, biped.description.joint_index(joint)] = ends
+    for joint, (low, high) in ranges.items():
+        k = biped.description.joint_index(joint)
+        bounds[:, k] = low, high
+        # the first guess is a little inside: at a bound it would have only one direction to move in
+        off = min(BEND, 0.25 * (high - low))
+        near[k] = np.clip(near[k], low + off, high - off)
 
     def miss(q: Array) -> Array:
         """Weighted residuals (n + 3,): of foot (2,) and hip (x alone) [m], and of the angles (n,) [rad].
@@ -224,9 +214,8 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
     allowed[LATE] = np.inf
-    result = programme.missed(stacked(x))
-    missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
-    return programme.in_words(missed)
+    gaps = programme.missed(stacked(x)).items()
+    return programme.in_words({k: gap for k, gap in gaps if not gap <= allowed.get(k, _EXACT)})
 
 
 def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamicsOrbit) -> float:
