@@ -73,10 +73,8 @@ class ModelErrors(Checked, Shown):
         """
         random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)
-        m, d, J = (
-            dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
-            for width in (mass, com, inertia)
-        )
+        errors = (random.uniform(-width, width, len(bodies)) for width in (mass, com, inertia))
+        m, d, J = (dict(zip(bodies, e.tolist(), strict=True)) for e in errors)
         pairs = list(_rubbing(biped))  # joints with friction; twins together
         drawn = random.uniform(-friction, friction, len(pairs)).tolist()
         by_pair = zip(pairs, drawn, strict=True)

@@ -84,13 +84,6 @@ def position(tree: Tree, link: str) -> Array:
     return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
 
 
-def _chain(body: PlanarBase, link: str) -> list[Joint]:
-    """Revolute joints between `link` and the trunk, from the trunk outwards."""
-    path = body.tree.path_below(link, body.trunk)
-    assert path is not None
-    return [joint for joint in reversed(path) if joint.type == "revolute"]
-
-
 # -- feet ------------------------------------------------------------------------------------------
 def on_feet(
     body: PlanarBase, feet: tuple[str, ...] | None, actuated: tuple[str, ...]
@@ -209,7 +202,9 @@ def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
 
     From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's order.
     """
-    one, other = (_chain(body, foot) for foot in feet)
+    # revolute joints from the root outwards; both legs have those above the trunk, which are left out below
+    paths = (reversed(body.tree.path_to_root(foot)) for foot in feet)
+    one, other = ([joint for joint in path if joint.type == "revolute"] for path in paths)
     pairs = zip_longest((j for j in one if j not in other), (j for j in other if j not in one))
     legs = [joint for pair in pairs for joint in pair if joint is not None]
     turning = [j for j in body.tree.joints if j.type == "revolute" and j.name != body.pitch]

@@ -104,11 +104,8 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
         x, y, z = end
         if z and not x and not y:
             balls.append(Visual("cylinder", (radius, abs(z)), (0.0, 0.0, 0.5 * z), rgba))
-            continue
-        # the radius is 0 where the COM, the end of the rod, is the origin
-        balls += [
-            Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares if radius
-        ]
+        elif radius:  # it is 0 where the COM, the end of the rod, is the origin
+            balls += [Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares]
     return tuple(balls)
 
 
@@ -378,9 +375,8 @@ def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors
     if hints.armature is not None:
         return hints.armature, ()
     each = tuple(contents.rotor.get(name, 0.0) for name in actuated)
-    text = ", ".join(
-        f"{x:g} kg m^2 on '{name}'" for name, x in zip(actuated, each, strict=True) if x
-    )
+    rotors = zip(actuated, each, strict=True)
+    text = ", ".join(f"{x:g} kg m^2 on '{name}'" for name, x in rotors if x)
     none = Note("assumed", "rotor inertia: none; the file does not say. --set armature= gives it")
     notes = [Note("read", f"rotor inertia, reflected to the joint: {text}") if text else none]
     if other := sorted(name for name, x in contents.rotor.items() if x and name not in actuated):

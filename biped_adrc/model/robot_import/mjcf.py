@@ -41,9 +41,8 @@ def read_mjcf(path: Path) -> Contents:
     Raises ModelError for a file that does not compile or has constraints between bodies, InputError without
     MuJoCo.
     """
-    with optional(
-        "mujoco", f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
-    ):
+    missing = f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
+    with optional("mujoco", missing):
         import mujoco
     mujoco.set_mju_user_warning(lambda _: None)  # MuJoCo's own handler writes a file MUJOCO_LOG.TXT
     try:
