@@ -389,12 +389,10 @@ def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
 
     re, im (3, n) [m]: at the link's (0, 0), and their slopes along x and z [1]; turn (n,).
     """
-    result: dict[str, Any] = {}
+    result, places = dict[str, Any](), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
     for link in dict.fromkeys(links):
         # affine in (x, z): the values at the origin, and the differences to 1 m along x and along z
-        corner, *others = (
-            link_point(plant, link, at) for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
-        )
+        corner, *others = (link_point(plant, link, at) for at in places)
         result[link] = {
             name: [getattr(corner, name).tolist()]
             + [(getattr(other, name) - getattr(corner, name)).tolist() for other in others]
