@@ -98,8 +98,7 @@ class ModelErrors(Checked, Shown):
         wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:
             wrong = self._rubbed(wrong)
-        wrong.check()
-        return wrong
+        return wrong.check()
 
     def _rubbed(self, biped: Biped) -> Biped:
         """A copy of the biped with its viscous and static friction multiplied by 1 + e.

@@ -190,9 +190,7 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     # links with mass; of twins the second one is in the body of the first
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
-    for link in heavy:
-        if link in twins.values():  # of the swing leg
-            continue
+    for link in (x for x in heavy if x not in twins.values()):  # none of the swing leg
         group = [link, twins[link]] if link in twins else [link]
         name = _SIDES.sub("", link).strip("_-") if link in twins else link
         occupied = not name or name in bodies or (name in heavy and name not in group)
@@ -283,8 +281,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
     record = _record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
-    biped = Biped(description, tree, PRESET, description.preset().armature)
-    biped.check()
+    biped = Biped(description, tree, PRESET, description.preset().armature).check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")

@@ -48,9 +48,8 @@ def read_mjcf(path: Path) -> Contents:
     try:
         m = _compiled(mujoco.MjModel, path)
     except (ValueError, ET.ParseError) as error:
-        raise ModelError(
-            f"MJCF '{path}' does not compile: {' '.join(str(error).split())}"
-        ) from None
+        reason = " ".join(str(error).split())
+        raise ModelError(f"MJCF '{path}' does not compile: {reason}") from None
     if m.neq:
         raise ModelError(
             f"'{path}': it has {m.neq} constraints in <equality>, expected none; closed chains and coupled "
