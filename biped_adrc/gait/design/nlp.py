@@ -349,9 +349,8 @@ def relaxed(
     # a slack above _MISSED is a limit that cannot be kept
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
     if missed or not result.solved:
-        reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
-        unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
-        raise GaitError(
-            f"no gait with {request} keeps the limits{reason if result.solved else unknown}"
-        )
+        why = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
+        if not result.solved:
+            why = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
+        raise GaitError(f"no gait with {request} keeps the limits{why}")
     return result.x[:-count]  # without the slacks
