@@ -252,14 +252,11 @@ class Frames:
         names. Raises InputError for too many frames.
         """
         placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
-        t, arcs, poses = [], [], []
-        for i, arc in enumerate(scene.trajectory.arcs):
-            times = _nodes(scene, arc, fps)
-            t.append(times)
-            arcs.append(np.full(len(times), i))
-            poses += [pose(scene, i, float(time)) for time in times]
-        columns = map(np.array, zip(*poses, strict=True))
-        return cls(np.concatenate(t), np.concatenate(arcs), Pose(*columns))
+        nodes = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
+        at = [(i, t) for i, times in enumerate(nodes) for t in times]
+        arcs, times = map(np.array, zip(*at, strict=True))
+        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
+        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:
