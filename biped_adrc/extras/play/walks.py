@@ -274,7 +274,6 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     web = web_walkers([one.code for one in structures])
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
-    feet = plant.description.stance_foot, plant.description.swing_foot
     # SPRING: stiffness and damping between mouse and point; STRUCK: code of an impact
     return {
         "code": packed(web.code),
@@ -285,7 +284,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
         },
         "n": plant.n,
         "links": link_numbers(plant, [link for _, link in visual_links(plant.tree)]),
-        "twins": twins(plant.tree, feet),
+        "twins": twins(plant.tree, plant.description.feet),
         "trunk": trunk_of(plant),
         "joints": joint_places(plant),
         "exchanged": [exchanged(plant, step) for step in (1, 2)],
