@@ -68,9 +68,8 @@ class VirtualConstraint(Reference):
 
     def __repr__(self) -> str:
         ends = f"Theta from {self.theta_plus:.4g} to {self.theta_minus:.4g} rad"
-        return (
-            f"VirtualConstraint({self.curve!r}, {ends}{'' if self.fade is None else ', continued'})"
-        )
+        beyond = "" if self.fade is None else ", continued"
+        return f"VirtualConstraint({self.curve!r}, {ends}{beyond})"
 
     def __post_init__(self) -> None:
         """Check the fields, and keep the phase as a read-only array."""

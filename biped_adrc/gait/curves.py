@@ -22,7 +22,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import lru_cache
 from math import comb
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -245,8 +245,7 @@ def curve_kind(name: str) -> type[Curve]:
             "with biped_adrc.register('curve', NAME, CLASS) first, since files are read without importing "
             "anything"
         )
-    kind: Any = REGISTRY["curve"][name].load()
-    return kind
+    return REGISTRY["curve"][name].load()  # type: ignore[return-value]
 
 
 CUBIC = 3
@@ -311,8 +310,7 @@ def basis(degree: int) -> Array:
         for d in range(1, CUBIC + 1):
             N = np.array([_raised(t, N, k, d) for k in range(len(N) - 1)])
         table[j] = N
-    table.setflags(write=False)  # all callers share the cached array
-    return table
+    return read_only(table)  # all callers share the cached array
 
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:

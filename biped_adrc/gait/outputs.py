@@ -164,6 +164,5 @@ def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> 
     """Finite difference of f along dq (n,): sum_k w_k f(q + k dq), k = -2 .. 2, with weights w (5,), of which
     those that are 0 cost no call of f.
     """
-    return np.asarray(
-        sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
-    )
+    points = zip(range(-2, 3), weights, strict=True)
+    return np.asarray(sum(w * np.asarray(f(q + k * dq)) for k, w in points if w))

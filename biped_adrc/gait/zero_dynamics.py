@@ -124,10 +124,8 @@ class ZeroDynamics(Shown):
         s, w, C = gauss_nodes(nodes)
         span = constraint.theta_minus - constraint.theta_plus
         theta = constraint.theta_plus + span * s
-        rows = zip(
-            *(configuration(constraint.phase, constraint.h, th) for th in theta), strict=True
-        )
-        q, dq, ddq = map(np.array, rows)
+        rows = (configuration(constraint.phase, constraint.h, th) for th in theta)
+        q, dq, ddq = map(np.array, zip(*rows, strict=True))
         # [-1]: the row of the coordinate without a motor
         inertia = np.array([biped.inertia(q[k])[-1] @ dq[k] for k in range(nodes)])
         gravity = np.array([biped.gravity(q[k])[-1] for k in range(nodes)])

@@ -262,20 +262,14 @@ class ZeroOrbits(Shown):
         """Average speed [m/s] of the step that begins after the impact with zeta. At the lower end of the
         domain, zeta = V_max / delta^2, it is 0 where the step comes to rest at V_max for ever.
         """
-        if zeta == self.lowest and self._slows_down_for_ever:
-            return 0.0
+        if zeta == self.lowest:
+            # an equilibrium, where dV_zero/dTheta is 0 (below the share _SADDLE of its largest value), is
+            # approached and never passed; a V_max at an end of the step is left or reached in finite time
+            slope = self.potential.deriv()
+            largest = float(np.max(np.abs(slope(grid(self.zero)))))
+            if abs(float(slope(self.theta_max))) < _SADDLE * largest:
+                return 0.0
         return self.step_length / self.period(zeta)
-
-    @cached_property
-    def _slows_down_for_ever(self) -> bool:
-        """Whether the phase of V_max is an equilibrium (dV_zero/dTheta = 0): a step at the lower end of the
-        domain then approaches it and never passes; else V_max is at an end of the step, which is left or
-        reached in finite time.
-        """
-        # dV_zero/dTheta; below the share _SADDLE of its largest value it counts as 0
-        slope = self.potential.deriv()
-        largest = float(np.max(np.abs(slope(grid(self.zero)))))
-        return abs(float(slope(self.theta_max))) < _SADDLE * largest
 
     def kinetic_energy(self, zeta: float) -> float:
         """Kinetic energy [J] just before the impact with zeta."""

@@ -103,12 +103,11 @@ class Biped(Shown):
         description = load_description(robot)
         record = description.preset(preset)
         tree = description.tree(record.name)
-        biped = cls(description, tree, record.name, record.armature, friction)
-        biped.check()
-        return biped
+        return cls(description, tree, record.name, record.armature, friction).check()
 
-    def check(self) -> None:
-        """Build both models; raise ModelError for wrong numbers, unequal legs or motors without a twin.
+    def check(self) -> Biped:
+        """Return this robot after both models are built and checked; raises ModelError for wrong numbers,
+        unequal legs or motors without a twin.
 
         Relabelling at impact is right only for equal legs. Tested at one state, with numbers of no meaning:
         when the legs exchange their roles, neither the kinetic energy about the COM may change, nor the COM's
@@ -133,6 +132,7 @@ class Biped(Shown):
                 "make them equal"
             )
         _ = self.swap  # raises for motors that have no twin
+        return self
 
     # -- sizes and names -----------------------------------------------------------------------
     @cached_property
@@ -269,9 +269,8 @@ class Biped(Shown):
         """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
-        turning = self.coriolis(q, v).T @ v
         F_a, J_2 = self.pinned.mass_jacobian(q), self.pinned.jacobian(q, self.pinned.swing)
-        return BodyTerms(self.gravity(q), turning, F_a, F_0, J_2, self.mass)
+        return BodyTerms(self.gravity(q), self.coriolis(q, v).T @ v, F_a, F_0, J_2, self.mass)
 
     def friction_torque(self, v: Array) -> Array:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,) [rad/s].

@@ -137,8 +137,7 @@ class FloatingDynamics:
         x = self.configuration(q)
         Z = self.velocity_map(q)[:, : self.n]
         w = Z @ v
-        zero = np.zeros(self.model.nv)
-        pin.forwardKinematics(self.model, self.data, x, w, zero)
+        pin.forwardKinematics(self.model, self.data, x, w, np.zeros(self.model.nv))
         a = pin.getFrameClassicalAcceleration(self.model, self.data, self.stance, WORLD_AXES)
         Zdot_v = np.zeros(self.model.nv)
         Zdot_v[self.base] = -a.linear[XZ]
@@ -204,15 +203,10 @@ class LinkMotion:
         """Pinocchio's indices of the joints of the leg that stood before the impact, from its knee up to its
         hip: those above its foot that do not carry the swing foot as well.
         """
-        model, result = self.floating.model, []
-        j = int(model.frames[self.floating.stance].parentJoint)
-        top = int(model.frames[self.floating.swing].parentJoint)
-        # all joints between the world and the swing foot
-        shared = set(model.supports[top])
-        while j not in shared:
-            result.append(j)
-            j = int(model.parents[j])
-        return result
+        model, feet = self.floating.model, (self.floating.stance, self.floating.swing)
+        # all joints between the world and either foot
+        old, other = (list(model.supports[model.frames[foot].parentJoint]) for foot in feet)
+        return [j for j in reversed(old) if j not in other]
 
     def outboard(self, joint: int) -> float:
         """Angular momentum [kg m^2/s], counter-clockwise, about a joint of all links that it carries, with that

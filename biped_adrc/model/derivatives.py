@@ -62,9 +62,8 @@ def acceleration_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> Acce
     parts = pinned.data.dtau_dq, pinned.data.dtau_dv
     dq, dv = (T.T @ np.reshape(part, T.shape) @ T for part in parts)
     inverse = solve(biped.inertia(q), np.eye(biped.n), "the inertia matrix D_s")
-    return AccelerationDerivatives(
-        -inverse @ dq, inverse @ (biped.friction_derivative(v) - dv), inverse
-    )
+    by_v = inverse @ (biped.friction_derivative(v) - dv)
+    return AccelerationDerivatives(-inverse @ dq, by_v, inverse)
 
 
 def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
@@ -89,10 +88,7 @@ def entries(x: ca.SX) -> _Symbols:
     """Convert a CasADi column of m symbols to a NumPy array (m,) of CasADi scalars; the inverse of
     `together`.
     """
-    out = np.empty(x.numel(), dtype=object)
-    for i in range(len(out)):
-        out[i] = x[i]
-    return out
+    return np.fromiter(ca.vertsplit(x), dtype=object)
 
 
 def together(values: _Symbols) -> ca.SX:

@@ -73,10 +73,8 @@ class ModelErrors(Checked, Shown):
         """
         random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)
-        m, d, J = (
-            dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
-            for width in (mass, com, inertia)
-        )
+        errors = (random.uniform(-width, width, len(bodies)) for width in (mass, com, inertia))
+        m, d, J = (dict(zip(bodies, e.tolist(), strict=True)) for e in errors)
         pairs = list(_rubbing(biped))  # joints with friction; twins together
         drawn = random.uniform(-friction, friction, len(pairs)).tolist()
         by_pair = zip(pairs, drawn, strict=True)
@@ -100,8 +98,7 @@ class ModelErrors(Checked, Shown):
         wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:
             wrong = self._rubbed(wrong)
-        wrong.check()
-        return wrong
+        return wrong.check()
 
     def _rubbed(self, biped: Biped) -> Biped:
         """A copy of the biped with its viscous and static friction multiplied by 1 + e.

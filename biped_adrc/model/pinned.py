@@ -162,11 +162,10 @@ class PinnedDynamics:
         pin.forwardKinematics(self.model, self.data, self.T @ q)
         places, inertias = list(self.data.oMi)[1:], list(self.model.inertias)[1:]
         coms = [oMi.act(body.lever) for oMi, body in zip(places, inertias, strict=True)]
-        frames = [
-            pin.updateFramePlacement(self.model, self.data, frame).translation
-            for frame in (self.swing, self.hip)
-        ]
-        return np.array([*coms, *frames])[:, XZ]
+        frames = (
+            pin.updateFramePlacement(self.model, self.data, k) for k in (self.swing, self.hip)
+        )
+        return np.array([*coms, *(frame.translation for frame in frames)])[:, XZ]
 
 
 PIN_JOINT = "stance_pin"
@@ -210,10 +209,8 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
         beside = _beside(tree, joint.parent, chain)
         moved = (replace(j, origin=_minus(j.origin, origin.get(j.parent, ZERO))) for j in beside)
         joints += [turned, *moved]
-    links = {
-        name: _moved(tree.links[name], origin.get(name, ZERO))
-        for name in (joint.child for joint in joints)
-    }
+    children = [joint.child for joint in joints]
+    links = {name: _moved(tree.links[name], origin.get(name, ZERO)) for name in children}
     ground = {"ground": Link("ground", None, ())}  # without mass and shapes
     return Tree(f"{tree.name}_pinned", {**ground, **links}, tuple(joints), tree.source)
 

@@ -32,7 +32,7 @@ import numpy as np
 
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.shown import as_line
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, read_only
 
 
 class Reduction(NamedTuple):
@@ -84,9 +84,7 @@ class BodyTerms(NamedTuple):
 @lru_cache(maxsize=16)
 def identity(p: int) -> Array:
     """The unit matrix (p, p), read-only; the same array at every call."""
-    one = np.eye(p)
-    one.setflags(write=False)
-    return one
+    return read_only(np.eye(p))
 
 
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:

@@ -166,9 +166,8 @@ def legs(biped: Biped) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """
     if is_wheel(biped):
         return (), ()
-    d = biped.description
     # the links of both legs, in turn of the leg of `stance_foot` and of the other one
-    pairs = tuple(twins(biped.tree, (d.stance_foot, d.swing_foot)))
+    pairs = tuple(twins(biped.tree, biped.description.feet))
     return pairs[::2], pairs[1::2]
 
 

@@ -120,9 +120,8 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
         else:
             wide = i in doubles
             operands = (values[k].name if wide else values[k].real for k in of)
-            text = _PATTERNS[code].format(
-                **dict(zip("abc", operands, strict=False)), F="" if wide else "F"
-            )
+            named = dict(zip("abc", operands, strict=False))
+            text = _PATTERNS[code].format(**named, F="" if wide else "F")
             value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)
             texts[i] = f"const {'double' if wide else 'real'} {value.name} = {text};"
         values.append(value)
@@ -161,9 +160,8 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
             kinds.append(_degree(code, sides))
             if code == ca.OP_SUB and LINEAR in sides and UNKNOWN not in sides:
                 differences.add(i)
-    return {
-        i for i in ancestors(line, differences) if line[i].code not in (ca.OP_INPUT, ca.OP_CONST)
-    }
+    known = ca.OP_INPUT, ca.OP_CONST
+    return {i for i in ancestors(line, differences) if line[i].code not in known}
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -54,8 +54,7 @@ class Computer:
     @property
     def timing(self) -> SampledTime:
         """The walker's sampling period and delay [s]."""
-        assert isinstance(self.walker.timing, SampledTime)
-        return self.walker.timing
+        return cast(SampledTime, self.walker.timing)
 
     @cached_property
     def robot(self) -> PlanarRobot:
@@ -73,9 +72,8 @@ class Computer:
         sensor = self.walker.sensors
         result = None if sensor is None else sensor.on_computer(None)
         if result is not None and not isinstance(result, Sensors):
-            raise InputError(
-                f"on the computer the sensors are {type(result).__name__}, expected Sensors or None"
-            )
+            name = type(result).__name__
+            raise InputError(f"on the computer the sensors are {name}, expected Sensors or None")
         return result
 
     @cached_property
@@ -117,8 +115,7 @@ class Computer:
         """What keeps numbers between sample instants, sensors and motors, in `alone`: the walker with nothing
         but what runs on the computer.
         """
-        assert self.alone.held is not None
-        return self.alone.held
+        return cast(HeldParts, self.alone.held)
 
     def growth(self, q: Array, v: Array) -> float:
         """Growth rate [1/s] of the fastest unstable mode of the computer's state while it measures the same q

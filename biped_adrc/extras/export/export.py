@@ -111,8 +111,6 @@ def ports(source: Source) -> list[Port]:
     torques u of the p motors, touchdown, flag.
     """
     joints, read = source.words["joint_names"], source.words["rates_read"]
-    assert isinstance(joints, tuple)
-    assert isinstance(read, tuple)
     numbered = list(enumerate(joints))
     angle, rate = '<Real unit="rad" start="0"/>', '<Real unit="rad/s" start="0"/>'
     torque, flags = '<Real unit="N.m"/>', '<Integer min="0" max="4"/>'

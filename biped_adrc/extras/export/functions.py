@@ -164,21 +164,19 @@ def functions(computer: Computer) -> Functions:
     n, p, every = computer.robot.n, computer.robot.p, fields_of(computer)
     total = computer.layout.size - 2 * n
     live = _live(*traced[1:], n, total)
-    kept, at = list[Field](), 0  # at: place in x_c where a field begins
-    for field in every:
-        if any(i in live for i in range(at, at + field.size)):
-            kept.append(field)
-        at += field.size
+    names = [name for field in every for name in field]  # of the entries of x_c, in its order
+    needed = {names[i] for i in live}
+    kept = tuple(field for field in every if not needed.isdisjoint(field))
     left = {name for field in kept for name in field}
     # an empty name drops the output
-    states = [f"next->{name}" if name in left else "" for field in every for name in field]
+    states = [f"next->{name}" if name in left else "" for name in names]
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
     # all three functions return x_c, and step u and lost behind it
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     # in the inputs of a function q begins at _HEAD, and v at _HEAD + n
     read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)
     rates = tuple(i for i in range(n) if _HEAD + n + i in read)
-    return Functions(tuple(kept), tuple(functions), rates)
+    return Functions(kept, tuple(functions), rates)
 
 
 def fields_of(computer: Computer) -> tuple[Field, ...]:

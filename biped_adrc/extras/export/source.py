@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
@@ -59,7 +60,7 @@ class Source:
     """Number of coordinates."""
     p: int
     """Number of motors."""
-    words: Mapping[str, object]
+    words: Mapping[str, Any]
     """Values for the templates, such as title and scenario."""
 
     def __repr__(self) -> str:

@@ -255,15 +255,13 @@ class Replay(Shown):
         from biped_adrc.view.plots.over_time import curves, finished, say_no_observer, with_gaps
         from biped_adrc.view.style import GREY, new_figure
 
-        x = self.signals
+        x, t = self.signals, with_gaps(self.signals, self.signals.t)
         look: Any = {"color": GREY, "alpha": 0.2, "lw": 0.0, "label": "contact"}
         with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
             beyond, residual, torque = figure.subplots(3, 1, sharex=True)
             for k, u in enumerate(x.u.T):
                 name = "in the log" if k == 0 else "_"
-                torque.plot(
-                    with_gaps(x, x.t), with_gaps(x, u), color=GREY, lw=0.8, ls=":", label=name
-                )
+                torque.plot(t, with_gaps(x, u), color=GREY, lw=0.8, ls=":", label=name)
             for axes, values, symbol, unit in (
                 (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
                 (residual, 1e3 * x.residual, "q", "residual [mrad]"),

@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,14 +66,11 @@ class RobotLog(Shown):
     def __post_init__(self) -> None:
         """Replace the arrays by read-only copies, None by arrays, and check them; see the class."""
         n = np.shape(self.q)[-1:]
-        given: dict[str, Any] = dict(vars(self))
-        if self.measured is None:
-            given["measured"] = np.full(n, self.v is not None)
-        if self.v is None:
-            given["v"] = np.zeros(np.shape(self.q))
+        usual = {"v": np.zeros(np.shape(self.q)), "measured": np.full(n, self.v is not None)}
         for name in ("t", "step", "q", "u", "v", "measured"):
-            values = read_only(numbers(given[name], f"{name} of the log"))
-            object.__setattr__(self, name, values)
+            x = getattr(self, name)
+            values = numbers(usual.get(name) if x is None else x, f"{name} of the log")
+            object.__setattr__(self, name, read_only(values))
         if self.has_rate.shape != n:
             raise InputError(
                 f"measured of the log has the shape {self.has_rate.shape}, expected {n}, 1 or 0 for each rate"
@@ -163,12 +159,6 @@ def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[
     bad = np.flatnonzero(~np.all(np.isfinite(table), axis=1))
     if len(bad):
         raise InputError(f"{names[bad[0]]} of the log has {table[bad[0]]}, expected finite numbers")
-    _check_steps(step, names)
-    _check_times(t, step, names)
-
-
-def _check_steps(step: Array, names: list[str]) -> None:
-    """Raise InputError for numbers of single supports (K,) that are not whole, below 1, or do not grow by 1."""
     change = np.diff(step, prepend=step[:1])
     bad = np.flatnonzero((step != np.round(step)) | (step < 1.0) | ~np.isin(change, (0.0, 1.0)))
     if len(bad):
@@ -176,6 +166,7 @@ def _check_steps(step: Array, names: list[str]) -> None:
             f"{names[bad[0]]} of the log is of single support {step[bad[0]]:g}, expected whole numbers from 1 "
             "that grow by 1 at a touchdown"
         )
+    _check_times(t, step, names)
 
 
 def _check_times(t: Array, step: Array, names: list[str]) -> None:

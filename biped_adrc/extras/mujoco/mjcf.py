@@ -61,8 +61,7 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
         key = {"name": "start", **_start(plant, gait)}
         ET.SubElement(ET.SubElement(root, "keyframe"), "key", key)
     ET.indent(root)
-    comment = f"<!--\n{_comment(plant)}\n-->\n"
-    return comment + ET.tostring(root, encoding="unicode") + "\n"
+    return f"<!--\n{_comment(plant)}\n-->\n{ET.tostring(root, encoding='unicode')}\n"
 
 
 def _shape(visual: Visual) -> ET.Element:

@@ -190,12 +190,10 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     """
     biped = walk.walker.plant
     given = scene_settings({"walk": scene, "ghost": scene}, Clip())
-    commands = given["commands"]
-    assert isinstance(commands, list)
     robot = "meshcat/robots/0"  # the walk; its ghost is robots/1
     links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
     return given | {
-        "commands": [*commands, *hand_commands()],
+        "commands": [*given["commands"], *hand_commands()],
         "links": links,
         "hand": {"arrow": "meshcat/hand/arrow", "line": "meshcat/hand/line"},
         "robot": {

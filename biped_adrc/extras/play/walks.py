@@ -275,7 +275,6 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     web = web_walkers([one.code for one in structures])
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
-    feet = plant.description.stance_foot, plant.description.swing_foot
     # SPRING: stiffness and damping between mouse and point; STRUCK: code of an impact
     return {
         "code": packed(web.code),
@@ -286,7 +285,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
         },
         "n": plant.n,
         "links": link_numbers(plant, [link for _, link in visual_links(plant.tree)]),
-        "twins": twins(plant.tree, feet),
+        "twins": twins(plant.tree, plant.description.feet),
         "trunk": trunk_of(plant),
         "joints": joint_places(plant),
         "exchanged": [exchanged(plant, step) for step in (1, 2)],
@@ -390,12 +389,10 @@ def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
 
     re, im (3, n) [m]: at the link's (0, 0), and their slopes along x and z [1]; turn (n,).
     """
-    result: dict[str, Any] = {}
+    result, places = dict[str, Any](), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
     for link in dict.fromkeys(links):
         # affine in (x, z): the values at the origin, and the differences to 1 m along x and along z
-        corner, *others = (
-            link_point(plant, link, at) for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
-        )
+        corner, *others = (link_point(plant, link, at) for at in places)
         result[link] = {
             name: [getattr(corner, name).tolist()]
             + [(getattr(other, name) - getattr(corner, name)).tolist() for other in others]

@@ -225,9 +225,8 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
         ]
     # nodes at which the foot has to be above the ground: without a clearance those in the later half of the
     # step alone, s > PASSED, since a leg without a knee scuffs before
-    above = [
-        i for i, x in enumerate(s) if x > (PASSED if limits.clearance is None else 0.0) and x < 1.0
-    ]
+    scuffs = PASSED if limits.clearance is None else 0.0
+    above = [i for i, x in enumerate(s) if scuffs < x < 1.0]
     hump = (limits.clearance or 0.0) * 16.0 * (s * (1.0 - s))[above] ** 2
     height = (k.out @ node.foot)[:, above] / k.leg - hump[np.newaxis]
     # LATE: name of the row where no clearance is asked for
@@ -344,16 +343,14 @@ def relaxed(
     count = len(names)
     cost = ca.dot(weight, slack) + 1e-6 * programme.objective
     softened = NonlinearProgram(ca.vertcat(programme.x, slack), cost, tuple(rows))
-    low, high = bounds
-    ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
+    ends = np.append(bounds[0], np.zeros(count)), np.append(bounds[1], np.full(count, np.inf))
     # slacks of 1 at first; "monotone": the more robust way in which IPOPT lowers its barrier
     result = solve_nlp(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
     # a slack above _MISSED is a limit that cannot be kept
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > _MISSED}
     if missed or not result.solved:
-        reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
-        unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
-        raise GaitError(
-            f"no gait with {request} keeps the limits{reason if result.solved else unknown}"
-        )
+        why = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
+        if not result.solved:
+            why = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
+        raise GaitError(f"no gait with {request} keeps the limits{why}")
     return result.x[:-count]  # without the slacks

@@ -41,15 +41,7 @@ from scipy.optimize import least_squares
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.nlp import (
-    ASKED,
-    LATE,
-    LONGEST_STEP,
-    Bounds,
-    relaxed,
-    solve_nlp,
-    transcribe,
-)
+from biped_adrc.gait.design import nlp
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.step import Unknowns, at_gait, stacked
 from biped_adrc.gait.gait import Gait, onto_section
@@ -88,20 +80,6 @@ def standing(robot: PlanarRobot) -> Array:
     return np.asarray(np.linalg.solve(robot.A, a), dtype=np.float64)
 
 
-def _inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
-    """A copy of q (n,) [rad] whose joints with a range are moved a little inside of it.
-
-    ranges: (low, high) [rad] by joint; the distance from an end is then at least BEND, or a quarter of the
-    range if that is less. A guess at a bound would have only one direction to move in.
-    """
-    q = q.copy()
-    for joint, (low, high) in ranges.items():
-        k = biped.description.joint_index(joint)
-        off = min(BEND, 0.25 * (high - low))
-        q[k] = np.clip(q[k], low + off, high - off)
-    return q
-
-
 def apart(
     biped: Biped, step: float, slope: float, ranges: Mapping[str, tuple[float, float]]
 ) -> Array:
@@ -112,11 +90,15 @@ def apart(
     that of the angles from `standing`. ranges: (low, high) [rad] by joint, kept as bounds.
     """
     robot = robot_of(biped)
-    near, K = _inside(standing(robot), biped, ranges), robot.K
+    near, K = standing(robot), robot.K
     target = step * ground_axes(slope)[0]  # place of the swing foot (x, z) [m], along the ground
     bounds = np.full((2, biped.n), np.inf) * [[-1.0], [1.0]]
-    for joint, ends in ranges.items():
-        bounds[:, biped.description.joint_index(joint)] = ends
+    for joint, (low, high) in ranges.items():
+        k = biped.description.joint_index(joint)
+        bounds[:, k] = low, high
+        # the first guess is a little inside: at a bound it would have only one direction to move in
+        off = min(BEND, 0.25 * (high - low))
+        near[k] = np.clip(near[k], low + off, high - off)
 
     def miss(q: Array) -> Array:
         """Weighted residuals (n + 3,): of foot (2,) and hip (x alone) [m], and of the angles (n,) [rad].
@@ -166,11 +148,11 @@ def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unkno
         step = request.step or _STEP * leg  # half the leg, where no step length is asked for
         # FROUDE and LONGEST_STEP: what is searched at most
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
-        if step > LONGEST_STEP * leg or (request.speed or 0.0) > most:
+        if step > nlp.LONGEST_STEP * leg or (request.speed or 0.0) > most:
             raise GaitError(
                 f"{request.in_words()} is asked for; legs of {leg:g} m cannot walk, one foot always on the "
-                f"ground, faster than {most:.3g} m/s, or in steps of more than {LONGEST_STEP * leg:.3g} m: ask "
-                "for less"
+                f"ground, faster than {most:.3g} m/s, or in steps of more than {nlp.LONGEST_STEP * leg:.3g} m: "
+                "ask for less"
             )
         q = apart(biped, step, request.slope, limits.ranges)
         q_plus = biped.relabel(q)  # the start of a periodic step
@@ -218,15 +200,14 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     x = at_gait(biped, c, gait.q_minus, gait.v_minus / rate, abs(rate), rates, 1.0)
     # the same rows as in the design, but at all nodes of `orbit`; nothing is solved
     finer = replace(request, nodes=len(rates))
-    programme, _ = transcribe(biped, finer, loose, float(np.sign(rate)))
+    programme, _ = nlp.transcribe(biped, finer, loose, float(np.sign(rate)))
     # ASKED: rows of speed and step length, which may miss by SPEED
-    allowed = dict.fromkeys(ASKED, SPEED)
+    allowed = dict.fromkeys(nlp.ASKED, SPEED)
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
-    allowed[LATE] = np.inf
-    result = programme.missed(stacked(x))
-    missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, _EXACT)}
-    return programme.in_words(missed)
+    allowed[nlp.LATE] = np.inf
+    gaps = programme.missed(stacked(x)).items()
+    return programme.in_words({k: gap for k, gap in gaps if not gap <= allowed.get(k, _EXACT)})
 
 
 def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamicsOrbit) -> float:
@@ -292,21 +273,21 @@ def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]
     last one and the number of all iterations.
 
     IPOPT lowers its barrier parameter in the adaptive and, if that fails, in the monotone way. After a stage
-    that is not solved, the next one starts from the same guess. If the last stage is not solved, `relaxed`
+    that is not solved, the next one starts from the same guess. If the last stage is not solved, `nlp.relaxed`
     finds a feasible point, from which IPOPT starts again; raises GaitError with the reason if that fails too.
     """
     stages, iterations, limits = request.stages(), 0, request.limits.of(biped)
     guess = cold_start(biped, stages[0], limits)
     direction = float(np.sign(guess.theta[1] - guess.theta[0]))
     for stage in stages:
-        programme, unknowns = transcribe(biped, stage, limits, direction)
+        programme, unknowns = nlp.transcribe(biped, stage, limits, direction)
         x0, bounds = stacked(guess), _bounds(unknowns, guess, stage, limits)
-        runs = [solve_nlp(programme, x0, bounds)]
+        runs = [nlp.solve_nlp(programme, x0, bounds)]
         if not runs[-1].solved:
-            runs.append(solve_nlp(programme, x0, bounds, "monotone"))
+            runs.append(nlp.solve_nlp(programme, x0, bounds, "monotone"))
         if not runs[-1].solved and stage is stages[-1]:
-            point = relaxed(programme, stage.in_words(), x0, bounds, runs[-1].status)
-            runs.append(solve_nlp(programme, point, bounds))
+            point = nlp.relaxed(programme, stage.in_words(), x0, bounds, runs[-1].status)
+            runs.append(nlp.solve_nlp(programme, point, bounds))
             if not runs[-1].solved:
                 raise GaitError(
                     f"no gait with {stage.in_words()} was found: IPOPT stopped with {runs[-1].status}, though "
@@ -320,7 +301,7 @@ def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]
 
 def _bounds(
     unknowns: Unknowns[ca.MX], guess: Unknowns[Array], request: GaitRequest, limits: RobotLimits
-) -> Bounds:
+) -> nlp.Bounds:
     """Lower and upper bounds (nx,) of the decision vector.
 
     Rates are positive, and coefficients stay within WINDING of the guess (angles repeat every 2 pi). The
@@ -371,13 +352,12 @@ def exact_gait(
     # {}: the provenance is added below, as it has the step length
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
     step = gait.step_length(biped)
-    limits = vars(request.limits.of(biped))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
         "curves": f"{request.curve}, degree {request.degree}, limits kept at {request.nodes} nodes",
         "asked": request.in_words(),
         "minimised": request.objective.value,
-        "limits": ", ".join(f"{k} {v}" for k, v in limits.items()),
+        "limits": ", ".join(f"{k} {v}" for k, v in vars(request.limits.of(biped)).items()),
         "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
     }

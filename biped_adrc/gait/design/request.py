@@ -47,8 +47,7 @@ class Objective(Enum):
     @classmethod
     def _missing_(cls, value: object) -> Objective:
         # Enum calls this for a value that is none of its own
-        names = [o.value for o in cls]
-        raise GaitError(f"objective '{value}' is unknown; choose one of {names}")
+        raise GaitError(f"objective '{value}' is unknown; choose one of {[o.value for o in cls]}")
 
 
 @dataclass(frozen=True)

@@ -353,10 +353,9 @@ def _gait_of(record: GaitFile, biped: Biped, source: str) -> Gait:
     # the curve alone gives the state before impact up to its speed: |Theta'| = 1 rad/s, and a period of 1 s
     gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
     if record.q_minus is not None and record.v_minus is not None:
-        to_paper = layout.to_paper
         # the record's state, moved as its curves were: by whole turns, and with the foot onto the ground
-        q = to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
-        q, v = q + foot_down(biped, q, record.slope)[0], to_paper.rates(record.v_minus)
+        q = layout.to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns
+        q, v = q + foot_down(biped, q, record.slope)[0], layout.to_paper.rates(record.v_minus)
         gap = np.abs(v - dq * float(along.phase @ v) / span)
         joint = int(np.argmax(gap))
         if not gap[joint] <= RATES:

@@ -198,15 +198,13 @@ def coordinates(record: GaitFile, layout: Convention) -> Coordinates:
     is parallel to it, and adds whole turns (none in the robot's own coordinates). Raises GaitError when the
     rows do not determine the coordinates.
     """
-    # c, plus, minus: row and range of the phase in the record's own coordinates q'
+    # c: row of the phase in the record's own coordinates q'
     c = layout.phase if record.phase is None else record.phase
-    plus, minus = record.theta_plus, record.theta_minus
-    curve = _of_all(record, layout, c)
     to_paper = layout.to_paper
-    curve = mapped(curve, to_paper.A, to_paper.b)
+    curve = mapped(_of_all(record, layout, c), to_paper.A, to_paper.b)
     # theta = c' q' = (c' A^-1) q - c' A^-1 b
     row = c @ to_paper.inverse.A
-    ends = np.array([plus, minus]) + float(row @ to_paper.b)
+    ends = np.array([record.theta_plus, record.theta_minus]) + float(row @ to_paper.b)
     # row = k paper_phase where they are parallel; k < 0 for a phase that grows where the paper's falls
     k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
     if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):

@@ -61,17 +61,23 @@ def anatomy(body: PlanarBase, pair: tuple[str, str], hip: str | None) -> Anatomy
 
     Raises ModelError with the candidates and the option to give when a guess is not certain.
     """
-    notes: Notes = ()
+    tree, foot, notes = body.tree, pair[0], tuple[Note, ...]()  # foot: the stance foot
     if hip is None:
-        hip, sentence = _guessed_hip(body.tree, pair)
+        hip, sentence = _guessed_hip(tree, pair)
         notes = (Note("assumed", sentence),)
-    _check_hip(body, hip, pair[0])
+    # links on the trunk, or the trunk, whose origins stay when the tree is turned round at the stance foot
+    fits = [link for link in tree.links_from(body.trunk) if _keeps_its_origin(tree, link, foot)]
+    if hip not in fits:
+        raise ModelError(
+            f"'{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "
+            f"round at the stance foot '{foot}': one of {fits}"
+        )
     moving = _in_order(body, pair)
-    pitch = next(joint for joint in body.tree.joints if joint.name == body.pitch)
-    c = _phase(body.tree, pair[0], hip, (*moving, pitch))
+    pitch = next(joint for joint in tree.joints if joint.name == body.pitch)
+    c = _phase(tree, foot, hip, (*moving, pitch))
     terms = zip(c, (*moving, pitch), strict=True)
     text = " ".join(f"{w:+.6g} {joint.name}" for w, joint in terms if w != 0.0)
-    phase = f"phase: Theta = {text}, the virtual leg from the hip to '{pair[0]}'"
+    phase = f"phase: Theta = {text}, the virtual leg from the hip to '{foot}'"
     notes = (*notes, Note("assumed", phase))
     return Anatomy(pair, hip, moving, tuple(float(w) for w in c), notes)
 
@@ -82,13 +88,6 @@ def position(tree: Tree, link: str) -> Array:
     """
     origins = [joint.origin for joint in tree.path_to_root(link)]
     return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
-
-
-def _chain(body: PlanarBase, link: str) -> list[Joint]:
-    """Revolute joints between `link` and the trunk, from the trunk outwards."""
-    path = body.tree.path_below(link, body.trunk)
-    assert path is not None
-    return [joint for joint in reversed(path) if joint.type == "revolute"]
 
 
 # -- feet ------------------------------------------------------------------------------------------
@@ -209,7 +208,9 @@ def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
 
     From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's order.
     """
-    one, other = (_chain(body, foot) for foot in feet)
+    # revolute joints from the root outwards; both legs have those above the trunk, which are left out below
+    paths = (reversed(body.tree.path_to_root(foot)) for foot in feet)
+    one, other = ([joint for joint in path if joint.type == "revolute"] for path in paths)
     pairs = zip_longest((j for j in one if j not in other), (j for j in other if j not in one))
     legs = [joint for pair in pairs for joint in pair if joint is not None]
     turning = [j for j in body.tree.joints if j.type == "revolute" and j.name != body.pitch]
@@ -238,19 +239,6 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
     here = math.dist(position(tree, meet), position(tree, swing[-1].child)) < _AWAY
     link = meet if here and _keeps_its_origin(tree, meet, feet[0]) else swing[-1].child
     return link, f"hip: the origin of '{link}', where '{swing[-1].name}' joins the legs"
-
-
-def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
-    """Raise ModelError unless the link `hip` is the trunk or hangs on it, and keeps its origin when the tree is
-    turned round at `foot`, the stance foot.
-    """
-    tree = body.tree
-    fits = [link for link in tree.links_from(body.trunk) if _keeps_its_origin(tree, link, foot)]
-    if hip not in fits:
-        raise ModelError(
-            f"'{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "
-            f"round at the stance foot '{foot}': one of {fits}"
-        )
 
 
 def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:

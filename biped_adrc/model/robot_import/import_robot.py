@@ -104,11 +104,8 @@ def _shapes(tree: Tree, link: Link, rgba: _Colour) -> tuple[Visual, ...]:
         x, y, z = end
         if z and not x and not y:
             balls.append(Visual("cylinder", (radius, abs(z)), (0.0, 0.0, 0.5 * z), rgba))
-            continue
-        # the radius is 0 where the COM, the end of the rod, is the origin
-        balls += [
-            Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares if radius
-        ]
+        elif radius:  # it is 0 where the COM, the end of the rod, is the origin
+            balls += [Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares]
     return tuple(balls)
 
 
@@ -193,9 +190,7 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     # links with mass; of twins the second one is in the body of the first
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
     bodies: dict[str, list[str]] = {}
-    for link in heavy:
-        if link in twins.values():  # of the swing leg
-            continue
+    for link in (x for x in heavy if x not in twins.values()):  # none of the swing leg
         group = [link, twins[link]] if link in twins else [link]
         name = _SIDES.sub("", link).strip("_-") if link in twins else link
         occupied = not name or name in bodies or (name in heavy and name not in group)
@@ -286,8 +281,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     path, known = Path(path), replace(hints, actuated=actuated, torque=torque)
     record = _record_of(path.name, contents, body, parts, known, rotors)
     description = description_of(record, path)
-    biped = Biped(description, tree, PRESET, description.preset().armature)
-    biped.check()
+    biped = Biped(description, tree, PRESET, description.preset().armature).check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
@@ -378,9 +372,8 @@ def _armature(contents: Contents, actuated: Names, hints: Hints) -> tuple[Rotors
     if hints.armature is not None:
         return hints.armature, ()
     each = tuple(contents.rotor.get(name, 0.0) for name in actuated)
-    text = ", ".join(
-        f"{x:g} kg m^2 on '{name}'" for name, x in zip(actuated, each, strict=True) if x
-    )
+    rotors = zip(actuated, each, strict=True)
+    text = ", ".join(f"{x:g} kg m^2 on '{name}'" for name, x in rotors if x)
     none = Note("assumed", "rotor inertia: none; the file does not say. --set armature= gives it")
     notes = [Note("read", f"rotor inertia, reflected to the joint: {text}") if text else none]
     if other := sorted(name for name, x in contents.rotor.items() if x and name not in actuated):

@@ -41,17 +41,15 @@ def read_mjcf(path: Path) -> Contents:
     Raises ModelError for a file that does not compile or has constraints between bodies, InputError without
     MuJoCo.
     """
-    with optional(
-        "mujoco", f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
-    ):
+    missing = f"'{path}' is MJCF, which MuJoCo compiles, and MuJoCo is not installed"
+    with optional("mujoco", missing):
         import mujoco
     mujoco.set_mju_user_warning(lambda _: None)  # MuJoCo's own handler writes a file MUJOCO_LOG.TXT
     try:
         m = _compiled(mujoco.MjModel, path)
     except (ValueError, ET.ParseError) as error:
-        raise ModelError(
-            f"MJCF '{path}' does not compile: {' '.join(str(error).split())}"
-        ) from None
+        reason = " ".join(str(error).split())
+        raise ModelError(f"MJCF '{path}' does not compile: {reason}") from None
     if m.neq:
         raise ModelError(
             f"'{path}': it has {m.neq} constraints in <equality>, expected none; closed chains and coupled "

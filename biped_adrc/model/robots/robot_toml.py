@@ -169,9 +169,8 @@ class RobotDescription(Shown):
         """The preset `name`; None: the default one. Raises ModelError with the known names for another name."""
         name = self.default_preset if name is None else name
         if name not in self.presets:
-            raise ModelError(
-                f"robot '{self.name}' has no preset '{name}'; choose one of {sorted(self.presets)}"
-            )
+            known = sorted(self.presets)
+            raise ModelError(f"robot '{self.name}' has no preset '{name}'; choose one of {known}")
         return self.presets[name]
 
     def joint_index(self, joint: str | int) -> int:

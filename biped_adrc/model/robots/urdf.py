@@ -165,10 +165,9 @@ class Tree(Shown):
     def path_to_root(self, link: str) -> tuple[Joint, ...]:
         """Joints from `link` up to the root, the nearest one first."""
         path: list[Joint] = []
-        joint = self.joint_above(link)
-        while joint is not None:
+        while (joint := self.joint_above(link)) is not None:
             path.append(joint)
-            joint = self.joint_above(joint.parent)
+            link = joint.parent
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:

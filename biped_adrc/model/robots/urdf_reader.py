@@ -169,11 +169,9 @@ def _rotors(robot: ET.Element) -> dict[str, float]:
 
     N is the text of <mechanicalReduction>, 1 if missing; without <motorInertia> J the joint is left out.
     """
-    result = {}
+    result, tags = {}, ("mechanicalReduction", "motorInertia")
     for e in robot.iterfind("transmission[joint]"):
-        texts = {
-            tag: e.findtext(f".//{tag}", "1") for tag in ("mechanicalReduction", "motorInertia")
-        }
+        texts = {tag: e.findtext(f".//{tag}", "1") for tag in tags}
         if e.find(".//motorInertia") is not None:
             # `_numbers` reads attributes, so the texts become those of an element
             numbers = ET.Element("transmission", texts)
@@ -248,9 +246,8 @@ def _ends(joint: ET.Element) -> tuple[str, str]:
     """Names of the parent and the child link of a joint: the attribute `link` of its elements <parent> and
     <child>. Raises ModelError where one is missing."""
     where = _place_of(joint)
-    parent, child = (
-        _name(_required(joint, role, where), f"{where}: ", "link") for role in ("parent", "child")
-    )
+    elements = (_required(joint, role, where) for role in ("parent", "child"))
+    parent, child = (_name(element, f"{where}: ", "link") for element in elements)
     return parent, child
 
 

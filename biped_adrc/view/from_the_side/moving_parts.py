@@ -139,7 +139,12 @@ class DrawnWalk:
         self.links.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
         i, points = scene.arc_at(t), view.points(t)
         self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
-        self._extend(points, view.step(t))
+        # the path of the swing foot breaks at an impact, where the other foot becomes the swing foot
+        self.passed.append(points)
+        self.steps.append(view.step(t))
+        path, jumps = np.array(self.passed), np.flatnonzero(np.diff(self.steps)) + 1
+        self.hip.set_data(*path[:, :2].T)
+        self.foot.set_data(*np.insert(path[:, 2:], jumps, np.nan, axis=0).T)
         acting, foot = loads_at(scene, t), np.array(scene.foot(i, t))
         # drawn: vector of the arrow [m]; cut: a text if it was cut; points[2:]: the swing foot
         drawn, cut = self._arrow(0, foot, acting.ground_reaction)
@@ -156,16 +161,6 @@ class DrawnWalk:
         self.torques.set_verts(
             [placements[j.child][[0, 2], 3] + colours.bent_arrow(torque[j.name]) for j in pushed]
         )
-
-    def _extend(self, points: Array, step: int) -> None:
-        """Extend the drawn paths to `points` (4,), x and z of hip and of swing foot [m], in single support
-        `step`; the path of the swing foot breaks at an impact, where the other foot becomes the swing foot.
-        """
-        self.passed.append(points)
-        self.steps.append(step)
-        path, jumps = np.array(self.passed), np.flatnonzero(np.diff(self.steps)) + 1
-        self.hip.set_data(*path[:, :2].T)
-        self.foot.set_data(*np.insert(path[:, 2:], jumps, np.nan, axis=0).T)
 
     def _arrow(self, k: int, start: Array, force: Array) -> tuple[Array, str]:
         """Draw arrow k (0: stance foot, 1: other foot) for a force (2,) [N] at `start` (2,) [m]; returns the

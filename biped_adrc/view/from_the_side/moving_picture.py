@@ -174,10 +174,8 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     height, width, _ = some[0].shape
     bands = [np.full((height // 4, width, 3), ImageColor.getrgb(c), np.uint8) for c in MARKED]
     palette = Image.fromarray(np.concatenate([*some, *bands])).quantize(64)
-    first, *others = (
-        Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
-        for frame in frames
-    )
+    pictures = (Image.fromarray(frame) for frame in frames)
+    first, *others = (x.quantize(palette=palette, dither=Image.Dither.NONE) for x in pictures)
     # a GIF counts in hundredths of a second: rounded so that errors do not add up; Pillow takes milliseconds
     hundredths = np.diff(np.rint(100.0 * np.arange(len(frames) + 1) / fps))
     hundredths[-1] += round(100.0 * rest)

@@ -19,7 +19,7 @@ import base64
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -78,7 +78,7 @@ def scene_settings(
     clip: Clip,
     frames: Mapping[str, Frames] | None = None,
     marks: Marks = (),
-) -> dict[str, object]:
+) -> dict[str, Any]:
     """The settings that scene.js and player.js read: Meshcat's commands and, by walk, the paths of what moves.
 
     scenes: name -> walk, the solid one first. frames: name -> samples of the walk; None for a page in which the
@@ -252,14 +252,11 @@ class Frames:
         names. Raises InputError for too many frames.
         """
         placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
-        t, arcs, poses = [], [], []
-        for i, arc in enumerate(scene.trajectory.arcs):
-            times = _nodes(scene, arc, fps)
-            t.append(times)
-            arcs.append(np.full(len(times), i))
-            poses += [pose(scene, i, float(time)) for time in times]
-        columns = map(np.array, zip(*poses, strict=True))
-        return cls(np.concatenate(t), np.concatenate(arcs), Pose(*columns))
+        nodes = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
+        at = [(i, t) for i, times in enumerate(nodes) for t in times]
+        arcs, times = map(np.array, zip(*at, strict=True))
+        poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
+        return cls(times, arcs, Pose(*map(np.array, poses)))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:
@@ -273,9 +270,8 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     q, v = x[:n], x[n : 2 * n]
     moving = [joint.name for joint in biped.tree.joints if joint.type != "fixed"]
     # values of the joints at t, and EPSILON [s] later and earlier
-    at, later, earlier = (
-        joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
-    )
+    near = (q + s * EPSILON * v for s in (0.0, 1.0, -1.0))
+    at, later, earlier = (joint_values(biped, angles, step, *foothold) for angles in near)
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
     # at the end of the arc its own loads, not those after the impact
     acting = placement.loads_at(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))

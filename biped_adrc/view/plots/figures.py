@@ -124,9 +124,8 @@ def _around_and_edges(
     Returns for each column drawn the list of its axes.
     """
     places = (slice(0, 2), slice(2, 3), slice(3, 4)) if push else (slice(0, 4),)
-    around, *edges = (
-        _column(figure, [spec[row, place] for row in rows], draws) for place in places
-    )
+    cells = ([spec[row, place] for row in rows] for place in places)
+    around, *edges = (_column(figure, each, draws) for each in cells)
     _zoom(around, s, push)
     at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)  # a tick every 2 ms, the end included
     for column, edge, name in zip(edges, push or (), EDGES, strict=False):
