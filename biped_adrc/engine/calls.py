@@ -28,7 +28,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.once import once
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.leaves import floats, rebuilt
 from biped_adrc.engine.machine import LoadedCode
@@ -101,8 +101,7 @@ def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
 
     Raises NotCompiled for a term without machine code.
     """
-    terms = () if disturbance is None else disturbance.terms
-    sizes = 3 + 2 * n, n + 2
+    terms, sizes = (disturbance or NO_PUSH).terms, (3 + 2 * n, n + 2)
     return [Call(push_code(x, n), "push", np.array([*floats(x), 0.0]), *sizes) for x in terms]
 
 
