@@ -169,12 +169,9 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     # LONG: from so many nodes on compiling is faster than NumPy
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
-    tracked, found = tracked_by(walker.law, reference), None
-    if compiled or many:
-        found = compiled_readings(walker, trajectory, tracked)
-    if found is None:
-        found = readings(walker, trajectory, tracked)
-    result = signals_of(walker, trajectory, found)
+    tracked = tracked_by(walker.law, reference)
+    found = compiled_readings(walker, trajectory, tracked) if compiled or many else None
+    result = signals_of(walker, trajectory, found or readings(walker, trajectory, tracked))
     # FALLS: ends of a walk in which the robot leaves the gait for good
     if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
         error = result.error.copy()

@@ -40,7 +40,7 @@ from biped_adrc.analysis.return_map import (
 )
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
-from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
@@ -315,14 +315,13 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     """
     P, walker = cycle.P, cycle.P.walker
     # start: (x+, mode) after the impact at the fixed point; the run stops after one more impact
-    start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
+    start = after_impact(walker, 0.0, orbit.x_minus, Mode())
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
     if isinstance(method, Adaptive):
         # APART: longest step of a method with step control
         method = replace(method, max_step=APART)
-    stop = FOOT_STRIKE, 1
-    run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
+    run = simulate_by(P.engine, walker, *start, method, impacts=1, t_end=walker.max_step_time)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     along = signals(walker, run, ZeroReference(walker.plant.p))

@@ -197,9 +197,8 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     for i in range(n):
         for k in range(i):
             columns[i] = columns[i] - L[i, k] * columns[k]
-    for i in range(n):
-        columns[i] = columns[i] * inverse[i]
     for i in reversed(range(n)):
+        columns[i] = columns[i] * inverse[i]
         for k in range(i + 1, n):
             columns[i] = columns[i] - L[k, i] * columns[k]
     return columns.reshape(B.shape)
