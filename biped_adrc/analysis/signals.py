@@ -282,6 +282,8 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     outside = np.zeros((len(x), 2))
     if walker.disturbance is not None and walker.disturbance.pulls:
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
+    r = r._replace(ground_reaction=r.ground_reaction - outside)
+    r = r._replace(potential=r.potential + walker.plant.weight * foot[:, 1])
     return Signals(
         t=np.concatenate([arc.t for arc in arcs]),
         step=np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs]),
@@ -292,12 +294,8 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
         error=q[:, :p] - r.q_d,
         foothold=foot[:, 0],
         foothold_height=foot[:, 1],
-        **{
-            **r._asdict(),
-            "ground_reaction": r.ground_reaction - outside,
-            "outside": outside,
-            "potential": r.potential + walker.plant.weight * foot[:, 1],
-        },
+        outside=outside,
+        **r._asdict(),
     )
 
 
