@@ -278,9 +278,8 @@ class ChainObserver(Observer):
         """
         none = np.zeros(z.shape[1])
         velocity = z[1] * self.scale if self.lead > 1 else none
-        return Estimate(
-            z[0], velocity, z[self.lead] * self.scale**self.lead if self.m > 0 else none
-        )
+        xi = z[self.lead] * self.scale**self.lead if self.m > 0 else none
+        return Estimate(z[0], velocity, xi)
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
