@@ -113,8 +113,7 @@ def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     engine.finalize_object()
     # never freed: runs hold addresses of their functions
     _ENGINES.append(engine)
-    addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, text)
+    return LoadedCode({name: int(engine.get_function_address(name)) for name in names}, text)
 
 
 def _path(key: str) -> Path:
