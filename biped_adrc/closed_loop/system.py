@@ -281,8 +281,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         """The measurement that the controller gets at t [s]; q (n,) [rad], v (n,) [rad/s] are what its sensors
         show. Raises InputError where they are not (n,) numbers each, NotFiniteError for NaN or infinity."""
         if self.sensors is not None:
-            shape = (self.plant.n,)
-            q, v = (returned(x, shape, self.sensors, "reading") for x in (q, v))
+            q, v = (returned(x, (self.plant.n,), self.sensors, "reading") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:

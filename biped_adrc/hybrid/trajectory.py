@@ -171,11 +171,10 @@ class Trajectory(Shown):
         # at an event the next arc begins with x+; after the last arc there is only the event's own x_plus
         ends = [arc.t[-1] for arc in self.arcs]
         i = int(np.searchsorted(ends, t, side="right" if side == "right" else "left"))
-        i = min(i, len(self.arcs) - 1)
         last = self.arcs[-1].event
         if side == "right" and t == self.t_end and last is not None and last.x_plus is not None:
             return last.x_plus.copy()
-        return self.arcs[i](t, side)
+        return self.arcs[min(i, len(self.arcs) - 1)](t, side)
 
     def events(self, guard: str | None = None) -> tuple[Event, ...]:
         """All events in order of time, or those of the event function named `guard`."""
