@@ -327,7 +327,6 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
     height = s.swing_foot @ (math.tan(walker.ground_slope), 1.0) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.ground_slope)
-    after = b.kinetic_energy(impact.q, impact.v)
     # F (nodes, 2): force along the ground and out of it; its ratio is -inf at nodes where it does not push
     F = s.ground_reaction @ np.array(ground_axes(walker.ground_slope)).T
     friction = float(np.max(ratios(F, -np.inf)))
@@ -339,6 +338,6 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
         old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.ground_slope)[1]),
         clearance=float(np.min(height[inner])),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
-        energy_lost=b.kinetic_energy(q, v) - after,
+        energy_lost=b.kinetic_energy(q, v) - b.kinetic_energy(impact.q, impact.v),
         cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )

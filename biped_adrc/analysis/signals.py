@@ -169,12 +169,9 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     # LONG: from so many nodes on compiling is faster than NumPy
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
-    tracked, found = tracked_by(walker.law, reference), None
-    if compiled or many:
-        found = compiled_readings(walker, trajectory, tracked)
-    if found is None:
-        found = readings(walker, trajectory, tracked)
-    result = signals_of(walker, trajectory, found)
+    tracked = tracked_by(walker.law, reference)
+    found = compiled_readings(walker, trajectory, tracked) if compiled or many else None
+    result = signals_of(walker, trajectory, found or readings(walker, trajectory, tracked))
     # FALLS: ends of a walk in which the robot leaves the gait for good
     if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
         error = result.error.copy()
@@ -285,6 +282,8 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     outside = np.zeros((len(x), 2))
     if walker.disturbance is not None and walker.disturbance.pulls:
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
+    r = r._replace(ground_reaction=r.ground_reaction - outside)
+    r = r._replace(potential=r.potential + walker.plant.weight * foot[:, 1])
     return Signals(
         t=np.concatenate([arc.t for arc in arcs]),
         step=np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs]),
@@ -295,12 +294,8 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
         error=q[:, :p] - r.q_d,
         foothold=foot[:, 0],
         foothold_height=foot[:, 1],
-        **{
-            **r._asdict(),
-            "ground_reaction": r.ground_reaction - outside,
-            "outside": outside,
-            "potential": r.potential + walker.plant.weight * foot[:, 1],
-        },
+        outside=outside,
+        **r._asdict(),
     )
 
 

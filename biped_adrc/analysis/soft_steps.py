@@ -151,8 +151,7 @@ def slipping(
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal
-    slips = (normal > CARRYING) & at_cone & (np.abs(speed @ along) > SLIP_SPEED)
-    return np.asarray(slips, dtype=np.bool_)
+    return (normal > CARRYING) & at_cone & (np.abs(speed @ along) > SLIP_SPEED)
 
 
 def spans(t: Array) -> Array:

@@ -40,7 +40,7 @@ from biped_adrc.analysis.return_map import (
 )
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
-from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Passive
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import SimulationError
@@ -104,13 +104,21 @@ class StabilityTable(Shown):
 
     def gap(self, noise: Array | float | None = None) -> float:
         """Largest distance of the two sets, in units of the tolerance: at most 1 when they agree, 0 where only
-        one set is trusted.
+        one set is trusted. Of all pairings that of least total distance counts.
 
-        noise (k,): the tolerance of each multiplier is at least this; the table's own if None, 0 for none.
+        noise (k,): bound of the numerical error of each multiplier, which the tolerance is at least; the
+        table's own if None, 0 for none.
         """
         if self.trusted is self.central:
             return 0.0
-        return _farthest(self.central, self.trusted, self.noise if noise is None else noise)
+        # SciPy's optimisers take long to load
+        from scipy.optimize import linear_sum_assignment
+
+        a, b = self.central[:, np.newaxis], self.trusted[np.newaxis]
+        allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
+        # linear_sum_assignment finds the pairs (rows, columns) of least total cost
+        cost = np.abs(a - b) / np.maximum(allowed, self.noise if noise is None else noise)
+        return float(np.max(cost[linear_sum_assignment(cost)]))
 
     @property
     def verdict(self) -> str:
@@ -137,22 +145,6 @@ class StabilityTable(Shown):
         sizes = {name: np.abs(z)[:count] for name, z in methods.items() if z is not None}
         rows = [(name, " ".join(f"{x:.6e}" for x in size)) for name, size in sizes.items()]
         return "\n".join([*columns(rows, 28, gap=1), self.verdict])
-
-
-def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> float:
-    """Largest distance of two sets (k,) in pairs of least total distance, in units of the tolerance.
-
-    A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), a bound
-    of the numerical error of each multiplier in `other`.
-    """
-    # SciPy's optimisers take long to load
-    from scipy.optimize import linear_sum_assignment
-
-    a, b = one[:, np.newaxis], other[np.newaxis]
-    allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
-    # linear_sum_assignment finds the pairs (rows, columns) of least total cost
-    cost = np.abs(a - b) / np.maximum(allowed, noise)
-    return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- both methods ----------------------------------------------------------------------------------
@@ -315,14 +307,13 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     """
     P, walker = cycle.P, cycle.P.walker
     # start: (x+, mode) after the impact at the fixed point; the run stops after one more impact
-    start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
+    start = after_impact(walker, 0.0, orbit.x_minus, Mode())
     # the certificate's mean forces take the momentum as linear between nodes, which therefore have to be close
     method = P.method
     if isinstance(method, Adaptive):
         # APART: longest step of a method with step control
         method = replace(method, max_step=APART)
-    stop = FOOT_STRIKE, 1
-    run = simulate_by(P.engine, walker, *start, method, t_end=t_end, stop_after=stop)
+    run = simulate_by(P.engine, walker, *start, method, impacts=1, t_end=walker.max_step_time)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     along = signals(walker, run, ZeroReference(walker.plant.p))

@@ -64,8 +64,7 @@ class Detections(Shown):
         # `waits` is 1 as a number: then the last touchdown is left out
         decided = self.late[: len(self.late) - self.waits]
         late = decided[decided >= 0.0]
-        mean = float(np.mean(late)) if len(late) else None
-        most = float(np.max(late)) if len(late) else None
+        mean, most = (float(f(late)) if len(late) else None for f in (np.mean, np.max))
         kinds = decided < 0.0, np.isnan(decided)
         early, missed = (float(np.mean(kind)) if len(decided) else None for kind in kinds)
         return TouchdownRates(mean, most, early, missed, len(self.false))

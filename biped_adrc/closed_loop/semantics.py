@@ -184,7 +184,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None  # only sampled time has ticks
     if tail.belief is not None:  # structure: whether there is a belief; its content is numbers
-        m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
+        m, s, w, b = noticed(loop, k, t, s, tail, q, v, mode)
     else:
         b, w = None, k.sense(tail.sensors, q, v)
         m = loop.measure(t, *k.reading(w, q, v), mode)
@@ -304,7 +304,7 @@ def time_left(longest: float, start: float, t: float) -> float:
 
 
 def noticed(
-    loop: Loop, t: float, s: Any, tail: Tail, q: Array, v: Array, mode: Mode
+    loop: Loop, k: HeldParts, t: float, s: Any, tail: Tail, q: Array, v: Array, mode: Mode
 ) -> tuple[Measurement, Any, Any, Belief]:
     """The measurement m at a sample instant t [s] of a controller that detects touchdowns itself, and after it
     the controller's state s, the sensors' state w and the belief. mode: the plant's true single support.
@@ -313,8 +313,6 @@ def noticed(
     fires, these names are exchanged, the sensors continue their rate as after an impact, the controller jumps,
     and the belief counts one more single support, which starts now.
     """
-    k = loop.held
-    assert k is not None
     assert k.touchdown is not None
     assert tail.belief is not None
     old, force = tail.belief, 0.0  # a detector that needs no force gets 0

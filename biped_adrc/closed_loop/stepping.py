@@ -118,11 +118,8 @@ class SteppingLoop(ClosedLoop[Any]):
     def run(self, x0: Array, options: RunOptions, mode: Mode | None = None) -> Trajectory:
         """Run the loop from x0 (nx,) in the single support `mode`, by default the first one, at 0 s; the status
         of the result says how it ended. Raises InputError for an x0 that does not fit the loop."""
-        mode, n, x = (
-            Mode() if mode is None else mode,
-            self.plant.n,
-            numbers(x0, "the initial state"),
-        )
+        mode, n = Mode() if mode is None else mode, self.plant.n
+        x = numbers(x0, "the initial state")
         options.check(x)
         # handing_out() raises an exception of the user's controller again, as an error that names its line.
         # the layout follows from q and v alone, so zeros replace an x that is too short to have them
@@ -243,8 +240,7 @@ class SteppingLoop(ClosedLoop[Any]):
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
         # a loop in sampled time always has `held`, which knows how many numbers of its own the plant has
-        size = (2 * n + self.held.own,) if self.held else None
-        row = returned(row, size, self.plant, "advance", finite=False)
+        row = returned(row, self.row(x).shape, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
             raise NotFiniteError(
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"

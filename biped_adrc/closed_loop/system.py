@@ -39,7 +39,7 @@ from biped_adrc.core.once import once, shared
 from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.core.tree import Layout, flatten, returned_tree
 from biped_adrc.core.types import Array, Indices, frozen, read_only
-from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sample_hold import HeldParts, Tail
@@ -232,23 +232,17 @@ class ClosedLoop(HybridSystem, Generic[_P]):
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (n,) [N m] of the disturbance at t [s], q (n,) [rad], v (n,) [rad/s]; zeros without one. Raises
         InputError where a user's disturbance returns no row of n numbers, NotFiniteError for NaN."""
-        if self.disturbance is None:
-            return np.zeros(self.plant.n)
-        return self.disturbance.zeta(t, mode.step, mode.start, q, v)
+        return (self.disturbance or NO_PUSH).zeta(t, mode.step, mode.start, q, v)
 
     def resultant(self, t: float, mode: Mode) -> Array:
         """Force (x, z) from outside on the robot as a whole (2,) [N] at t [s]; with it the ground's force
         balances m (p_com'' - g)."""
-        if self.disturbance is None:
-            return np.zeros(2)
-        return self.disturbance.net_force(t, mode.step, mode.start)
+        return (self.disturbance or NO_PUSH).net_force(t, mode.step, mode.start)
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
         """Times of the run [s] at which the disturbance is not smooth in the single support `mode`; no
         integration step goes across one."""
-        if self.disturbance is None:
-            return ()
-        return self.disturbance.switching_times(mode.step, mode.start)
+        return (self.disturbance or NO_PUSH).switching_times(mode.step, mode.start)
 
     # -- the state ---------------------------------------------------------------------------------
     def layout_of(self, x: Array) -> Layout:
@@ -287,8 +281,7 @@ class ClosedLoop(HybridSystem, Generic[_P]):
         """The measurement that the controller gets at t [s]; q (n,) [rad], v (n,) [rad/s] are what its sensors
         show. Raises InputError where they are not (n,) numbers each, NotFiniteError for NaN or infinity."""
         if self.sensors is not None:
-            shape = (self.plant.n,)
-            q, v = (returned(x, shape, self.sensors, "reading") for x in (q, v))
+            q, v = (returned(x, (self.plant.n,), self.sensors, "reading") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:

@@ -173,11 +173,9 @@ class Controller(Part):
         """
         law = self.sampled(period)
         check_part(law, f"what {type(self).__name__}.sampled returned", Controller)
+        how = "write predict(s, m, u), s at the next sample instant, or use ContinuousTime()"
         for part in nested(law):
             if part._writes("flow") and not part._writes("predict"):
-                how = (
-                    "write predict(s, m, u), s at the next sample instant, or use ContinuousTime()"
-                )
                 part._has_no("discrete form", how)
         return law
 

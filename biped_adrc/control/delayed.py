@@ -162,20 +162,6 @@ def pade(k: int) -> tuple[Array, Array]:
     return np.array(N), np.array(D)
 
 
-def _weights(d: float, period: float) -> tuple[Array, Array]:
-    """Weights (K,) of the K torques on their way in the means u_v and in u_q, the oldest first.
-
-    d [s]: the delay. period [s]: T of the ticks. K = ceil(d / T), so K = 1 for d <= T.
-    """
-    # WHOLE, 1e-9 of a period: a delay longer than whole periods by round-off alone needs no torque more
-    count = math.ceil(d / period - WHOLE)
-    # [s], from the first instant at which each torque acts, now for the oldest one, to t + d
-    left = np.minimum(np.arange(count, 0, -1) * period, d)
-    after = np.append(left[1:], 0.0)  # [s], from the end of its action to t + d
-    # the integrals of the weights 1 / d and 2 (t + d - tau) / d^2 over the action of each torque
-    return (left - after) / d, (left**2 - after**2) / d**2
-
-
 @dataclass(frozen=True)
 class Predicted(Around):
     """A wrapper that predicts the state over d = `prediction` [s] for `inner`; its state is a `QueueState`.
@@ -200,9 +186,17 @@ class Predicted(Around):
 
     @derived
     def weights(self) -> tuple[Array, Array]:
-        """Weights of the K torques on their way in the means u_v and u_q, each (K,), the oldest first."""
+        """Weights of the K torques on their way in the means u_v and u_q, each (K,), the oldest first; K =
+        ceil(d / T), so K = 1 for d <= T."""
         # before `sampled` sets the period there is one torque on its way
-        return _weights(self.prediction, self.period or self.prediction)
+        d, T = self.prediction, self.period or self.prediction
+        # WHOLE, 1e-9 of a period: a delay longer than whole periods by round-off alone needs no torque more
+        count = math.ceil(d / T - WHOLE)
+        # [s], from the first instant at which each torque acts, now for the oldest one, to t + d
+        left = np.minimum(np.arange(count, 0, -1) * T, d)
+        after = np.append(left[1:], 0.0)  # [s], from the end of its action to t + d
+        # the integrals of the weights 1 / d and 2 (t + d - tau) / d^2 over the action of each torque
+        return (left - after) / d, (left**2 - after**2) / d**2
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
         """The measurement d later, predicted by the nominal model under the torques U (K, p) [N m].

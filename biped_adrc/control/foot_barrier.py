@@ -171,9 +171,8 @@ class FootBarrier(Around):
         # slope, bend: dx_c/dx_r, d2x_c/dx_r2; e'' = G q'' + g, with G (n,) until q_N'' is inserted
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2
-        return FootError(
-            x - x_c, dx - slope * dx_r, G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N
-        )
+        G_b, g_b = G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N
+        return FootError(x - x_c, dx - slope * dx_r, G_b, g_b)
 
     def missing(self, s: Any, m: Measurement, u: Array) -> tuple[float, Array]:
         """d [m/s^2], the change of e'' that is missing under the torque u (p,) [N m] to keep the bound, and G

@@ -89,12 +89,10 @@ def friction_feedforward(
     The robot may be loaded with friction or without. Raises InputError for a record without friction.
     """
     # of all n coordinates; the first p are the joints with motors
-    viscous, static = (x[: biped.p] for x in biped.friction_coefficients)
-    if not (np.any(viscous) or np.any(static)):
+    viscous, static = (tuple(x[: biped.p].tolist()) for x in biped.friction_coefficients)
+    if not any(viscous + static):
         raise InputError(
             f"feedforward = {feedforward} of the joint friction of robot '{biped.description.name}', whose "
             "record has none; expected a table [friction] in its robot.toml, or feedforward = 0"
         )
-    return FrictionFeedforward(
-        inner, reference, tuple(viscous.tolist()), tuple(static.tolist()), feedforward
-    )
+    return FrictionFeedforward(inner, reference, viscous, static, feedforward)

@@ -64,10 +64,8 @@ def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
     D (n, n): inertia matrix; body: terms of the same posture. The equation is the module's for a.
     """
     J_m = body.F_a  # the factor of q'' in the force on the COM, m p_com'' = F_a q'' + ..
-    about_com = D - J_m.T @ J_m / body.mass
-    return solve_positive(
-        about_com, J.T - J_m.T / body.mass, "the inertia about the centre of mass"
-    )
+    about_com, relative = D - J_m.T @ J_m / body.mass, J.T - J_m.T / body.mass
+    return solve_positive(about_com, relative, "the inertia about the centre of mass")
 
 
 @dataclass(frozen=True)
@@ -87,9 +85,8 @@ class ImpactInvariant(ContactWindow):
     def __post_init__(self) -> None:
         for name in ("rates", "innovation"):
             check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
-        tracked_constraint(
-            self.inner, "a touchdown is expected by the phase of a virtual constraint"
-        )
+        why = "a touchdown is expected by the phase of a virtual constraint"
+        tracked_constraint(self.inner, why)
         if "output" not in self.inner.reads_impulse:
             self.inner._has_no("rate error that could be projected")
         if self.innovation and "correct" not in self.inner.reads_impulse:

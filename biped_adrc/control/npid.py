@@ -129,17 +129,13 @@ class NPIDController(Controller):
         return FilterState(e, de, np.zeros(len(e)))
 
     def flow(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
-        return self._filtered(s, m)
-
-    def predict(self, s: FilterState, m: Measurement, u: Array) -> FilterState:
-        return self._filtered(s, m)
-
-    def _filtered(self, s: FilterState, m: Measurement) -> FilterState:
         """M Z + b e, with Z (3, p) the rows e_f, e_f', s of the filter's state and e the error of this
         measurement: Z' in continuous time, Z one period later in sampled time.
         """
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
         return FilterState(*(M @ np.array(s) + np.outer(b, e)))
+
+    predict = flow
 
     def jump(self, s: FilterState, after: Measurement, swap: Indices) -> FilterState:
         """The filter after impact: it starts anew at the measured error and rate, but keeps the integral,

@@ -75,9 +75,8 @@ class OutputADRCController(ObservingController):
         dy = x.velocity if m.impulse is None else unchanged(r, x.velocity, m.impulse)
         w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
         # `output_matrix` is M, so ddq_b = kappa u
-        ddq_b = solve(
-            output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
-        )
+        L = output_matrix(r, m.terms)
+        ddq_b = solve(L, w, "L of y'' = L u + xi_y, the output's decoupling matrix,")
         return m.terms.kappa_inverse @ ddq_b
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
@@ -86,12 +85,8 @@ class OutputADRCController(ObservingController):
         xi = M^-1 (xi_y + drift + H_N a_N), with a_N of the nominal model.
         """
         r, terms = self.point(m), m.terms
-        p = len(r.q_d)
-        xi = solve(
-            output_matrix(r, terms),
-            x.disturbance + r.drift + r.H[:, p:] @ terms.a_N,
-            "the output's decoupling matrix",
-        )
+        rest = x.disturbance + r.drift + r.H[:, len(r.q_d) :] @ terms.a_N
+        xi = solve(output_matrix(r, terms), rest, "the output's decoupling matrix")
         return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:

@@ -136,9 +136,8 @@ class StridePI(OuterLoop):
         default the torso of RABBIT leans.
         """
         length = gait.step_length(biped)
-        return cls(
-            inner, length / gait.period if speed is None else speed, length, direction, gains
-        )
+        speed = length / gait.period if speed is None else speed
+        return cls(inner, speed, length, direction, gains)
 
     def own_start(self, h: Constraint, m: Measurement) -> StrideState:
         # a run may begin within a step, and then with its time so far

@@ -155,11 +155,9 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     >>> ba.solved_acceleration(r, terms, np.zeros(4)).shape
     (4,)
     """
-    return solve(
-        output_matrix(r, terms),
-        r.drift + f + r.H[:, len(f) :] @ terms.a_N,
-        "I - H_b - H_N A_N, by which the reference is tracked from this state,",
-    )
+    rest = r.drift + f + r.H[:, len(f) :] @ terms.a_N
+    what = "I - H_b - H_N A_N, by which the reference is tracked from this state,"
+    return solve(output_matrix(r, terms), rest, what)
 
 
 def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:

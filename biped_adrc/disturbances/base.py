@@ -151,6 +151,10 @@ class Sum(Disturbance):
             part.check_size(n)
 
 
+NO_PUSH = Sum()
+"""A disturbance without terms, for a loop that has none."""
+
+
 def summands(disturbance: Disturbance) -> tuple[Disturbance, ...]:
     """The parts of a sum, or the disturbance itself as the only one."""
     return disturbance.parts if isinstance(disturbance, Sum) else (disturbance,)

@@ -93,8 +93,7 @@ class RecordedTorque(Disturbance):
             )
         if not 0.0 <= (begin := self.start + times[0]) < math.inf:
             raise InputError(f"the recording begins at {begin:g} s, expected a time from 0 on")
-        object.__setattr__(self, "times", times)
-        object.__setattr__(self, "torques", torques)
+        vars(self).update(times=times, torques=torques)
 
     @classmethod
     def read(

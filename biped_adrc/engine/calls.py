@@ -28,7 +28,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.once import once
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Disturbance
+from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.leaves import floats, rebuilt
 from biped_adrc.engine.machine import Code
@@ -101,8 +101,7 @@ def pushes(disturbance: Disturbance | None, n: int) -> list[Call]:
 
     Raises NotCompiled for a term without machine code.
     """
-    terms = () if disturbance is None else disturbance.terms
-    sizes = 3 + 2 * n, n + 2
+    terms, sizes = (disturbance or NO_PUSH).terms, (3 + 2 * n, n + 2)
     return [Call(push_code(x, n), "push", np.array([*floats(x), 0.0]), *sizes) for x in terms]
 
 
@@ -149,8 +148,7 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
         with one_thread:
             for at, x in zip(places, arguments, strict=True):
                 called.inp[at] = x
-            out = called()
-        parts = parts_of(out, shapes)
+            parts = parts_of(called(), shapes)
         return rebuilt(result, parts) if many else parts[0]
 
     return evaluated
@@ -174,12 +172,11 @@ class CompiledBiped(Biped):
     def _called(self, method: str, *arguments: Array) -> Any:
         """Call a method in machine code at q [rad] and v [rad/s], each (n,) and checked, and further
         arguments."""
-        # `_angles` checks a vector; `zeros`: an example of the arguments, by which `in_code` learns their
+        # `_angles` checks a vector; zeros: an example of the arguments, by which `in_code` learns their
         # shapes
         arguments = (*map(self._angles, arguments[:2]), *arguments[2:])
         if method not in self._made:
-            zeros = map(np.zeros_like, arguments)
-            self._made[method] = in_code(self.robot, method, *zeros)
+            self._made[method] = in_code(self.robot, method, *map(np.zeros_like, arguments))
         return self._made[method](*arguments)
 
     def reduction(self, q: Array, v: Array) -> Reduction:

@@ -31,7 +31,7 @@ from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.base import Disturbance, Sum
+from biped_adrc.disturbances.base import NO_PUSH, Disturbance
 from biped_adrc.engine.generated import generated
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART
@@ -178,10 +178,6 @@ def at_rest(layout: Layout) -> Layout:
     own = tail.size - line.size
     tail = tail._replace(parts=(Layout(None, (own,), own), none, none, line))
     return layout._replace(parts=(q, v, Layout(None, (s.size,), s.size), tail))
-
-
-NO_PUSH = Sum()
-"""A disturbance without terms, for a walker that has none."""
 
 
 @dataclass(frozen=True)

@@ -147,13 +147,9 @@ def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *arguments: vectorised(*arguments)
 
 
-TWINS = {
-    **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
-    **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
-    "fabs": "fabs",
-    "floor": "floor",
-    "sign": "sign",
-}
+_OF_ANGLES = ("sin", "cos", "tan")
+_ALIKE = (*_OF_ANGLES, "sqrt", "exp", "log", "sinh", "cosh", "tanh", "fabs", "floor", "sign")
+TWINS = {x: x for x in _ALIKE} | {f"arc{x}": f"a{x}" for x in _OF_ANGLES}
 """Functions of one number that can be traced: NumPy's names and CasADi's."""
 # np.sin of an object array calls the method `sin` of each entry
 for _name, _theirs in TWINS.items():
@@ -197,9 +193,8 @@ def solve_positive(A: Array, B: Array, what: str) -> Array:
     for i in range(n):
         for k in range(i):
             columns[i] = columns[i] - L[i, k] * columns[k]
-    for i in range(n):
-        columns[i] = columns[i] * inverse[i]
     for i in reversed(range(n)):
+        columns[i] = columns[i] * inverse[i]
         for k in range(i + 1, n):
             columns[i] = columns[i] - L[k, i] * columns[k]
     return columns.reshape(B.shape)

@@ -161,10 +161,8 @@ class Tracer:
             # The code object stays, its globals are others: in the copy `np` names the twin. Patching NumPy
             # itself would reach other threads, and the original goes on working on arrays.
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
-            cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
-            copy: Any = types.FunctionType(
-                f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
-            )
+            cells = tuple(types.CellType(c.cell_contents) for c in f.__closure__ or ())
+            copy: Any = types.FunctionType(f.__code__, scope, f.__name__, f.__defaults__, cells)
             copy.__kwdefaults__ = f.__kwdefaults__
             # a `try` of the user's may swallow the NotCompiled of a branch on a symbol, and what its `except`
             # does would be compiled
@@ -203,9 +201,8 @@ class Tracer:
         if isinstance(value, types.ModuleType) and (value in OF_NUMBERS or not is_library(value)):
             return _Named(self, value)
         # what is left is a part, or a function or other value, which __call__ copies or returns as it is
-        if not (isinstance(value, Part) or is_part(value)) or type(value).__module__.startswith(
-            ENGINE
-        ):
+        of_engine = type(value).__module__.startswith(ENGINE)
+        if of_engine or not (isinstance(value, Part) or is_part(value)):
             return self(value)
         # attributes without a dataclass: nobody can say which of them are numbers of the law
         if not is_part(value) and vars(value):

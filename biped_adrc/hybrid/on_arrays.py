@@ -86,11 +86,8 @@ class Calendar:
 
     def next_break(self, t: float) -> float:
         """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
-        first = self.edges[bisect_right(self.edges, t)]
-        for clock, start in self.clocks:
-            tick = constants.next_tick(t, start, clock.period)
-            first = tick if tick < first else first
-        return first
+        ticks = (constants.next_tick(t, start, clock.period) for clock, start in self.clocks)
+        return min([self.edges[bisect_right(self.edges, t)], *ticks])
 
 
 class Run:
@@ -285,10 +282,10 @@ def slow(r: Run, t: float, x: Array) -> bool:
 
 
 def broken(r: Run) -> int:
-    """The code of an arc whose state or slope is not finite: here always NOT_FINITE, in the compiled twin also
-    SINGULAR or RAN_AWAY.
+    """Raise NotFiniteError, for an arc whose state or slope is not finite; the compiled twin, which cannot
+    raise, returns a code.
     """
-    return constants.NOT_FINITE
+    raise NotFiniteError(f"the state is not finite after t = {r.t:.6g} s")
 
 
 def watch(r: Run, t: float, x: Array, out: Array) -> None:
@@ -374,7 +371,7 @@ def solve(r: Run, t_next: float) -> float:
     r.step = step = next(r.steps)
     r.x1[:], r.dx1[:] = step.x, step.dx
     if not finite(r.x1, r.nx):
-        raise NotFiniteError(f"the state is not finite after t = {r.t:.6g} s")
+        broken(r)
     slow(r, step.t, r.x1)
     return step.t
 

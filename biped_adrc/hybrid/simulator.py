@@ -27,7 +27,7 @@ from biped_adrc.core.errors import (
     check_count,
 )
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import CROWD, EVENT_LIMIT, NOT_FINITE, STEP_FAILED, TOGETHER
+from biped_adrc.hybrid.constants import CROWD, EVENT_LIMIT, STEP_FAILED, TOGETHER
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
@@ -250,7 +250,8 @@ def flow_arc(
     try:
         if run is not None:
             code = travel(run)
-            _check(code, run.t)
+            if code == STEP_FAILED:
+                raise StepFailed(f"no step from t = {run.t:.6g} s on")
             # an event has its status in run.event, and the end of the time is no failure
             status = Status.EVENT_LIMIT if code == EVENT_LIMIT else status
             result = run.event
@@ -264,13 +265,3 @@ def flow_arc(
     if result is None:
         return FlownArc(record.arc(mode, None), status, detail)  # None: no event
     return FlownArc(record.arc(mode, result.event), result.status, "", result.outcome)
-
-
-def _check(code: int, t: float) -> None:
-    """Raise the error for the codes NOT_FINITE and STEP_FAILED of a march that ended at t [s]; for other codes
-    nothing happens.
-    """
-    if code == NOT_FINITE:
-        raise NotFiniteError(f"the state is not finite after t = {t:.6g} s")
-    if code == STEP_FAILED:
-        raise StepFailed(f"no step from t = {t:.6g} s on")

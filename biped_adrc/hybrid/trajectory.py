@@ -90,8 +90,12 @@ class Arc(Shown):
         # i: the interval from node i to i + 1 that has t, the later one of two for the limit from the right
         i = int(np.searchsorted(self.t, t, side="right" if side == "right" else "left")) - 1
         i = min(max(i, 0), len(self.t) - 2)
-        at, x, dx = self.t, self.x, self.dx
-        return _hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
+        (x0, x1), (dx0, dx1), h = self.x[i : i + 2], self.dx[i : i + 2], self.t[i + 1] - self.t[i]
+        if h == 0.0:
+            return x1.copy()
+        s = (t - self.t[i]) / h
+        r = 1.0 - s
+        return r * r * (1 + 2 * s) * x0 + s * s * (3 - 2 * s) * x1 + h * s * r * (r * dx0 - s * dx1)
 
 
 @dataclass
@@ -117,16 +121,6 @@ class Recorder:
     def arc(self, mode: Any, event: Event | None) -> Arc:
         """Make an arc of the nodes recorded so far, which ran in `mode` and ended in `event`, None for none."""
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event)
-
-
-def _hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
-    """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1, each (nx,), at t [s]; x1 when t1 = t0."""
-    h = t1 - t0
-    if h == 0.0:
-        return x1.copy()
-    s = (t - t0) / h
-    r = 1.0 - s
-    return r * r * (1 + 2 * s) * x0 + s * s * (3 - 2 * s) * x1 + h * s * r * (r * dx0 - s * dx1)
 
 
 @dataclass(frozen=True)
@@ -177,12 +171,10 @@ class Trajectory(Shown):
         # at an event the next arc begins with x+; after the last arc there is only the event's own x_plus
         ends = [arc.t[-1] for arc in self.arcs]
         i = int(np.searchsorted(ends, t, side="right" if side == "right" else "left"))
-        i = min(i, len(self.arcs) - 1)
-        last = self.arcs[-1]
-        at_end = side == "right" and t == self.t_end
-        if at_end and last.event is not None and last.event.x_plus is not None:
-            return last.event.x_plus.copy()
-        return self.arcs[i](t, side)
+        last = self.arcs[-1].event
+        if side == "right" and t == self.t_end and last is not None and last.x_plus is not None:
+            return last.x_plus.copy()
+        return self.arcs[min(i, len(self.arcs) - 1)](t, side)
 
     def events(self, guard: str | None = None) -> tuple[Event, ...]:
         """All events in order of time, or those of the event function named `guard`."""

@@ -198,8 +198,9 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
     for pole in numbers:
         paired = numbers.count(pole) == numbers.count(pole.conjugate())
         if not (np.isfinite(pole) and pole.real < 0.0 and paired):
+            shown = pole.real if pole.imag == 0 else pole
             raise InputError(
-                f"observer pole {_show(pole)} rad/s is not stable, or has no conjugate beside it; every real "
+                f"observer pole {shown:g} rad/s is not stable, or has no conjugate beside it; every real "
                 "part must be < 0"
             )
         check_chain(len(numbers), abs(pole), what)
@@ -217,11 +218,6 @@ def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
 def mean_bandwidth(poles: Sequence[complex]) -> float:
     """Geometric mean of the magnitudes of the poles [rad/s]."""
     return float(np.exp(np.mean(np.log(np.abs(poles)))))
-
-
-def _show(pole: complex) -> str:
-    """Text of a pole, without the imaginary part of a real one."""
-    return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
 
 
 def check_chain(order: int, scale: float, what: str) -> None:
@@ -282,9 +278,8 @@ class ChainObserver(Observer):
         """
         none = np.zeros(z.shape[1])
         velocity = z[1] * self.scale if self.lead > 1 else none
-        return Estimate(
-            z[0], velocity, z[self.lead] * self.scale**self.lead if self.m > 0 else none
-        )
+        xi = z[self.lead] * self.scale**self.lead if self.m > 0 else none
+        return Estimate(z[0], velocity, xi)
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array

@@ -38,6 +38,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 from math import factorial
 
 import numpy as np
@@ -116,9 +117,7 @@ class InjectedChain(ChainObserver):
         p_of_Phi = np.eye(k, dtype=complex)
         for root in roots:  # factors (1 - root) I + N: no cancellation for real roots in (0, 1)
             p_of_Phi = p_of_Phi @ ((1.0 - root) * np.eye(k) + N)
-        rows = [Phi[0]]
-        for _ in range(k - 1):
-            rows.append(rows[-1] @ Phi)
+        rows = [*accumulate([Phi] * (k - 1), np.matmul, initial=Phi[0])]
         last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
         # complex poles come in pairs, so the imaginary part is round-off
         return np.ascontiguousarray(np.real(p_of_Phi @ last))

@@ -54,9 +54,14 @@ class HighGainObserver(InjectedChain):
         """
         check_positive(epsilon, f"epsilon is {epsilon} s", " as 0.002")
         check_whole(m, f"the order m of a high-gain observer is {m!r}", 1)
-        if alpha is None:
-            alpha = [comb(m + 2, i) for i in range(1, m + 3)]
-        return cls(int(m), 1.0 / float(epsilon), _hurwitz(alpha, m))
+        equal = [comb(m + 2, i) for i in range(1, m + 3)]
+        a = numbers(equal if alpha is None else alpha, "alpha")
+        if a.shape != (m + 2,) or not np.isfinite(a).all() or np.roots([1.0, *a]).real.max() >= 0.0:
+            raise InputError(
+                f"alpha is {a}, expected {m + 2} numbers for m = {m}: the roots of s^{m + 2} + alpha_1 "
+                f"s^{m + 1} + ... must have negative real parts; try those of (s + 1)^{m + 2}"
+            )
+        return cls(int(m), 1.0 / float(epsilon), tuple(a.tolist()))
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:
@@ -67,16 +72,3 @@ class HighGainObserver(InjectedChain):
     def scaled_gains(self) -> Array:
         """The coefficients alpha (m + 2,): as states are scaled by 1 / eps, they are the scaled gains."""
         return np.array(self.alpha)
-
-
-def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
-    """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz
-    polynomial of degree m + 2.
-    """
-    a = numbers(alpha, "alpha")
-    if a.shape != (m + 2,) or not np.isfinite(a).all() or np.roots([1.0, *a]).real.max() >= 0.0:
-        raise InputError(
-            f"alpha is {a}, expected {m + 2} numbers for m = {m}: the roots of s^{m + 2} + alpha_1 "
-            f"s^{m + 1} + ... must have negative real parts; try those of (s + 1)^{m + 2}"
-        )
-    return tuple(a.tolist())

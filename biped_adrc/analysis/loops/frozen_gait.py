@@ -189,14 +189,12 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     Raises NotFiniteError where a method has no finite derivative there.
     """
     assert isinstance(twin.timing, SampledTime)
-    assert twin.held is not None
     n, T, mode = twin.plant.n, twin.timing.period, Mode()
     # ticked(t, x, mode) -> x after the tick, J; it is made once, for the first point
     result, ticked = [], None
     for point in points:
         # TICKS_BEFORE: after these each sensor has a difference of its angles
         x = twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode)
-        J = np.zeros((0, 0))
         layout = twin.layout_of(x)
         ticked = ticked or tick_derivative(twin, layout)
         # the earlier ticks, at points that the rates v of the orbit lead to the frozen one, only fill the

@@ -175,8 +175,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     loops = WalkerLoops(tick, A, B, T, delay, lag, slow)
     # sensors add their errors to those of `exact`, which are none
     n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
-    sensors = walker.sensors
-    errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
+    errors = exact if walker.sensors is None else walker.sensors.errors(n, walker.plant.p, exact)
     return Specification(loops, tuple(at.t / gait.period for at in gait.points), errors)
 
 

@@ -162,8 +162,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
     # w is known to 1e-6 of it, so at 2e-6 above it the criterion that excludes larger ones holds for certain
     best, because = candidate(w), candidate(w * (1.0 + 2e-6)).obstacle
-    margin = largest_delay(best.sampled())
-    return Recommended(m, w, because, best.ripple, margin, best.rejection)
+    return Recommended(m, w, because, best.ripple, largest_delay(best.sampled()), best.rejection)
 
 
 def without_observer(gains: Gains) -> float:

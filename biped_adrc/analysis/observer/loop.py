@@ -151,9 +151,8 @@ class ObserverLoop:
 
     def estimate(self, frequency: Array) -> ComplexArray:
         """xi^ / xi (K,), dimensionless, at frequencies (K,) [rad/s]; zero for m = 0, which has no xi^."""
-        # chi without its three highest powers
-        rest = self._chi[3:] if self.observer.m else np.zeros(1)
-        return self._response(rest, frequency, feedback=False)
+        # chi without its three highest powers, of which nothing is left for m = 0
+        return self._response(self._chi[3:], frequency, feedback=False)
 
     def noise(self, frequency: Array) -> ComplexArray:
         """a / n (K,) [1/s^2] at frequencies (K,) [rad/s]: commanded acceleration per error of the angle."""

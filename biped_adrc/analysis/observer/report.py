@@ -139,9 +139,8 @@ class ObserverReport(OnHardware):
         k, limit = self.hardware, self.hardware.torque_limit
         share, unstable = self.ripple / limit, self.obstacle == "stability"
         part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
-        noise = (
-            f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
-        )
+        ripple = f"{self.ripple:.4g} N m rms"
+        noise = f"one encoder count makes {ripple}, {part} the limit of {limit:g} N m"
         # sampled_margins: (unknown delay, known delay)
         margin = microseconds(self.sampled_margins[int(k.known)])
         bears = f"with the model's kappa its delay margin at this period is {margin}"

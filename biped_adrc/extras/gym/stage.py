@@ -304,7 +304,7 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
         # state: the measurement; b: what the detector believes about the legs and the single support
-        state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
+        state, _, _, b = noticed(loop, k, t, s, tail, q, v, mode)
         line = labelled(loop, b, tail.line)
     else:
         q_seen, v_seen = k.reading(k.sense(tail.sensors, q, v), q, v)
