@@ -8,8 +8,6 @@ A module is imported when one of its names is first used. Pinocchio, CasADi and 
 take seconds to load, and most programs need only some of them.
 """
 
-from __future__ import annotations
-
 import re
 from difflib import get_close_matches
 from importlib import import_module

@@ -22,8 +22,6 @@ those on the plant.
 compute these numbers from the nodes; `feasibility` summarises them for the walk.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass

@@ -23,8 +23,6 @@ A step goes from the member that ended the step before to another one, which is 
 share DECISION in Theta (`control.footstep`). Integrals over Theta take the place of its simulation.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -12,8 +12,6 @@ P runs in compiled code, several points in parallel, or step by step with Pinocc
 the walker cannot be compiled. dP/ds is by differences here; `variational` has it without.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import tan

@@ -21,8 +21,6 @@ Contact that takes time moves the joints at every touchdown, whatever the contro
 step is then often this transient, and hides the effect of a push.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import NamedTuple

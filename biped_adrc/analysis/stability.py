@@ -24,8 +24,6 @@ mechanical ones in the state of the map; then only central differences apply.
     flow           f = x'; f- is that just before the next impact; Phi f(0) = f- for an exact Phi
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

@@ -6,8 +6,6 @@ median of the ratios, and the p-value of the sign test. One walk has a number an
 p-value.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

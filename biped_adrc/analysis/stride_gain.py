@@ -28,8 +28,6 @@ is, has
 `stride_pi` makes the controller of `control.stride` with these gains; nothing is tuned by hand.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -9,8 +9,6 @@ a structure, the classes and sizes of a walker's parts without the values of its
 0.1 ms. A controller that does not compile has central differences in its place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from functools import partial
 

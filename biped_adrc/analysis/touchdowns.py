@@ -6,8 +6,6 @@ so on: after each pair the labels agree again. In a pair of a touchdown and a de
 it comes second, else early. Two touchdowns in a pair were both missed, two detections in a pair are both false.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 

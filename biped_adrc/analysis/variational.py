@@ -22,8 +22,6 @@ time, as `analysis.tick_derivative` differentiates sample instants: the torque o
 the same function of x there.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from contextlib import suppress

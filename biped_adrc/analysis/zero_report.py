@@ -16,8 +16,6 @@ closed loop as far as it keeps to the constraint: exactly for a constraint that 
 (hybrid invariant), tracked without error. Where that is in doubt the report says so.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -10,8 +10,6 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 4 the robot fell or did not come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
 """
 
-from __future__ import annotations
-
 import signal
 import sys
 import warnings

@@ -11,8 +11,6 @@ its reader has left (`| head -1`) or the disk is full, so that no result is lost
 could not be printed.
 """
 
-from __future__ import annotations
-
 import os
 import shlex
 import sys

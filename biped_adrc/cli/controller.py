@@ -11,8 +11,6 @@ A command's docstring is its help text; its arguments are described in options.t
 scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -7,8 +7,6 @@ value. `scenario_from` joins a scenario file, short options, pushes, and --set N
 as hardware.delay. All of them read units: `--period "1 ms"`.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Collection
 from contextlib import suppress

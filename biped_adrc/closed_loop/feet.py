@@ -9,8 +9,6 @@ them: `with_readings` asks the plant at every node of a finished run and adds th
 (`Arc.read`). An arc is the motion of one single support, a node an instant whose state x (nx,) is stored.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -12,8 +12,6 @@ mode the single support, its number and the time at which it began. Symbols:
     ^, m v_com    an estimate by the controller's observer; momentum of the whole robot (2,) [N s]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any, NamedTuple

@@ -11,8 +11,6 @@ the ground, places and velocities of both feet, which could not be computed with
 nodes (instants whose state is stored) where the plant has feet.
 """
 
-from __future__ import annotations
-
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 

@@ -26,8 +26,6 @@ class, what was found and what was expected. Values that are not finite pass: th
 NOT_FINITE, as for any plant.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 

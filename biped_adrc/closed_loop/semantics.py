@@ -47,8 +47,6 @@ symbol cannot be traced, so nothing here branches on a real number: only integer
 whether a part exists) decide. What a loop and its plant must offer is in `closed_loop.protocols`.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

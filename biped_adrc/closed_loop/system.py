@@ -18,8 +18,6 @@ A layout (`core.tree.Layout`) says which numbers of a vector belong to which par
 Every signal of one instant is in `closed_loop.instant_signals`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

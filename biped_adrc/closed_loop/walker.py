@@ -33,8 +33,6 @@ controller's state. `Walker.split` hands these coordinates to the method of inte
 `engine` compiles the same Walker. `scenario.build` makes one from plain values.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -22,8 +22,6 @@ With m >= 1 the observer has less to follow than in (20), where all of xi is a d
 alone of the model, assisted ADRC all of it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -33,8 +33,6 @@ policy; more, as files that run, are in `examples/policies`. What an observer do
 touchdown itself is its `ResetPolicy`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Self
 

@@ -33,8 +33,6 @@ always be met, since delta is free; should the solver not find the solution, the
 at u_max.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple

@@ -43,8 +43,6 @@ d is the delay to predict: that of `SampledTime`, or half a period more for the 
 be positive: without a delay this wrapper is left out.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, NamedTuple, Self

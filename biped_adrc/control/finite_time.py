@@ -17,8 +17,6 @@ Finite time matters since the error is then zero before the impact, and the zero
 stability. The torque comes from `output_npd.linearising_torque`, as that of any law w for y''.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -32,8 +32,6 @@ Nguyen, Hereid, Grizzle, Ames, Sreenath, 3D dynamic walking on stepping stones w
 CDC 2016; Nguyen, Sreenath, Exponential control barrier functions, ACC 2016.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 

@@ -19,8 +19,6 @@ without kappa F. With share = 1 F is the friction of the robot's record; with sh
 controller inside, bit for bit.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

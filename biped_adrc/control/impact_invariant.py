@@ -39,8 +39,6 @@ an observer's innovation no precedent was found, in three searches for observers
 legged robots near an impact.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -21,8 +21,6 @@ At impact the momentum jumps, and is then about another foot; r is relabelled an
 Measurement and input of the observer are of all n coordinates, where those of ADRC are of the p joints.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import ClassVar
 

@@ -12,8 +12,6 @@ model and no push both loops have the same error dynamics. A push, or an error o
 d xi [rad/s^2] leaves NPD an error of the size d xi / K_p [rad].
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -15,8 +15,6 @@ impact) last, when all corrections are known, since an observer of outputs start
 reference in force.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple

@@ -16,8 +16,6 @@ Han, IEEE Trans. Industrial Electronics 56(3), 2009, for the total disturbance o
 Grizzle, Koditschek, IEEE TAC 48(1), 2003, for y.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from biped_adrc.control.base import Measurement

@@ -18,8 +18,6 @@ Outputs are any object of `gait.outputs`: linear ones, those of a virtual constr
 may be a user's own Python, so these controllers run in Python.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

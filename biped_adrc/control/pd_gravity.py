@@ -9,8 +9,6 @@ walker G_b ignores the motion of the unactuated coordinate, and neither inertia 
 error stays finite, and falls with the gains.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -17,8 +17,6 @@ since the impact is linear in the rates (Morris, Grizzle, IEEE TAC 54(8), 2009; 
 Control of Dynamic Bipedal Robot Locomotion, 2007, on transition controllers).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -27,8 +27,6 @@ measurement y, its input, and the torque, for every observer and every reference
 here once.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self

@@ -5,8 +5,6 @@ A dataclass compares its fields as a tuple, which raises for arrays, and so does
 its copy, and -0 equals 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any

@@ -8,8 +8,6 @@ a *user's* where its file is neither of this package nor of an installed library
 names the value, such as "the gain".
 """
 
-from __future__ import annotations
-
 import math
 import sysconfig
 import traceback

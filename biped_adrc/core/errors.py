@@ -8,8 +8,6 @@ A function here that begins with `check_` returns nothing and raises. Its argume
 the sentence, which names the value and says what was found; the function adds what was expected.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager

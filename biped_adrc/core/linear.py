@@ -7,8 +7,6 @@ tracer, which turns laws into machine code, knows them and generates unrolled co
 SciPy's module of LAPACK is loaded alone, as the package around it takes a third of the time of a short walk.
 """
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from importlib.machinery import PathFinder

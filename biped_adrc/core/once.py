@@ -5,8 +5,6 @@ which nothing can change; in an object of a user's class something may, so nothi
 are in the part's attribute `_once`, its memory.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from dataclasses import fields
 from enum import Enum

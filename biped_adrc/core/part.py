@@ -12,8 +12,6 @@ their methods on numbers. The engine calls them once on symbols and writes machi
 A method with an `if` on a number (`if x > 0`) cannot be compiled; it runs in Python. Write `np.where` instead.
 """
 
-from __future__ import annotations
-
 from abc import ABC
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields

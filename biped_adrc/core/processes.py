@@ -5,8 +5,6 @@ They ignore Ctrl-C, which reaches every process of a terminal and which the pare
 parent.
 """
 
-from __future__ import annotations
-
 import gc
 import multiprocessing
 import os

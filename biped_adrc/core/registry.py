@@ -16,8 +16,6 @@ What becomes of a name:
     register(.., f)    Entry with the object itself; records name it by its module:Class (`portable`)
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -3,8 +3,6 @@
 A subclass of `Shown` prints its fields that are not at their defaults, unless it writes its own `__repr__`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum

@@ -6,8 +6,6 @@ computation delay and is then held until the next one arrives. Timing is a field
 controller and clock); classes of `control` and `observers` have methods for either base.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

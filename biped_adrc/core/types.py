@@ -1,7 +1,5 @@
 """Types that all modules share: arrays, and records of plain values."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, TypeAlias, TypeVar
 

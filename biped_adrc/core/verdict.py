@@ -12,8 +12,6 @@ Make a check with `at_most`, `at_least`, `below` or `between`; they write the li
 compare, and a value of NaN never holds.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 _KINDS = ("law", "consistency", "reproduced")

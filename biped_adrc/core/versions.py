@@ -5,8 +5,6 @@ versions (`numerical_versions`, `differences`). A version number alone is not en
 edited between releases: the source is hashed.
 """
 
-from __future__ import annotations
-
 import hashlib
 import platform
 from collections.abc import Iterable, Mapping

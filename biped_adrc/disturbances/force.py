@@ -16,8 +16,6 @@ learner: F is a number that machine code reads at run time, as the torque of `co
 owner, the program that runs the walk, writes another F before each sample, and nothing is compiled anew.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Annotated

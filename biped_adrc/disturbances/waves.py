@@ -33,8 +33,6 @@ its seed. White noise drawn at each sample instant would be neither: its effect 
 integrator.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

@@ -11,8 +11,6 @@ numbers that each of them leaves (`BatchWalk`).
 Return maps (`analysis`) ask for `strides`, studies and benchmarks for `simulate_many`.
 """
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence

@@ -23,8 +23,6 @@ for these functions and compiles them; the loops in `engine.kernels` call them b
 instant. Numbers such as (10) are equations of the paper.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable

@@ -14,8 +14,6 @@ and `engine.machine`. No operations are fused into multiply-adds, so that the nu
 depend on what else is compiled with it.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping
 from typing import NamedTuple

@@ -5,8 +5,6 @@ inside, to any depth, such as a controller with its gains. A part is a dataclass
 fields and the numbers derived from them, belongs to the tree.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator, Sequence
 from typing import Any

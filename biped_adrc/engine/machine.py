@@ -6,8 +6,6 @@ A file is written under another name and then renamed, so several processes may 
 file is made again, and where nothing can be written code is made in memory each time.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import threading

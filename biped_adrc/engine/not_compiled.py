@@ -4,8 +4,6 @@ They arise where the compiler runs a law, a method of a controller or another pa
 numbers.
 """
 
-from __future__ import annotations
-
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -6,8 +6,6 @@ compiled function; whole numbers and flags decide the code itself. A number that
 addition becomes a field here.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import NamedTuple

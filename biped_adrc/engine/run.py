@@ -13,8 +13,6 @@ fits:
 The settings of the trajectory say what ran.
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any

@@ -16,8 +16,6 @@ the kernel, moves many of them in one call. A `PythonWalk` is moved by `hybrid.s
 integrates one arc: a controller in Python on the compiled plant, or a plant of its own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, cast

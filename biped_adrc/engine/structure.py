@@ -9,8 +9,6 @@ Another process finds code on disk by the name that `lasting` makes of a structu
 this package's own.
 """
 
-from __future__ import annotations
-
 import sys
 import types
 from collections.abc import Hashable

@@ -7,8 +7,6 @@ of a class is a subclass whose methods are such copies; the twin of a part is an
 `apply` calls a copy and says in which function an error arose. A symbol is a `Scalar` of `engine.symbols`.
 """
 
-from __future__ import annotations
-
 import abc
 import dis
 import functools

@@ -16,8 +16,6 @@ with `pieces` and `ramp` (the coefficients of a straight line), and a line in th
 (`core/registry.toml`).
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import lru_cache

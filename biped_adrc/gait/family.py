@@ -25,8 +25,6 @@ Theta has gone the share DECISION = 0.35 of its way. y = sigma^2 at the decision
 `StepMap` has delta^2, 2 W, J, 2 W', J' as polynomials too.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -18,8 +18,6 @@ The controllers `control.output_npd` and `control.finite_time` call an `Outputs`
 solve y'' for the torque by its J and drift, the part of y'' without q''.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable

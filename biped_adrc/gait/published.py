@@ -11,8 +11,6 @@ readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers ar
 only start Newton's method on the return map, which finds the cycle itself (`analysis.stability.known_cycle`).
 """
 
-from __future__ import annotations
-
 import os
 import tomllib
 from dataclasses import dataclass

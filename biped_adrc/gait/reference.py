@@ -10,8 +10,6 @@ so that a controller can solve for its torque without an algebraic loop. For a f
 Controllers call the reference at each evaluation of the closed loop, and the engine compiles it with them.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

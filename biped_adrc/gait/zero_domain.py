@@ -24,8 +24,6 @@ The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 
     domain(orbits, DomainLimits(friction=0.6))     published gait: zeta from 82.3 (V_max) to 484.1 (friction)
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import NamedTuple

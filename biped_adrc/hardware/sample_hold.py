@@ -12,8 +12,6 @@ commanded torque u, where a delay ends within the period.
 acts.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -29,8 +29,6 @@ A state d consists of floats, 1.0 for yes and 0.0 for no, and `1.0 * (..) * (..)
 runs the same lines on symbols, where an `if` cannot be. SAME_INSTANT [s] is the round-off of times.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass

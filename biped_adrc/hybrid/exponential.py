@@ -25,8 +25,6 @@ on a multiple of h, so the matrices are made for h and its halvings: by their se
 by plain sums and not by BLAS, whose order of summation differs from machine to machine.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache

@@ -6,8 +6,6 @@ smooth, such as sample instants and impacts; `Step.at(t)` gives the state inside
 located. `hybrid.march` itself computes the steps of `RK4` and of `exponential.Exponential`.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

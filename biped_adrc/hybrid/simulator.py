@@ -7,8 +7,6 @@ in the compiled engine a compiled loop does (`engine.run`). A system that moves 
 simulator, has a function `Mover` in place of a flow.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping

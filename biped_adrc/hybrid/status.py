@@ -4,8 +4,6 @@ A failure during a run raises no error: `hybrid.simulator` and the compiled loop
 trajectory up to the failure is kept.
 """
 
-from __future__ import annotations
-
 from enum import Enum
 
 

@@ -9,8 +9,6 @@ not at all. `scenario.stored` adds arrays beside the trajectory, such as the par
 signals.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import math

@@ -13,8 +13,6 @@ goes across one.
 systems of this package; a user's own hybrid system needs `flow` alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple

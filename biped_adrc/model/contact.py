@@ -28,8 +28,6 @@ from Pinocchio's link placements and velocities, so neither D_e nor (7) enters. 
 with x to the right and z up. `Biped` makes the FloatingDynamics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

@@ -20,8 +20,6 @@ CasADi differentiates r, written with the formulas of `planar_robot`, and the im
     dz = -(dr/dz)^-1 (dr/dq dq + dr/dv- dv-)
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import casadi as ca

@@ -12,8 +12,6 @@ Stones are stepping stones: footholds at prescribed distances. All this ground i
 numbers of a compliant one, for a plant that MuJoCo simulates.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Annotated, Any

@@ -24,8 +24,6 @@ every robot, by `Biped.check`. `import_robot.derive` runs these laws; `biped_fro
 for which one of them is broken. The reproduction of the paper checks them for its robots too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -18,8 +18,6 @@ checks the angles; nothing is checked here. Pinocchio's geometry is in three dim
 the plane of motion.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -17,8 +17,6 @@ disturbances: with J(q) (2, n) the Jacobian of the point, and b (n,) that of the
     zeta = J^T (F_x, F_z) + b^T M
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Generic, NamedTuple, TypeVar
 

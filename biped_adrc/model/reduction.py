@@ -23,8 +23,6 @@ xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13
 for both. Here B1 is the identity: the motors act on the joints q_b.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

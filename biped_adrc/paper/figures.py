@@ -10,8 +10,6 @@ Drawing takes longer than some of the walks, so each figure is a `Task`, drawn b
                      the headline runs, and whether it is full (the whole map of pushes) or quick
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence

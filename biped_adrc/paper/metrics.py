@@ -22,8 +22,6 @@ limit would then count as kept by a number that does not exist.
     preset           a set of masses and inertias of the robot RABBIT
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence

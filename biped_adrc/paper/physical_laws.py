@@ -19,8 +19,6 @@ None of them was used to derive the model or to choose the methods, so that each
 Functions return numbers by name; their limits are in checks.toml.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -16,8 +16,6 @@ on the ground there. A walk that converges along one direction excites one direc
 such data. So the rank of the data is returned with the eigenvalues, and `warning` says what they are worth.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

@@ -20,8 +20,6 @@ claims), `findings` and `tables` (what the report shows), `settings` and `versio
 task.
 """
 
-from __future__ import annotations
-
 import json
 import time
 from collections import Counter

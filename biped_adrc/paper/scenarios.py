@@ -20,8 +20,6 @@ any two choices meet in all pairs of levels equally often, so that no effect hid
 Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.two_steps`).
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -18,8 +18,6 @@ where the text around a name has its unit. `Extremes` of numbers stand in a text
     (23)             transfer function from a disturbance of a joint [rad/s^2] to its tracking error [rad]
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 

@@ -18,8 +18,6 @@ has a number, such as a prediction [s]. A value that nothing takes is an error, 
 effect.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any

@@ -17,8 +17,6 @@ the map unless observer_states is False: then the controller starts anew after e
 2 n - 1 coordinates.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import lru_cache

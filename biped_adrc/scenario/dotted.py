@@ -7,8 +7,6 @@ is a mapping, as TOML and JSON have it. A record (`scenario.records`) is a check
 obvious name may be written as that name alone, so "ADRC" stands for {"name": "ADRC"}.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from typing import Any
 

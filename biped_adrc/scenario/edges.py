@@ -20,8 +20,6 @@ A remark is such a sentence. An arc of a trajectory is one single support; its n
 the states were stored.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

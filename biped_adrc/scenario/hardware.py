@@ -6,8 +6,6 @@ hardware="rabbit" is hardware={"profile": "rabbit"}; "" is for none. An open rec
 does not declare, for a class of the user's.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Literal, Self
 

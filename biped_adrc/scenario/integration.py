@@ -15,8 +15,6 @@ A mode is a single support: its number from 1 (step), and the time [s] at which 
 trajectory is one single support. The engine is "compiled" (machine code) or "pinocchio" (Python).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace

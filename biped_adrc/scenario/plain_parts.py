@@ -16,8 +16,6 @@ walker; all others count as the user's. How values are written:
     any other object              {"part": number of its record in the list "parts"}
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -13,8 +13,6 @@ those with motors first. A record is a checked table of plain values (`records`)
     q5=10@2:0.1-                         a step of the torque that stays for good
 """
 
-from __future__ import annotations
-
 import re
 from decimal import Decimal
 from typing import Any

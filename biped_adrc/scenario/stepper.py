@@ -22,8 +22,6 @@ motors; x (nx,) is the state of a walk, (q, v, controller, hardware); a mode is 
 from 1 and the time at which it began. A node is an instant whose signals are stored.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple, cast
 

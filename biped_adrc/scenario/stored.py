@@ -16,8 +16,6 @@ walk can be looked at, but it cannot go on. A part is an object such as a contro
 and the values of its constructor. An arc of a trajectory is the motion of one single support.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress

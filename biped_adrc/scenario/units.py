@@ -9,8 +9,6 @@ those that do not ("whole", such as deg or 1), each as its factor to SI units an
 and rad; and the prefixes with their factors.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from contextlib import nullcontext, suppress

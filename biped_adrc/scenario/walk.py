@@ -14,8 +14,6 @@ began. The parts of a walk are runs of single supports with one integration step
 rigid plant, where a push switches, the step is finer.
 """
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from types import NoneType

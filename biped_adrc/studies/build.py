@@ -11,8 +11,6 @@ contents are hashed into the versions of its results. The registry finds a class
 "controller" and "ADRC", or by module:Class. A scene is a robot and its gait; a row is the results of one walk.
 """
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 from collections.abc import Callable, Iterable, Mapping

@@ -18,8 +18,6 @@ candidate, seed ..), and the values of its scenario. A row is the results of one
 to build walkers without walking them.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor

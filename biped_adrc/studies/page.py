@@ -7,8 +7,6 @@ median of the study's measure, a column of the rows. A search chooses values of 
 candidate is one such choice, with a number, and its `Choice` has all of them, and the best ones in `selected`.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterator, Sequence

@@ -18,8 +18,6 @@ intervals are those of `analysis.statistics`. They exist only where the walks ar
 draws; the walks of a declared grid are no sample, so a number over them, or of one walk, has no interval.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

@@ -21,8 +21,6 @@ row that says why takes the trial's place in the stages after it. A verdict is w
 have carried the walk (feasible), and if not why.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Colours of robot and arrows, and sizes of these: the views from the side and in Meshcat share them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from biped_adrc.core.types import Array

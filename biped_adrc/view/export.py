@@ -8,8 +8,6 @@
 Options of a clip that the kind of file has no use for are refused.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

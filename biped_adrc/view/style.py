@@ -8,8 +8,6 @@ Figures are `matplotlib.figure.Figure` objects made by `with new_figure(..) as f
 state are not used, so a notebook's own settings are not changed, and do not change the figures.
 """
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Iterator

@@ -38,8 +38,6 @@ structured singular value of one complex number per motor; as usual its upper bo
 which is mu itself for up to three motors, and on the safe side beyond.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

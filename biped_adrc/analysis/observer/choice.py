@@ -19,8 +19,6 @@ torque noise ("ripple") of one count stays below a share of the torque limit. `o
 `recommend` for its last table.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

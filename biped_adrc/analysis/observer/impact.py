@@ -17,8 +17,6 @@ its value just after impact. The model is linear and includes neither the torque
 `ObserverReport` shows one row per reset policy.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -52,8 +52,6 @@ f) T^2 / 2 per change of the torque in the angle. For fast observers that error 
 delay.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace

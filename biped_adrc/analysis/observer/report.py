@@ -15,8 +15,6 @@ largest bandwidth of each order that the robot allows. Each number is computed a
     Table I        the poles that the paper uses
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace

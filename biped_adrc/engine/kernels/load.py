@@ -6,8 +6,6 @@ which it was written. Where these have changed, numba writes it anew, and it is 
 page that walks in a browser is made from the same text (`extras.play.webassembly`).
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping
 from contextlib import suppress

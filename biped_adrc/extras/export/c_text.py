@@ -17,8 +17,6 @@ The text needs from the C file around it: `real`, F(f) for the C library's funct
 GREATEST, which pass NaN on, and the table k of those parameters K that are read, as constants in double.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -16,8 +16,6 @@ ports, a page about it and the licence; and a binary, where there is a C compile
 source and compiler give the same bytes.
 """
 
-from __future__ import annotations
-
 import hashlib
 import io
 import platform

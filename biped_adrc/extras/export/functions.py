@@ -16,8 +16,6 @@ In C the numbers x_c are fields of a struct: x holds them before a function, nex
 measurement. Numbers of x_c on which no torque depends have no field.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property

@@ -5,8 +5,6 @@ exported controller walks on any plant. `Loaded` calls the three functions of th
 a sample instant, touchdown after an impact. Each returns a flag, OK or the reason why it has no result.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil

@@ -4,8 +4,6 @@ init (start), step (a sample instant) and touchdown. Templates of Jinja give the
 The same scenario gives the same bytes: the text contains no date, machine or path.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -18,8 +18,6 @@ The pictures are the lines of `view.from_the_side`, drawn with Pillow, which tak
 Matplotlib takes 30.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -12,8 +12,6 @@ Rates may be left out, all or some. Units are those of studies ("deg", "ms", "mN
 ignored, and the log's remarks name them.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -16,8 +16,6 @@ wrong one. The mirror image of a walk, angles and torques with the other sign, f
 lands behind the stance foot.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

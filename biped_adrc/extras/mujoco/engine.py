@@ -19,8 +19,6 @@ engine is given their exact mean over it, so that the impulse is exact, the angl
 order in h, and no lag is too short.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

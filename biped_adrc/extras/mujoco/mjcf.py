@@ -7,8 +7,6 @@ which computes their torque with the accuracy of its integrator. The visual shap
 without mass and without contact, and the start of a gait as the keyframe `start`.
 """
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from pathlib import Path
 

@@ -11,8 +11,6 @@ observer takes that for a disturbance, and with the observer of Table I of the p
 Static friction is MuJoCo's `frictionloss`, a bound on a constraint's force, where the rigid plant has tanh.
 """
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 from functools import cache

@@ -13,8 +13,6 @@ The walk has no end and its ground is not known beforehand: the page moves the g
 with it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -15,8 +15,6 @@ that is drawn, the page gets their values at (0, 0) and their slopes along x and
 of the link's angle by q.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

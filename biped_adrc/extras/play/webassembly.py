@@ -15,8 +15,6 @@ The page has to pass to the module, by the name `env`: its memory, the table, th
 functions of mathematics such as `sin` and `pow`. `web_walkers` makes the module, and the block of each walker.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path

@@ -35,8 +35,6 @@ relaxation): a slack that stays above zero names a limit that cannot be kept, an
 feasible point to start from again. `optimise` calls all three.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple

@@ -28,8 +28,6 @@ feet on the ground, the hip between them, and no leg wound round by 2 pi. The gu
 any limit.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

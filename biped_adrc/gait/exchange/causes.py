@@ -7,8 +7,6 @@ the candidates are compared by what k leaves: the largest distance of the sample
 robot [rad]. A *cause* is one such change of the robot, with its k.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from contextlib import suppress

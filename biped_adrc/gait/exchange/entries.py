@@ -20,8 +20,6 @@ parameters as the gait's coefficients (`names` of `import_gait`) are they taken,
 `frost`.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

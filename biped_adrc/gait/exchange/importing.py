@@ -27,8 +27,6 @@ All other fields of `GaitFile` may be added under their names. Where the file ha
 `names` of `import_gait` gives them.
 """
 
-from __future__ import annotations
-
 import io
 import json
 from collections.abc import Mapping

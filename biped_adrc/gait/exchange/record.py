@@ -14,8 +14,6 @@ and A, b those of the convention's map q = A q' + b. `coordinates` converts a re
 `record_of` converts a gait to another convention; both keep kind and degree of the curves.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple

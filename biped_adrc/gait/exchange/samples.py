@@ -10,8 +10,6 @@ hybrid-invariant. R q + r are the angles after relabelling, q(K) is the last sam
 The orbit and its period then come from the zero dynamics of the robot.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

@@ -18,8 +18,6 @@ parallel. Re-rooting is to turn the tree round, so that it hangs from its stance
 when there is one answer, and every guess is a sentence in `Derived.notes`.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, replace

@@ -35,8 +35,6 @@ joint below it, or to its COM where nothing lies below. At every COM lies a ball
 the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

@@ -11,8 +11,6 @@ bodies are refused. It needs the optional package `mujoco`. In the functions m i
 data, j the index of a joint and b that of a body; body 0 is the world.
 """
 
-from __future__ import annotations
-
 import math
 import xml.etree.ElementTree as ET
 from pathlib import Path

@@ -18,8 +18,6 @@ ground, in place of the cone, no foot may slip by more than `SLIP` in a single s
 applies the limits; those that are left open come from the robot's record.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 

@@ -28,8 +28,6 @@ The keys are the fields of `RobotDescription`, with joint friction in a table [f
 `load_description` makes a `RobotDescription` of it, with which `Biped.load` starts.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields, replace

@@ -20,8 +20,6 @@ inertia J of a rotor behind a gear of ratio N, reflected to its joint: N^2 J, fr
 what was found and what was expected.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import xml.etree.ElementTree as ET

@@ -6,8 +6,6 @@ phase Theta of a gait as a sum of angles. The command `robot check` writes this 
 of the paper it is figure 1. A record is the robot's file beside its URDF: which joints and feet are which.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

@@ -7,8 +7,6 @@ paths of hip and foot behind all walks, as k begins at 2. An arc is one single s
 its stance foot. A role says which leg a line belongs to: stance, swing, or "" for the trunk.
 """
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Callable

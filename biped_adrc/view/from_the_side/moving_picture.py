@@ -12,8 +12,6 @@ drawn over one another on the ground they walk on, darker the later; stance leg,
 colour and dash.
 """
 
-from __future__ import annotations
-
 import io
 import math
 from collections.abc import Callable, Mapping, Sequence

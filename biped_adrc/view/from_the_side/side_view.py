@@ -6,8 +6,6 @@ walk. Strips, moving pictures and the scale of the page in Meshcat are made from
 a rimless one, with spokes in place of legs, of which its URDF draws one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

@@ -11,8 +11,6 @@ The feet are points in the model and balls in the URDF: the ground is drawn one 
 places where stance feet stand. A rimless wheel has spokes in place of legs. q are the robot's coordinates.
 """
 
-from __future__ import annotations
-
 import base64
 import itertools
 import math

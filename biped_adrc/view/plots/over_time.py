@@ -13,8 +13,6 @@ velocities and torques jump.
     F_T, F_N         force of the ground on the robot, along the ground and out of it [N]
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 

@@ -5,8 +5,6 @@ is stable when all multipliers lambda, the eigenvalues of the map's derivative t
 circle. `analysis.stability` computes them by several methods; they are drawn by name beside each other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -6,8 +6,6 @@ confidence interval of 95 %, which are NaN where there is none. A number that is
 is a value of the scenario that a study varies, its levels the values that it takes.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

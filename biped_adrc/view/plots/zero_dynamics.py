@@ -15,8 +15,6 @@ The zero dynamics are the motion with all joints exactly on the gait's curves: a
 The domain is the range of zeta from which walks come back to the orbit and keep the limits.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
