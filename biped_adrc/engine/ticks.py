@@ -9,6 +9,8 @@ In the state x = (q, q', s, tail) s is the controller's state, and the tail has 
 motors, the torque last.
 """
 
+from __future__ import annotations
+
 import ctypes
 import math
 import sys
