@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import biped_adrc as ba
-from biped_adrc.engine.batch import BatchWalk, Case, run_case
+from biped_adrc.engine.batch import BatchWalk, Case, Preparation
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.paper.scenarios import PAPER_PUSH
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -45,7 +45,7 @@ def ready(case: Case) -> Callable[[], BatchWalk]:
     """A run of the case from its start, compiled before."""
 
     def walked() -> BatchWalk:
-        return run_case(case)()
+        return Preparation()(case)()
 
     walked()
     return walked

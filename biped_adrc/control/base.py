@@ -223,7 +223,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     result twice, as machine code keeps nothing in an object.
     """
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
-    if not _is_own(controller):
+    if not is_own(controller):
         return
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
     first: dict[str, Any] = {"output": u}
@@ -245,10 +245,10 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
             )
 
 
-def _is_own(part: Part) -> bool:
+def is_own(part: Part) -> bool:
     """Whether the class of a part, or of a part in its fields, is a user's and not of this package."""
     inside = (x for x in vars(part).values() if isinstance(x, Part))
-    return not type(part).__module__.startswith("biped_adrc.") or any(map(_is_own, inside))
+    return not type(part).__module__.startswith("biped_adrc.") or any(map(is_own, inside))
 
 
 @dataclass(frozen=True)

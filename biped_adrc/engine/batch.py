@@ -15,16 +15,22 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from itertools import islice
+from typing import Any, Self
 
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.control.base import Measurement, is_own
 from biped_adrc.core.checks import PositiveInt, check_fields, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
+from biped_adrc.core.once import constant
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.tree import flatten
 from biped_adrc.core.types import Array
 from biped_adrc.engine.not_compiled import NotCompiled
 from biped_adrc.engine.program import COMPILED, CompiledWalker
@@ -36,6 +42,7 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.model.biped import Biped
 
 _TOGETHER = 4
 """Number of walks that a thread makes one after the other, since to wake it costs a tenth of a walk."""
@@ -161,9 +168,10 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     have not begun.
     """
     waiting: deque[Future[list[BatchWalk]]] = deque()
+    prepare = Preparation()
     with ThreadPoolExecutor(threads) as pool:
         try:
-            while group := [run_case(case) for case in islice(cases, _TOGETHER)]:
+            while group := [prepare(case) for case in islice(cases, _TOGETHER)]:
                 waiting.append(pool.submit(lambda runs: [run() for run in runs], group))
                 while waiting and (len(waiting) >= _AHEAD * threads or waiting[0].done()):
                     yield from waiting.popleft().result()
@@ -174,25 +182,99 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
                 future.cancel()
 
 
-def run_case(case: Case) -> Callable[[], BatchWalk]:
-    """Prepare a case and return the function that simulates it, which may run in any thread.
-
-    Python's and Pinocchio's parts are called here only, in the caller's thread. An exception of theirs becomes
-    the status of this walk, whose state stays that of the start; an InputError, a mistake of the caller, is
-    raised.
+class Preparation:
+    """Prepares cases one after the other, each from an earlier one if they are alike: equal but for numbers of
+    the controller and for the disturbance.
     """
-    try:
-        return _prepared(case)
-    except Exception as error:  # whatever a controller or a disturbance in Python may raise
-        # these two are InputErrors, too, but say how the walk went and no mistake of the caller
-        if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
-            raise
-        status, detail = simulator.status_of(error)
-        x, start = np.concatenate((case.q, case.v)), case.mode.start
-        # no times of impacts and no states before them; it ends at `start`, where it begins
-        none = np.zeros((0, len(x)))
-        walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
-        return lambda: walked
+
+    def __init__(self) -> None:
+        self.last: _Ready | None = None
+        """The last case that was prepared as a whole."""
+
+    def __call__(self, case: Case) -> Callable[[], BatchWalk]:
+        """Prepare a case and return the function that simulates it, which may run in any thread.
+
+        Python's and Pinocchio's parts are called here only, in the caller's thread. An exception of theirs
+        becomes the status of this walk, whose state stays that of the start; an InputError, a mistake of the
+        caller, is raised.
+        """
+        try:
+            with suppress(NotCompiled):  # such as a disturbance in Python
+                if self.last and (ready := self.last.alike(case)):
+                    return ready
+            run = _prepared(case)
+        except Exception as error:  # whatever a controller or a disturbance in Python may raise
+            # these two are InputErrors, too, but say how the walk went and no mistake of the caller
+            if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
+                raise
+            status, detail = simulator.status_of(error)
+            x, start = np.concatenate((case.q, case.v)), case.mode.start
+            # no times of impacts and no states before them; it ends at `start`, where it begins
+            none = np.zeros((0, len(x)))
+            walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
+            return lambda: walked
+        # a controller of a user's class is tried at the start of each walk
+        if isinstance(run, _Ready) and not any(
+            map(is_own, (case.walker.controller, case.walker.law))
+        ):
+            self.last = run
+        return run
+
+
+@dataclass(frozen=True)
+class _Ready:
+    """A case that is ready to run in machine code; called, it returns its walk."""
+
+    case: Case
+    x: Array
+    """State at the start (nx,)."""
+    compiled: CompiledWalker
+    read: int
+    """Address of the function that computes a row of the table; 0 for no table."""
+
+    def __call__(self) -> BatchWalk:
+        c = self.case
+        # only compiled walks in sampled time that know touchdowns at once have a table; others leave their run
+        if c.curve is not None and not self.read:
+            return left_by(c, simulate_compiled(self.compiled, self.x, c.mode, c.options))
+        return _strides(self.compiled, self.x, c.mode, c.options.t_end, c.impacts, self.read)
+
+    @cached_property
+    def begin(self) -> Measurement:
+        """The measurement from which the controller's state begins."""
+        c = self.case
+        return c.walker.measure(c.mode.start, c.q, c.v, c.mode)
+
+    def alike(self, case: Case) -> Self | None:
+        """Another case, ready to run, which takes from this one what does not change; None if they are not
+        alike.
+        """
+        one, w = self.case, case.walker
+        started = np.array_equal(one.q, case.q) and np.array_equal(one.v, case.v)
+        if not (started and _equal(one, case, "walker", "q", "v")):
+            return None
+        if not _equal(one.walker, w, "controller", "disturbance"):
+            return None
+        if (compiled := self.compiled.like(w)) is None:
+            return None
+        s, at = flatten(w.law.initial_state(self.begin)), 2 * w.plant.n
+        if not np.all(np.isfinite(s)):
+            return None
+        x = self.x.copy()
+        x[at : at + len(s)] = s
+        return replace(self, case=case, x=x, compiled=compiled)
+
+
+def _equal(one: Any, other: Any, *but: str) -> bool:
+    """Whether two parts have the same fields, `but` for those of these names: the same objects, or equal ones
+    in which nothing can change.
+
+    Robots are not compared by value, which would take longer than it saves.
+    """
+    names = [f.name for f in fields(one) if f.name not in but]
+    pairs = ((getattr(one, name), getattr(other, name)) for name in names)
+    known = (x is y or (not isinstance(x, Biped) and constant(x) and x == y) for x, y in pairs)
+    return type(one) is type(other) and all(known)
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
@@ -217,13 +299,10 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         except InputError as error:
             raise RaisedError(str(error)) from error
         return lambda: left_by(case, run)
-    read, table = 0, case.curve is not None
-    # only compiled walks in sampled time that know touchdowns at once have a table; others leave their run
-    if table and (not walker.sampled or walker.touchdown is not None):
-        return lambda: left_by(case, simulate_compiled(compiled, x, case.mode, options))
-    if table:
+    read = 0
+    if case.curve is not None and walker.sampled and walker.touchdown is None:
         read = compiled.program.reading(step_reading).addresses["reading"]
-    return lambda: _strides(compiled, x, case.mode, options.t_end, case.impacts, read)
+    return _Ready(case, x, compiled, read)
 
 
 def _strides(

@@ -18,7 +18,7 @@ moves in machine code between them.
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -27,6 +27,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.base import Passive
+from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.core.once import once
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.tree import Layout
@@ -192,6 +193,8 @@ class CompiledWalker:
     """A run that has not begun: sizes, addresses, tables and settings; each run starts in a copy of it."""
     label: str
     """Name and step of the method of integration, for records."""
+    still: _Still
+    """What of it does not depend on the disturbance."""
 
     @classmethod
     def of(
@@ -216,6 +219,13 @@ class CompiledWalker:
         """
         # all that does not depend on the disturbance, remembered from earlier calls
         still = _still(walker.undisturbed, method, layout, reference, in_python, loaded)
+        return cls._under(walker, still, t_first, method.label, loaded)
+
+    @classmethod
+    def _under(
+        cls, walker: Walker, still: _Still, t_first: float, label: str, loaded: bool = True
+    ) -> CompiledWalker:
+        """Add the walker's disturbance to what is `still`; see `of`."""
         push, n = walker.disturbance or NO_PUSH, walker.plant.n
         numbers = [floats(x) for x in push.terms]
         texts = [push_code(x, n) for x in push.terms]
@@ -231,7 +241,29 @@ class CompiledWalker:
         run = still.plan(tables)
         # pulled: whether a force from outside may act, besides torques
         run["t_first"], run["pulled"] = t_first, push.pulls
-        return cls(walker, still.program, run, method.label)
+        return cls(walker, still.program, run, label, still)
+
+    def like(self, walker: Walker) -> CompiledWalker | None:
+        """The compiled form of a walker that differs from this one in its disturbance and in numbers of its
+        controller alone; None where `of` has to look: its controller has another structure or NaN, or other
+        numbers than its own depend on it.
+        """
+        if walker.controller is self.walker.controller:
+            return self._under(walker, self.still, self.plan["t_first"], self.label)
+        program, law = self.program, walker.law
+        old, numbers = program.numbers, program.numbers._replace(controller=law)
+        own, K = floats(law), program.K.copy()
+        # an outer loop decides what the curve is, and gains the coordinates of an exponential method
+        entangled = isinstance(law, OuterLoop) or old.split is not None
+        if entangled or structure(law) != structure(old.controller) or np.any(np.isnan(own)):
+            return None
+        # K has the numbers in the order of the fields, those of plant and model before the controller's
+        first = len(floats(numbers[: numbers._fields.index("controller")]))
+        K[first : first + len(own)] = own
+        still = self.still._replace(
+            program=replace(program, numbers=numbers), tables={**self.still.tables, "K": K}
+        )
+        return self._under(walker, still, self.plan["t_first"], self.label)
 
 
 class _Still(NamedTuple):
@@ -252,7 +284,8 @@ class _Still(NamedTuple):
         sizes = tuple(len(table) for table in tables.values())
         if sizes not in self.plans:
             self.plans[sizes] = plan({**self.tables, **tables}, self.fields)
-        return self.plans[sizes].filled(tables)
+        # K too: walkers that are alike have their plans in common
+        return self.plans[sizes].filled({"K": self.tables["K"], **tables})
 
 
 @once

@@ -24,6 +24,7 @@ have carried the walk (feasible), and if not why.
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from threading import Lock
 from typing import Any
@@ -41,7 +42,7 @@ from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.registry import FOLDERS
-from biped_adrc.engine.batch import BatchWalk, left_by, run_case
+from biped_adrc.engine.batch import BatchWalk, Preparation, left_by
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
@@ -112,25 +113,26 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
     # size: how many walks are in memory together, by the longest of them
     # _AT_ONCE: most impacts in memory together
     size, rows = max(1, _AT_ONCE // max(impacts, default=1)), list[WalkRow]()
+    prepared = partial(_run_of, Preparation())
     for i in range(0, len(trials), size):
         some = trials[i : i + size]
         with _PREPARING:
-            runs = _each(_run_of, some)
-        walks = _each(lambda run: run(), runs)  # calls what `_run_of` has returned
+            runs = _each(prepared, some)
+        walks = _each(lambda run: run(), runs)  # calls what `prepared` has returned
         with _PREPARING:
             pairs = zip(some, walks, strict=True)
             rows += [_row(x if isinstance(x, dict) else _measured(t, x, aside)) for t, x in pairs]
     return rows
 
 
-def _run_of(t: Trial) -> Callable[[], BatchWalk]:
+def _run_of(prepare: Preparation, t: Trial) -> Callable[[], BatchWalk]:
     """The function that walks a trial; unlike building and measuring, it may run in several threads at once. On
     another plant than the rigid one, `t.loop` is walked in place of the walker; `left_by` brings its run into
-    the form of the others.
+    the form of the others. prepare: what prepared the trials before it.
     """
     c, loop = t.case, t.loop
     if loop is None:
-        return run_case(c)
+        return prepare(c)
     return lambda: left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
 
 

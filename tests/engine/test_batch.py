@@ -18,7 +18,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller
 from biped_adrc.core.errors import InputError, NotFiniteError, SimulationError, SingularError
-from biped_adrc.engine.batch import Case, simulate_many
+from biped_adrc.engine.batch import Case, Preparation, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
 
@@ -110,6 +110,47 @@ def test_the_number_of_threads_changes_no_bit(mixed):
         same(one, other)
     for first, again in zip(alone, alone[len(mixed) :], strict=False):
         same(first, again)
+
+
+@pytest.mark.parametrize(
+    ("timing", "method"),
+    [
+        (ba.ContinuousTime(), ba.RK4(1e-3)),
+        (ba.SampledTime(1e-3), ba.RK4(1e-3)),
+        (ba.ContinuousTime(), ba.Exponential(1e-3)),
+    ],
+)
+def test_a_case_prepared_from_one_like_it_is_that_prepared_alone(biped, gait, timing, method):
+    """Cases that differ in gains, poles and pushes alone take all else from the case before; nothing is taken
+    where a number changes the code, the plant, the start or the matrices of the exponential method.
+    """
+    law = ba.ADRCController(gait.constraint, observer=ba.GPIObserver.from_bandwidth(160.0, 1))
+    walker = ba.Walker(biped, law, ba.TorquePulse((9.0, 0, 0, 0, 0), 1, 0.1, 0.2), timing)
+    case = Case(walker, gait=gait, method=method, impacts=2, curve=gait.constraint)
+    pushed = ba.TorquePulse((0.0, -7.0, 0, 0, 0), 2, 0.1, 0.2) + ba.HipForce(biped, (5.0, 0.0))
+    slow = ba.GPIObserver.from_bandwidth(120.0, 1)
+    same_code = {
+        "gains": replace(law, gains=ba.Gains(4000.0, 60.0)),
+        "observer": replace(law, observer=slow),
+    }
+    taken = [replace(walker, controller=x) for x in same_code.values()]
+    other = replace(law, gains=ba.Gains((5000.0, 4000.0, 5000.0, 5000.0), 50.0))
+    looked = [
+        replace(walker, controller=other),  # gains by joint are other code
+        replace(walker, controller=replace(law, observer=ba.GPIObserver.from_bandwidth(160.0, 2))),
+        replace(walker, plant=ba.ModelErrors(mass={"torso": 0.1}).apply(biped), model=biped),
+        replace(walker, ground_steps=(ba.StepDown(1, 0.002),)),
+    ]
+    exponential = isinstance(method, ba.Exponential)
+    for w in (replace(walker, disturbance=pushed), *taken, *looked):
+        prepare = Preparation()
+        prepare(case)
+        first, like = prepare.last, replace(case, walker=w)
+        same(prepare(like)(), Preparation()(like)())
+        from_first = w.disturbance is pushed or (w in taken and not exponential)
+        assert (prepare.last is first) == from_first, w
+    turned = replace(case, v=0.99 * case.v)
+    same(prepare(turned)(), Preparation()(turned)())
 
 
 def test_every_run_of_a_batch_is_the_single_run(mixed):
