@@ -41,14 +41,15 @@ def scenario(name: str) -> ba.Scenario:
 
 
 @cache
-def stored_walk(name: str) -> ba.Walk:
-    """The walk of one of the cases."""
+def passive_walk(name: str) -> ba.Walk:
+    """The walk of one of the cases without motors, whose start is searched for."""
     return ba.walk_scenario(scenario(name))
 
 
 def walked(name: str) -> dict[str, Any]:
     """Status, end, verdict and largest values of a walk."""
-    walk = stored_walk(name)
+    s = scenario(name)
+    walk = passive_walk(name) if s.controller.name == "passive" else ba.walk_scenario(s)
     signals, run = walk.signals, walk.trajectory
     curve = walk.gait and getattr(walk.gait.constraint, "curve", None)
     return {
@@ -66,10 +67,8 @@ def walked(name: str) -> dict[str, Any]:
 def first_step(name: str, engine: str) -> Trajectory:
     """The first single support of a case and the impact at its end, with coarse steps of integration."""
     s = scenario(name)
-    if (
-        s.controller.name == "passive"
-    ):  # its start is a search for the cycle, which that walk has made
-        walk = stored_walk(name)
+    if s.controller.name == "passive":
+        walk = passive_walk(name)
         n = walk.walker.plant.n
         start = walk.trajectory.arcs[0].x[0][: 2 * n]
         way = {"start": (start[:n], start[n:]), "engine": engine}
