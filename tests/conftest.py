@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import shutil
 import signal
@@ -109,6 +110,11 @@ class ByFile(LoadScopeScheduling):
 
 def pytest_xdist_make_scheduler(config, log):
     return ByFile(config, log)
+
+
+def pytest_collection_finish():
+    """Python's collector of garbage need not look at modules and tests again, which stay to the end."""
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)
