@@ -156,7 +156,7 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
         return x > 0.0
     if name == "friction":
         return (x <= cone) | (x == math.inf)
-    # SLIP: largest distance that a foot may slip, 5 mm
+    # SLIP: largest distance that a foot may slip
     most = {"torque": k.torque, "rate": 1.0, "slip": SLIP, IMPULSE: cone}
     return x <= most.get(name, 0.0)
 
@@ -236,7 +236,8 @@ def supports(
     k = k if slips is None else k._replace(friction=math.inf)
     first, t = n.edges[:-1], n.at.t
     worst, joint = limit_series(walker, n, k, impacts, after)
-    # the joint with the largest number of each single support, from node a to node b - 1
+    # the joint with the largest torque, rate and angle beyond its range (_OF_JOINTS) in each single support,
+    # which has the nodes a to b - 1
     joints = [
         {name: joint(name, a + int(np.argmax(worst[name][a:b]))) for name in _OF_JOINTS}
         for a, b in pairwise(n.edges)
@@ -281,6 +282,7 @@ def ended_in_impact(arc: Arc) -> bool:
 
 def after_last_impact(walker: Walker, trajectory: Trajectory) -> Array | None:
     """Momentum m v_com (2,) [N s] after the impact with which a walk ended; None where it ended otherwise."""
+    # x_plus: the state (q, q', ..) just after the impact, of which the first 2 n numbers are q and q'
     event, n = trajectory.arcs[-1].event, walker.plant.n
     if not ended_in_impact(trajectory.arcs[-1]) or event is None or event.x_plus is None:
         return None

@@ -91,7 +91,7 @@ def demands(
     # near, far: times since its start between which a depth of the swing foot counts, since for the share
     # `ends` of its duration at either end the foot may touch; without an impact at its end the depth there
     # counts too. same: round-off of times; along, normal (2,): unit vectors of the ground. before: the node
-    # before, at the first node itself; half: half the time since it, for the trapezoidal rule
+    # before, at the first node itself; half: half the time since it, for the trapezoidal rule; pushed: int f dt
     for s in range(supports):
         i, last, start, above = first[s], first[s + 1] - 1, rows[first[s] * width], False
         duration = rows[last * width] - start
@@ -106,11 +106,13 @@ def demands(
             P_x[k], P_z[k] = row[P] - pushed_x, row[P + 1] - pushed_z
             F_N[k], ratio[k], depth[k] = math.inf, -math.inf, 0.0  # no mean force, no depth
             loads(row, at, p, joints, shift(out, 3 * count + k), count)
-            # t - start falls short of w by round-off where a window begins at the touchdown
+            # SHORTEST: a shorter single support has no mean force. `same`: t - start may fall short of w by
+            # round-off where a window begins at the touchdown
             if w > SHORTEST and since >= w - same:
                 # the momentum at the beginning of the window, t - w, is linear between nodes i and i + 1
                 while i + 1 < last and rows[(i + 1) * width] <= t - w:
                     i += 1
+                # h is 0 between the two nodes of a jump
                 h, behind = rows[(i + 1) * width] - rows[i * width], t - w - rows[i * width]
                 share = min(max(behind / h, 0.0), 1.0) if h > 0.0 else 0.0
                 F_x = (P_x[k] - P_x[i] - share * (P_x[i + 1] - P_x[i])) / w
@@ -118,7 +120,8 @@ def demands(
                 F_N[k] = F_x * normal[0] + F_z * normal[1]
                 if not F_N[k] <= 0.0:  # so that NaN goes on into the ratio
                     ratio[k] = abs(F_x * along[0] + F_z * along[1]) / F_N[k]
-            # of the swing foot above the ground at the height of the lower foothold
+            # of the swing foot above the ground at the height of the lower foothold; known[FALLS + s]: by how
+            # much the ground at the end of this single support is lower than at its start
             height = row[foot + 1] + tangent * row[foot] + known[FALLS + s]
             if height > 0.0:
                 above = True

@@ -65,6 +65,7 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
         return "fell"
     if status is not Status.COMPLETED:
         return "ended"
+    # IMPULSE: name of the limit on the impulse at impact, which alone makes a walk "but_impact"
     if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"

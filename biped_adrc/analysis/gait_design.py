@@ -131,7 +131,7 @@ def design_gait(
       of speed and step.
     - degree: of the curves, 4 to 12. nodes: the number of Gauss nodes at which limits are kept, 8 to 100.
     - limits: what the step must keep; None: `StepLimits()`.
-    - curve: its kind by name, one that lies between its ends.
+    - curve: its kind by name, one that begins at its first coefficient and ends at its last one.
 
     Raises GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
 
@@ -266,8 +266,10 @@ def design_family(
         constraints[0].phase,
         mu.min(axis=0),
         mu.max(axis=0),
+        # OF_LIBRARY: entries that are the same for all gaits
         provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
     )
+    # _member: v and L with the friction, peak torque and least F_N of the periodic step
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     random, low, high = np.random.default_rng(seed), family.low, family.high
     # a row of `ends` is a random pair of steps, the arguments of `step_integrals`: speed v and length L of the
@@ -296,7 +298,8 @@ def step_integrals(
     of the second step: with ' from its start to its decision, without from there to its end.
     """
     c, p, mu = family.phase, biped.p, np.array((v, L))
-    # Theta at the start and end of the first step; the step before it ended on `earlier`
+    # plus, minus: Theta at the start and end of the first step; the step before it ended on `earlier`.
+    # configuration(..)[:2] are q and dq/dTheta on a curve; `relabel` exchanges stance and swing leg in q
     earlier = family.member(v, before)
     plus = float(c @ biped.relabel(configuration(c, earlier.h, earlier.theta_minus)[0]))
     # curve()[2] is Theta-, h(mu, Theta+, Theta) the member's curve in a step that begins at Theta+
@@ -326,7 +329,7 @@ def _integrals(
     curve.
     """
     # s, weights: on [0, 1]; `inertia` is I = D_N dq/dTheta, D_N the row of the pitch in the inertia matrix
-    # _NODES: 16 Gauss nodes
+    # _NODES: number of Gauss nodes
     s, weights, _ = gauss_nodes(_NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):

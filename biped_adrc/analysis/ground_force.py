@@ -68,8 +68,8 @@ class Nodes:
 
     @property
     def pointers(self) -> tuple[int, int, int, int]:
-        """The first arguments of the compiled loops: address of the rows, numbers in a row, address of
-        `_columns`, p.
+        """The first arguments of the compiled loops: address of the rows, how many numbers a row has, address
+        of the indices at which its columns begin, p.
         """
         return self.rows.ctypes.data, self.rows.shape[1], self._columns.ctypes.data, self.p
 
@@ -144,6 +144,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     slope, plant = walker.ground_slope, walker.plant
     along, normal = np.array(ground_axes(slope))
     falls = np.array([max(walker.drop(step), 0.0) for step in n.steps])
+    # motor_joints: the joints in even single supports, then those in odd ones, where the other leg stands
     joints = np.ravel([[(j.speed, *j.range) for j in side] for side in plant.motor_joints])
     # ENDS: share of the step at either end, where the foot may touch the ground
     known = Known(
@@ -153,6 +154,7 @@ def demands(walker: Walker, n: Nodes, window: float, impacts: int) -> Array:
     # returns. `flatten` puts all numbers of `known` in one array, in their order
     result, numbers = np.empty((11, len(n.rows))), flatten(known)
     first, numbers_at, out = (x.ctypes.data for x in (n.edges, numbers, result))
+    # _loops: the compiled functions of `analysis.demands`
     _loops().demands(*n.pointers, first, len(falls), impacts, numbers_at, out)
     # the last two rows are intermediate results of the loop
     return result[:9]
@@ -165,7 +167,8 @@ def totals(n: Nodes) -> list[float]:
     e (p,) is the tracking error, dq_i the change of joint i to the next node. Of the two nodes at a jump only
     the second counts in means and integrals.
     """
-    # out: largest |e_i|, number of nodes that count, sums of |e|^2, |u|^2, |u_i dq_i| and u_i dq_i over them
+    # _loops: the compiled functions of `analysis.demands`, which get arrays by address. out: largest |e_i|,
+    # number of nodes that count, sums of |e|^2, |u|^2, |u_i dq_i| and u_i dq_i over them
     out = np.zeros(6)
     _loops().totals(*n.pointers, len(n.rows), out.ctypes.data)
     # to root mean squares over nodes and joints; 1.0 for no nodes or no joints
@@ -180,7 +183,9 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     did not end in an impact. after (2,) [N s]: momentum just after the impact with which the walk ends, as no
     node follows it, else None.
     """
-    # the momentum after an impact is that at the first node of the next single support
+    # the momentum after an impact is that at the first node of the next single support; edges: index of the
+    # first node of each single support, then the number of all nodes, so [1:-1] are those after an impact;
+    # n.last: index of the last node of each single support, just before the impact
     result, P = np.zeros(len(n.steps)), n.at.reading.momentum
     plus = P[n.edges[1:-1]]
     if after is not None:

@@ -121,7 +121,7 @@ class ReturnMap(Shown):
                 break
         if abs(self.walker.clearance(x[:n])) > 1e-12:
             raise SimulationError("no torso angle puts the swing foot of this state on the ground")
-        if not self.controller_states:
+        if not self.controller_states:  # a controller that is started anew
             x = self.walker.initial_state(x[:n], x[n : 2 * n])
         return x
 
@@ -144,7 +144,8 @@ class ReturnMap(Shown):
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
         from biped_adrc.engine.batch import strides
 
-        # the walker's own limit max_step_time comes first; the time given here only ends every run
+        # strides: the runs from all starts to their next impact. The walker's own limit max_step_time comes
+        # first; the time given here only ends every run
         images = strides(compiled, starts, 2.0 * self.walker.max_step_time)
         for walked in images:
             if not walked.status.ok:
@@ -231,6 +232,7 @@ def newton_step(J: Array, gap: Array) -> Array:
 
     Raises SingularError when 1 is a multiplier.
     """
+    # the text names the matrix in the error
     return solve(np.eye(len(gap)) - J, gap, "1 - dP/ds, by which Newton looks for the cycle,")
 
 

@@ -172,7 +172,8 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     tracked = tracked_by(walker.law, reference)
     found = compiled_readings(walker, trajectory, tracked) if compiled or many else None
     result = signals_of(walker, trajectory, found or readings(walker, trajectory, tracked))
-    # FALLS: ends of a walk in which the robot leaves the gait for good
+    # FALLS: ends of a walk in which the robot leaves the gait for good; only the curve of a VirtualConstraint
+    # has an end, behind which no error is defined
     if trajectory.status in FALLS and isinstance(reference, VirtualConstraint):
         error = result.error.copy()
         error[nodes_before_fall(result.step, result.theta, reference) :] = np.nan
@@ -200,6 +201,7 @@ def readings(
     reference: the curve from which errors are taken. Times are `arc.seen`, so that signals that jump at a node
     have their value from before.
     """
+    # tracked_point: the point (q_d, q_d', ..) of the reference at a measurement
     rows = [
         signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))
         for arc in trajectory.arcs
@@ -221,7 +223,8 @@ def compiled_readings(
     from biped_adrc.engine.numbers import numbers_of
     from biped_adrc.engine.program import COMPILED, Program
 
-    # program, K: the walker's code and its numbers; layout: what stands where in its state
+    # program, K: the walker's code and its numbers; layout: what stands where in its state; point: the point of
+    # the reference at a measurement
     first, point = trajectory.arcs[0], partial(tracked_point, reference)
     try:
         layout = walker.layout_of(first.x[0])
@@ -254,7 +257,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
-    # a disturbance without machine code is called in Python, node by node
+    # zeta_rows: the disturbance at all times, in machine code; one without such code is called node by node
     try:
         zeta = zeta_rows(pushes(walker.disturbance, n), t, x, mode, n)
     except NotCompiled:
@@ -270,7 +273,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     at the height of the stance foot of each step.
     """
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
-    r = as_recorded(walker, trajectory, r)
+    r = as_recorded(walker, trajectory, r)  # on another plant with what it recorded
     x = np.vstack([arc.x for arc in arcs])
     q, v = x[:, :n], x[:, n : 2 * n]
     # recorded: (x, z) of the stance foot, then of the other one, which is not used; None on the rigid plant

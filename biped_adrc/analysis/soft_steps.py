@@ -94,7 +94,8 @@ def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> t
     """
     times = list[float]()
     for arc in run.arcs:
-        # slips (K, 2): speed along the ground of each foot where it slips, else 0; slipped: the way so far
+        # slips (K, 2): speed along the ground of each foot where it slips, else 0; slipped: the way so far;
+        # spans: the time for which each node stands
         force, _, speed = feet_of(arc)
         slips = slipping(force, speed, friction, axes) * np.abs(speed @ axes[0])
         slipped = np.cumsum(spans(arc.t)[:, np.newaxis] * slips, axis=0)
@@ -180,6 +181,7 @@ def contact_errors(x: Signals) -> ContactErrors:
     The module says which nodes are settling and pushed; the settled ones include the pushed ones.
     """
     _, first, support = np.unique(x.step, return_index=True, return_inverse=True)
+    # x.t[first][support]: at each node the time at which its single support began
     settling = x.t - x.t[first][support] <= SETTLING + SAME_INSTANT
     # acted: the last time up to each node at which zeta was not zero, -inf before the first push
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))

@@ -84,7 +84,8 @@ def torque_derivative(walker: Walker) -> TorqueDerivative:
 def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
     """A = df/dx (2 n, 2 n) of single support at an instant i, x in [rad, rad/s]; du (p, 2 n): du/dx."""
     n, m = walker.plant.n, i.measurement
-    # equal but for round-off, which stored walks of robots without motors keep
+    # q'' computed once more for robots without motors: it is equal but for round-off, on which the digits of
+    # their stored walks depend
     a = i.a if walker.plant.p else walker.plant.acceleration(m.q, m.v, i.force)
     plant = acceleration_derivatives(walker.plant, m.q, m.v, a)
     A = np.zeros((2 * n, 2 * n))

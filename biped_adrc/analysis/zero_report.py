@@ -89,6 +89,7 @@ class ZeroDynamicsReport(Shown):
 
     def _numbers(self) -> _Rows:
         """Rows about the periodic orbit."""
+        # grid: values of Theta over the step
         # `existence` < 0 is the condition for a periodic orbit; delta^2 < 1 was checked by `zero_report`
         o, z, c = self.orbits, self.zeta_star, self.orbits.zero.constraint
         inertia = o.inertia(grid(o.zero))

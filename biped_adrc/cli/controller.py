@@ -7,6 +7,7 @@ controller of a scenario on a robot's log: measurements and torques are those of
 not move the robot (`extras.logs.replay`).
 
 `target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
+FIGURES are the suffixes that figures may have, WALKS the short options on what walks.
 A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
 scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """

@@ -8,6 +8,7 @@ A *library* is a folder of gaits, one per speed; a *family* (`gait.family`) is a
 length to gaits, in one file.
 
 `target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
+FIGURES and GAITS are the suffixes that figures and gaits may have.
 A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
 of --set.
 """
@@ -110,9 +111,9 @@ def _library(biped: ba.Biped, speeds: str, request: Callable[..., GaitRequest], 
         result.gait.save(out / result.gait.file_name)
         c = result.certificate  # forces and torques of a walking step of the gait
         # delta^2 [1]: factor from walking step to walking step of a deviation of the squared angular momentum
-        forces, delta = (c.peak_torque, c.friction), (result.multiplier, c.cost_of_transport)
+        forces, others = (c.peak_torque, c.friction), (result.multiplier, c.cost_of_transport)
         # in the order of `header`
-        numbers = (result.speed, c.step_length, *forces, *delta, result.seconds)
+        numbers = (result.speed, c.step_length, *forces, *others, result.seconds)
         rows.append([f"{x:.4g}" for x in numbers])
     if rows:
         header = "m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s"

@@ -62,6 +62,7 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
         for p in signature(command, eval_str=True).parameters.values():
             text = [_shown(words[p.name])] if p.name in words else []
             kind = Annotated[p.annotation, *text] if text else p.annotation
+            # by keyword alone, as `run` takes all arguments
             own = p.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
             parameters += [own] if p.name != "values" else []
         run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
@@ -118,6 +119,7 @@ def scenario_from(
         # types: those that the scenario declares for the value; empty for one of a user's class
         values[name] = x if Scenario.field_of(name).types else _own(x)
     base = Scenario() if file is None else read_scenario(file)
+    # _passive: the controller where neither options nor file choose one
     if not any(name.startswith("controller.name") for name in values):
         values = {**_passive(base, values, usual), **values}
     return base.replace(values)

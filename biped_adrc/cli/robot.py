@@ -8,6 +8,7 @@ n is the number of coordinates, p that of motors. A *law* is a law of mechanics 
 checks the model.
 
 `target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
+FIGURES are the suffixes that figures may have.
 A command's docstring is its help text; its arguments are described in options.toml. `sets` are texts NAME=VALUE
 of --set.
 """

@@ -10,6 +10,7 @@ walk again, so they need no class of the controller that made it. `play` writes 
 robot by hand (`extras.play.page`).
 
 `target` checks the name of an output file, which may not be one of the files that the command reads (`inputs`).
+FIGURES are the suffixes that figures may have, WALKS the short options on what walks.
 A command's docstring is its help text; its arguments are described in options.toml. `values` are values of a
 scenario by dotted name, such as "hardware.period", from short options; `sets` are texts NAME=VALUE of --set.
 """

@@ -160,6 +160,7 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     k = loop.held
     if k is None:
         i = instant(loop, t, x, mode)
+        # bounded: returns u, and ends the run where a torque is beyond what motors can give
         ds = loop.calls.flow(i.s, i.measurement, loop.bounded(i.u))
         return np.concatenate((i.measurement.v, i.a, flatten(ds)))
     (q, v, _, tail), n, dx = parts(loop, x), loop.plant.n, np.zeros(len(x))
@@ -186,6 +187,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     else:
         b, w = None, k.sense(tail.sensors, q, v)
         m = loop.measure(t, *k.reading(w, q, v), mode)
+    # the controller acts: correct, output, limits, queue of torques, predict
     s, line = decided(loop, k, s, m, labelled(loop, b, tail.line))
     line = labelled(loop, b, line)
     return flatten(State(q, v, s, tail._replace(belief=b, sensors=w, line=line)))

@@ -177,6 +177,7 @@ class SteppingLoop(ClosedLoop[Any]):
         u.setflags(write=False)  # the plant gets it, and must not write into x
         # the load in the middle of the stretch, at the state of its start
         load = None if self.disturbance is None else self.load(0.5 * (t + until), row, mode)
+        # after: the plant's row at the end; landed: its row just after the contacts there, None without
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         # only now: a stretch on which the plant raises an error is not recorded
         record.begin(t, row, x, mode)
@@ -235,11 +236,12 @@ class SteppingLoop(ClosedLoop[Any]):
         x (nx,): the state just before. row (2 n + k,): the plant's state just after; None where a contact ends
         the run. Raises NotFiniteError for an impulse or a state after it that is not finite.
         """
+        # all contacts as one: names joined, impulses added
         name, impulse, ends = _together(contacts)
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
-        # a loop in sampled time always has `held`, which knows how many numbers of its own the plant has
+        # returned: checks the shape; numbers that are not finite have an error of their own below
         row = returned(row, self.row(x).shape, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
             raise NotFiniteError(

@@ -381,6 +381,7 @@ def _held(
 ) -> HeldParts:
     """Compute `ClosedLoop.held` for n coordinates, p motors and `own` numbers of a plant that moves by itself.
     It is remembered in `time`, so that loops with equal parts share the result."""
+    # drive: rate limit, lag and delay of the motors; line: torques on their way, here for their layout
     sensors = None if sensor is None else sensor.sampled(n, p, time.period)
     drive, line = motors.sampled(p, time.delay, time.period)
     known = time.delay_known and time.delay > 0.0
@@ -401,7 +402,7 @@ def _start(loop: ClosedLoop[Any], mode: Mode, *start: Any) -> tuple[Array, Layou
             _check_tracking(part, m, loop.plant.p)
         # None: a state of any layout is right at the start; later ones have to have the same
         s = returned_tree(loop.law.initial_state(m), None, loop.law, "initial_state")
-        check_methods(loop.law, s, m, loop.sampled)
+        check_methods(loop.law, s, m, loop.sampled)  # calls each method once
         state = loop._begun(m, s, mode)
         return flatten(state), Layout.of(state)
 
@@ -427,7 +428,7 @@ def _check_reference(
     try:
         with handing_out():
             point = reference(t, *at)
-    except BipedError:
+    except BipedError:  # its text names the culprit already
         raise
     except (ValueError, IndexError, TypeError) as error:
         raise InputError(

@@ -90,6 +90,7 @@ def remainder(
 ) -> tuple[Array, Array]:
     """The remainder of the closed loop at t [s], w (2 n + rest,), E (k, p): N_w, of the size of w, and row 1 of
     N_E (p,), its only row that is not zero. Raises RanAwayError for a torque beyond all bounds (`bounded`)."""
+    # i: controller's state s, measurement, torque u and q'' = a
     i = semantics.instant(loop, t, form.back(w, E), mode)
     s, u = flatten(i.s), loop.bounded(i.u)
     # s' is used only for `rest`; without one the slice of `ds` below is empty, and s saves the computation
@@ -174,6 +175,7 @@ class Walker(ClosedLoop[Biped]):
         x, along = self.plant.swing_foot(q)[0], np.array([math.tan(self.ground_slope), 1.0])
         falls = self.plant.swing_foot_velocity(q, v) @ along < 0.0
         if falls and x > max(LEAST_STEP, self.plant.hip(q)[0]):
+            # the two feet swing in turn, the second one first
             foot = self.plant.description.feet[mode.step % 2]
             raise InputError(
                 f"the start has the swing foot '{foot}' {1e3 * depth:.3g} mm below the ground and coming down, "

@@ -174,6 +174,7 @@ class Controller(Part):
         law = self.sampled(period)
         check_part(law, f"what {type(self).__name__}.sampled returned", Controller)
         how = "write predict(s, m, u), s at the next sample instant, or use ContinuousTime()"
+        # _writes: whether the class overrides the method; _has_no: raises InputError
         for part in nested(law):
             if part._writes("flow") and not part._writes("predict"):
                 part._has_no("discrete form", how)
@@ -225,18 +226,19 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
     if not is_own(controller):
         return
+    # method -> its arguments behind the state s
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
     first: dict[str, Any] = {"output": u}
-    for name, method in calls.items():
-        result = getattr(controller, name)(s, *method)
+    for name, arguments in calls.items():
+        result = getattr(controller, name)(s, *arguments)
         # shapes alone: a state that is not finite is reported where the walk meets it
         first[name] = returned_tree(result, Layout.of(s), controller, name, finite=False)
     # other: any measurement that differs from m
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
-    for name, method in calls.items():
-        # a call at another rate, which a memory in the object would keep
-        getattr(controller, name)(s, other, *method[1:])
-        again = getattr(controller, name)(s, *method)
+    for name, arguments in calls.items():
+        # a call at another rate, which a memory in the object would keep; [1:] leaves out m
+        getattr(controller, name)(s, other, *arguments[1:])
+        again = getattr(controller, name)(s, *arguments)
         if not np.array_equal(flatten(first[name]), flatten(again), equal_nan=True):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "

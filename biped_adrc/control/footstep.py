@@ -262,8 +262,8 @@ class Footstep(OuterLoop):
         e = m.terms.D[-1] @ m.v - x.sigma  # sigma by the measurement, less its estimate
         r = x.r + T * omega**2 * e
         sigma = x.sigma + T * (x.r - body_of(m).G[-1] + 2.0 * omega * e)
-        # from here on the share of the step in Theta: before the decision v+ is computed, later it is kept
-        # Theta- of the member on which the step began
+        # minus: Theta- of the member on which the step began; early: the share of the step in Theta is below
+        # DECISION, so v+ is computed anew; later it is kept
         minus = self.family.curve(np.array((x.begin, x.L)))[2]
         early = (self.family.phase @ m.q - x.plus) / (minus - x.plus) < DECISION
         end = np.where(early, self.decision(x, sigma**2, r, m.step), x.end)

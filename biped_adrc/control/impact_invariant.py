@@ -84,6 +84,7 @@ class ImpactInvariant(ContactWindow):
         for name in ("rates", "innovation"):
             check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
         why = "a touchdown is expected by the phase of a virtual constraint"
+        # raises InputError where there is none; `_has_no` below raises it always
         tracked_constraint(self.inner, why)
         if "output" not in self.inner.reads_impulse:
             self.inner._has_no("rate error that could be projected")

@@ -101,6 +101,7 @@ def check_part(value: object, what: str, *kinds: type) -> None:
     if isinstance(value, kinds) or (float in kinds and (isinstance(value, Real) or no_axes)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
+    # _a: name of a class with its article, such as "a Gait"; _shown: short text of a value
     words = " or ".join(_NUMBERS.get(kind) or _a(kind) for kind in named)
     examples = [vars(kind)["SUCH_AS"] for kind in named if "SUCH_AS" in vars(kind)]
     such_as = f", such as {examples[0]}" if examples else ""
@@ -241,6 +242,7 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
     and NotFiniteError with the name of the field.
     """
     if not isinstance(found, kind):
+        # _shown: short text of a value; _a: name of a class with its article
         fields = ", ".join(kind._fields)
         raise InputError(f"{spoken(part)} gives {_shown(found)}, expected {_a(kind)}({fields})")
     matrix = "J" if "J" in kind._fields else "H"

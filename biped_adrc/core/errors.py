@@ -130,6 +130,7 @@ def check_positive(value: float, what: str, hint: str = "") -> None:
     except TypeError:  # no number
         fits = False
     if not fits:
+        # _if_text: a remark where the value is a text, such as '4'
         raise InputError(f"{what}{_if_text(value)}, expected a positive number{hint}")
 
 

@@ -50,7 +50,7 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
     InputError for another suffix and for an impossible name, and OutputError where the path is a folder, a
     device, a pipe or a link.
     """
-    path = _named(path)
+    path = _named(path)  # checked as a name
     check_place(path)
     if path.suffix.lower() in suffixes:
         return path
@@ -368,6 +368,7 @@ def data_folder(kind: str) -> Path:
 
     Raises FileNotFoundError when neither the wheel nor the checkout has it.
     """
+    # in a wheel, then in a checkout; _PACKAGE: folder of this package
     for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
         if candidate.is_dir():
             return candidate

@@ -109,6 +109,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     check_part(name, f"the name of a {kind}", str)
     if not callable(thing):
         raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
+    # _plain: a name as it is compared, in small letters and without hyphens
     if _plain(name) in map(_plain, names(kind)) or is_own(name) or not name.strip():
         raise InputError(f"{kind} '{name}' is taken or reads as module:Class; choose another name")
     home = f"{thing.__module__}:{getattr(thing, '__qualname__', name)}"

@@ -81,6 +81,7 @@ def _fields_of(thing: Any) -> list[tuple[str, Any]]:
         # the class knows a default that a subclass has changed
         usual |= {f.name: getattr(type(thing), f.name, MISSING) for f in shown}
         usual |= {f.name: f.default_factory() for f in shown if f.default_factory is not MISSING}
+    # _same: the field has its default, or is an empty mapping
     return [(key, getattr(thing, key)) for key in names if not _same(thing, key, usual)]
 
 

@@ -38,6 +38,7 @@ def chosen(which: float, one: Any, other: Any) -> Any:
     """Choose between two trees of one layout: `one` if `which` is 1 (true), `other` if it is 0."""
     if isinstance(one, tuple):
         parts = [chosen(which, *pair) for pair in zip(one, other, strict=True)]
+        # _like: a tuple or NamedTuple of this class
         return _like(type(one), parts)
     # np.where and no `if`: on symbols, whose truth is not known yet, both sides become code, and the choice is
     # made when that runs; 0.5 parts 0 from 1
@@ -90,6 +91,7 @@ class Layout(NamedTuple):
         for part in self.parts:
             parts.append(part.tree(x[..., at : at + part.size]))
             at += part.size
+        # a tuple or NamedTuple of the class `kind`
         return _like(self.kind, parts)
 
     def place(self, *path: str) -> slice:
@@ -147,6 +149,7 @@ def returned_tree(
         )
     layouts = (None,) * len(found) if layout is None else layout.parts
     each = zip(found, layouts, strict=True)
+    # _or_none: checks a part, which may also be None; _like: a tuple of the same class as `found`
     return _like(type(found), [_or_none(x, y, part, method, finite) for x, y in each])
 
 

@@ -111,6 +111,7 @@ def zeta_rows(terms: Sequence[Call], t: Array, rows: Array, mode: Mode, n: int) 
     """
     when = np.broadcast_to((mode.step, mode.start), (len(t), 2))
     inp = np.column_stack((t, when, rows[:, : 2 * n]))
+    # [:, :n]: zeta, without the force behind it
     return sum((term.rows(inp)[:, :n] for term in terms), np.zeros((len(t), n)))
 
 

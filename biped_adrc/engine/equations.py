@@ -298,7 +298,6 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The change of coordinates x -> (w, E) of the exponential method, as an object on symbols."""
-        # symbols is (K, the walker's numbers with symbols in place of floats)
         # symbols: (the vector K, the numbers with K's symbols in place of floats)
         return trace.on_symbols(self.symbols[1].split)
 
@@ -328,6 +327,7 @@ class Equations:
         at = self.at()
         w, E = self._coordinates(at.x)
         form = self._split(at.loop.trace)  # the change of coordinates x -> (w, E), on symbols
+        # the function `closed_loop.walker.remainder`, copied for symbols
         N = at.loop.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
         return self.function(at.inp, *N, at.loop.lost)
 
@@ -352,7 +352,7 @@ def push_function(term: Disturbance, n: int) -> SymbolicFunction:
     force = apply(trace, methodcaller("resultant", *when), symbols)
     if (np.shape(zeta), np.shape(force)) != ((n,), (2,)):
         raise NotCompiled(f"{type(term).__name__} gives no ({n},) torque or no (2,) resultant")
-    acts = None
+    acts = None  # a term whose class does not write `acts` is always computed
     if type(term).acts is not Disturbance.acts:
         acts = column(apply(trace, methodcaller("acts", *when), symbols))
     return SymbolicFunction(K, inp.symbol, column(zeta, force), acts)

@@ -170,9 +170,10 @@ def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
     Names of values are the letter and a number, since LLVM wants each name of a function to be assigned once;
     another block of the same function has another letter. Outputs are stored last, after all inputs are read.
     """
-    # names: of the value at each place of the line
+    # names: of the value of each operation so far; stores: the lines that write to out
     lines, stores, names, count = list[str](), list[str](), list[str](), 0
 
+    # append a line that assigns `text` to a new name; return the name
     def new(text: str, into: list[str] = lines) -> str:
         nonlocal count
         count += 1
@@ -180,6 +181,7 @@ def _lines(letter: str, function: SymbolicFunction, out: ca.SX) -> list[str]:
         return f"%{letter}{count}"
 
     for code, of, number in straight_line(function._replace(out=out)):
+        # of: for an input (0 for K or 1 for inp, index); for an output (place of its value, index in out)
         name = ""
         if code == ca.OP_CONST:  # with all its bits
             name = f"0x{struct.unpack('<Q', struct.pack('<d', number))[0]:016X}"

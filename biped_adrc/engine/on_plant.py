@@ -154,6 +154,6 @@ class CompiledLoop(SteppingLoop):
         """The disturbance zeta (K, n) [N m] at K times t (K,) [s] of one single support, for a disturbance in
         machine code or none; rows (K, ..): the plant's states there, which begin with q and q'.
         """
-        if self.pushes is None:
+        if self.pushes is None:  # no disturbance, since one in Python is computed during the run
             return super().zetas(t, rows, mode)
         return zeta_rows(self.pushes, t, rows, mode, self.plant.n)

@@ -109,14 +109,14 @@ def run_compiled(
         return replace(run, detail=detail_of(walker, method, run))
     except NotCompiled as reason:
         why = f"{reason}; it runs in Python on the compiled plant"
-    # `result` stays None where not even the march can be compiled
+    # `result` stays None in continuous time, and where this second way cannot be compiled either
     (walker, references), result = compiled_plant(walker), None
     if walker.sampled:
         # where this fails too, for instance by the method, the loop of `hybrid.simulator` follows below
         with suppress(NotCompiled):
             compiled = CompiledWalker.of(walker, method, layout, options.t0, in_python=True)
             ticks = PythonTicks(compiled, walker, references)
-            with ticks.interrupted():
+            with ticks.interrupted():  # Ctrl-C in one of these methods ends the walk, too
                 result = simulate_compiled(compiled, x0, mode, options, ticks)
     result = result or simulator.run(walker, x0, mode, method, options)
     return replace(result, settings={**result.settings, "engine": COMPILED_PLANT, "why": why})
@@ -156,6 +156,7 @@ def simulate_compiled(
         # TERMINAL: status -> name of the event function that ends a run so
         if status in TERMINAL:
             event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
+        # rows (t, x, x') of the nodes
         at, x, dx = (part.copy() for part in np.hsplit(run.rows(), (1, 1 + nx)))
         arc = Arc(mode, at[:, 0], x, dx, event)
         # an exception in Python's sample instant; an arc of one node has not begun, and its error is raised

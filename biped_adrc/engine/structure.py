@@ -33,15 +33,14 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     It is a nested tuple, to be compared and hashed. exact: whether floats count by value too. Raises
     NotCompiled for an object whose content cannot be compared.
     """
-    # a float is a symbol in the code, so its value does not count; an int decides a size or a branch, so it
-    # does
+    # a float (a class of REALS) is a symbol in the code, so its value does not count; an int decides a size or
+    # a branch, so it does
     if isinstance(tree, REALS) and not exact:
         return float
     if isinstance(tree, np.ndarray):
         numbers = tree.dtype.kind == "f" and not exact
         return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
-    # such as a robot or a random generator: code that uses one is refused
-    # REALS, LISTS: classes of floats and of lists; HIDDEN: what code must not depend on
+    # HIDDEN: classes on which code must not depend, such as a robot; a method that uses one is not compiled
     if isinstance(tree, HIDDEN):
         return "hidden", type(tree)
     if is_part(tree):
@@ -81,6 +80,7 @@ def lasting(key: Hashable) -> str:
     package's functions was replaced: nobody can say there that equal names mean equal code.
     """
     try:
+        # `_spelled`, the structure as text, raises LookupError for a class or function of the user's
         return "" if _replaced() else hash_of(_spelled(key), str(numerical_versions()))
     except LookupError:
         return ""

@@ -144,6 +144,7 @@ def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
     result is an object array, or one entry where all arguments are scalars.
     """
     vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
+    # NumPy's own object would take `out=` too, and write into an array; the lambda takes no keywords
     return lambda *arguments: vectorised(*arguments)
 
 
@@ -225,6 +226,7 @@ class SymbolicSolver:
         for j in range(n):
             for i in range(j + 1, n):
                 one, other = rows[j, j:].copy(), rows[i, j:].copy()
+                # Scalar(..): an entry may be a plain number, and `where` needs the comparison as a symbol
                 swap = abs(Scalar(expression(other[0]))) > abs(Scalar(expression(one[0])))
                 rows[j, j:], rows[i, j:] = wheres(swap, other, one), wheres(swap, one, other)
             self.pivots.append(abs(rows[j, j]))

@@ -49,7 +49,7 @@ def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     """A function like np.zeros (value 0) or np.ones (value 1) that makes an object array, which a law may fill
     with symbols; an array with dtype=int stays one of whole numbers.
     """
-    # to NumPy `Float` is a class without a dtype of its own, so the array has dtype object
+    # `Float` stands for `float` in copies; to NumPy it is a class without a dtype, so the dtype is object
     return lambda shape, dtype=Float, **_: np.full(shape, value, dtype=dtype)
 
 
@@ -101,8 +101,9 @@ class Tracer:
         """Make the table of replacements for functions of NumPy, math and `linear`."""
         # Hidden: stands for what has no symbols, and raises NotCompiled where a law uses it
         self.solver, random = SymbolicSolver(), Hidden("random numbers")
-        # NumPy's names of functions of one number -> the same functions of one symbol
+        # TWINS: NumPy's name of a function of one number -> CasADi's; here -> the function of one symbol
         scalars = {name: function_of(theirs) for name, theirs in TWINS.items()}
+        # arrays have dtype object, since no other array can hold symbols
         numpy = {
             **{name: elementwise(function) for name, function in scalars.items()},
             "zeros": _filled(0.0),
@@ -138,7 +139,7 @@ class Tracer:
         # by identity, since a law may have imported np.sin under any name; `old` is kept so that no other
         # object can get its id
         self._substitutes = {id(old): (old, new) for old, new in pairs}
-        # by the function and the class that they were made from
+        # the copies and twins made so far, by the function or the class from which each was made
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
@@ -157,13 +158,14 @@ class Tracer:
             return f  # a copy of this tracer already
         if f not in self._copies:
             # The code object stays, its globals are others: in the copy `np` names the twin. Patching NumPy
-            # itself would reach other threads, and the original goes on working on arrays.
+            # itself would reach other threads, and the original goes on working on arrays. BUILTINS: stand-ins
+            # for Python's float, abs, min and max; COPIED: the name by which the line above knows a copy.
             scope = {**BUILTINS, **f.__globals__, COPIED: self}
             cells = tuple(types.CellType(c.cell_contents) for c in f.__closure__ or ())
             copy: Any = types.FunctionType(f.__code__, scope, f.__name__, f.__defaults__, cells)
             copy.__kwdefaults__ = f.__kwdefaults__
             # a `try` of the user's may swallow the NotCompiled of a branch on a symbol, and what its `except`
-            # does would be compiled
+            # does would be compiled; so a call of the copy raises
             if checks.is_users(f.__code__.co_filename) and catches(f.__code__):
                 copy = _refused(f.__code__)
             self._copies[f] = copy
@@ -196,6 +198,7 @@ class Tracer:
             return frozen(value.view())
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
+        # OF_NUMBERS: NumPy, its linalg and math; any other library stays as it is
         if isinstance(value, types.ModuleType) and (value in OF_NUMBERS or not is_library(value)):
             return _Named(self, value)
         # what is left is a part, or a function or other value, which __call__ copies or returns as it is
@@ -213,8 +216,8 @@ class Tracer:
         return with_content(value, fields, self.twin(type(value)))
 
     def twin(self, cls: type) -> type:
-        """A subclass of cls whose methods run on symbols, `super()` and properties included; classes of Python
-        itself and of NO_METHODS are returned as they are.
+        """A subclass of cls whose methods run on symbols, `super()` and properties included. Classes of Python
+        itself, and of the modules in NO_METHODS, whose methods need no copies, are returned as they are.
         """
         # a class that a user makes by type(name, bases, {}) may have the module "abc", but is not found there
         home = sys.modules.get(cls.__module__)
@@ -230,9 +233,11 @@ class Tracer:
             subclass.__module__, subclass.__qualname__ = cls.__module__, cls.__qualname__
             # noted before its methods are copied, since these may name the class
             self._twins[cls] = self._twins[subclass] = subclass
+            # all other special methods stay those of cls; `_abc_..` is Python's record of abstract methods
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
                     setattr(subclass, name, self._member(value))
+            # Python has noted the abstract methods when it made the class, before these were set
             abc.update_abstractmethods(subclass)
         return self._twins[cls]
 

@@ -116,7 +116,7 @@ class Margin(NamedTuple):
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits of the domain as `Margin`, one for each sign where a limit has two.
+    """All limits as conditions still + moving Theta'^2 > 0 (`Margin`), one for each sign where a limit has two.
 
     At one Theta forces and torques are affine in Theta'^2, so the model at two rates, 0 and 1 rad/s, gives them
     at all speeds.
@@ -141,8 +141,8 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
 
 
 def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin: of all Theta of a step the strictest
-    zeta = -A / B at which A + B zeta = 0.
+    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin, still + moving Theta'^2 > 0: of all
+    Theta of a step the strictest zeta = -A / B at which A + B zeta = 0.
 
     The bound is -inf (lower) or inf (upper) where the margin limits zeta nowhere from this side.
     """

@@ -162,6 +162,7 @@ class ZeroDynamics(Shown):
 
         Raises GaitError when there is none.
         """
+        # _end: the state at the end of the step at |Theta'| = 1 rad/s, here for the sign
         delta2 = self.delta**2
         square = 2.0 * self.work / (1.0 - delta2)
         if not square > 0:
@@ -175,6 +176,7 @@ class ZeroDynamics(Shown):
         """State (q-, q'-), each (n,) [rad, rad/s], at the end of the step on the constraint, with the angular
         momentum sigma_minus [kg m^2/s].
         """
+        # at |Theta'| = 1 rad/s; the angular momentum is proportional to the rates
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
 

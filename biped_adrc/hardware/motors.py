@@ -84,8 +84,8 @@ class TorqueLine:
         return np.minimum(np.maximum(u, last - self.change), last + self.change)
 
     def send(self, line: Line, u: Array) -> Line:
-        """The line after a tick that sends u (p,) [N m]: u joins the end of the queue, and the first torque
-        leaves it; without a queue that is u itself.
+        """The torques on their way after a tick that sends u (p,) [N m], from those before it (line): u joins
+        the end of the queue, and the first torque leaves it; without a queue that is u itself.
 
         The torque that leaves acts at once, or waits for the fraction of the delay while the old one acts on.
         """
@@ -126,7 +126,8 @@ class Motors(Checked, Shown):
     lag: NonNegativeFloat = 0.0
 
     def sampled(self, p: int, delay: float, period: float) -> tuple[TorqueLine, Line]:
-        """The p motors for ticks every `period` T [s], and their `Line` at the start of a run: torques of zero.
+        """The p motors for ticks every `period` T [s], and the torques on their way (`Line`) at the start of a
+        run, all zero.
 
         delay [s]: (j + f) T, from a tick until its torque acts. None marks what these motors do not have.
         """

@@ -66,6 +66,7 @@ class HeldParts(NamedTuple):
         step: number of the first single support, start [s]: time at which it began; a controller that detects
         touchdowns itself believes in these at first. `own` is 0 here: the plant fills it in.
         """
+        # _tried: starts the sensors, and calls each of their methods once as a test
         w = None if self.sensors is None else _tried(self.sensors, q, v)
         belief, touchdown = None, self.touchdown
         if touchdown is not None:

@@ -194,7 +194,11 @@ class FaultyTouchdown(Shown, Touchdown):
         return Due(waits, t + self.late, d.done, r)
 
     def notice(self, d: Due, look: Look) -> tuple[Due, float]:
-        """Fire when a detection is due and the labels still differ; and once, at the time of `false_at`."""
+        """Fire when a detection is due and the labels still differ; and once, at the time of `false_at`.
+
+        look: the time t [s], `other` (1 while the labels differ), the plant's single support `step`, and its
+        `age`, the time [s] since it began.
+        """
         # floats that are 0 or 1, or whole numbers, are compared by 0.5; `false` is (single support, time in it)
         due = 1.0 * (d.waits * look.other > 0.5) * (look.t >= d.due - SAME_INSTANT)
         at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d.done < 0.5)
@@ -258,7 +262,8 @@ class ByKinematics(Gated):
     def notice(self, d: float, look: Look) -> tuple[float, float]:
         """Fire when the foot is below `height`, on its way down, and the gate is open.
 
-        d and the new state are its height [m] above the assumed slope at the tick before and now.
+        d and the new state are its height [m] above the assumed slope at the tick before and now. look.foot:
+        (x, z) [m] of the swing foot from the stance foot.
         """
         height = look.foot[1] + self.tangent * look.foot[0]
         # height < d: lower than at the tick before
@@ -303,7 +308,10 @@ class ByForce(Gated):
         return _Load(0.0, 0.0, 0.0, 0.0, 0.0)
 
     def notice(self, d: _Load, look: Look) -> tuple[_Load, float]:
-        """Fire `delay` after a foot that was free has been loaded for `debounce`; then the foot is not free."""
+        """Fire `delay` after a foot that was free has been loaded for `debounce`; then the foot is not free.
+
+        look: the time t [s] and the `force` [N] of the ground on the swing foot.
+        """
         t = look.t
         # np.maximum stands for `or`, products for `and`; all are 1 or 0, but for the times `since` and `due`
         free = np.maximum(d.free, 1.0 * (look.force < self.off))

@@ -164,6 +164,7 @@ def halve(r: Run, guard: int, t: float, ta: float, tb: float, fb: float) -> None
     copy(r.N0, N, r.nN)
     finest = r.h * 0.5 ** (levels - 1)
     for level in range(1, levels):
+        # length with the sub-step of this level, and the time [s] at its end
         further = count + (1 << (levels - 1 - level))
         end = t + further * finest
         if end > ta and end >= tb:
@@ -344,8 +345,8 @@ def overdue(r: Run, t0: float) -> int:
 
 @unit
 def lift(r: Run, t0: float, s: float) -> int:
-    """Code of an event in [t0, s] [s], the first TOGETHER of an arc, where an event function w begins at zero
-    or below; 0 for none. `values` become those at s.
+    """Code of an event in [t0, s] [s], the start of an arc, where an event function w begins at zero or below;
+    0 for none. `values` become those at s. s - t0 is at most TOGETHER: closer events are not told apart.
 
     A w that rises from zero is positive at s, so `event` watches it from there, however soon it falls again.
     For a w that is zero at t0 and negative at s, the ratio w(s) / w(half-way) shows the form:
@@ -383,8 +384,8 @@ def event(r: Run, t0: float, t1: float) -> int:
     # before: up to here the step has been searched [s]
     count, before = pieces(t0, t1), t0
     if t0 == r.t_arc and begins_low(r):
-        # `lift` judges the first TOGETHER [s] of the arc, where an event function begins at zero or below, and
-        # returns the code of an event there; the search below begins after that time
+        # an event function begins at zero or below: `lift` finds an event in the first TOGETHER [s] of the arc
+        # (closer events are not told apart); the search below begins after that time
         before = min(t0 + TOGETHER, t1)
         code = lift(r, t0, before)
         if code != 0:
@@ -524,7 +525,6 @@ def stop(r: Run, code: int) -> int:
     Where its state x_e is not finite, x0 and t do not change, and another code says so. An arc without duration
     has its node already.
     """
-    # r.every > 0: the nodes need the slope x', at a time just before the event
     te = r.t_event
     if not finite(r.x_e, r.nx):
         return broken(r)
@@ -532,7 +532,7 @@ def stop(r: Run, code: int) -> int:
     r.t = te
     if te == r.t_arc:
         return code
-    if r.every > 0:
+    if r.every > 0:  # the node needs the slope just before the event
         flow(r, left(te), r.x0, r.dx0)
     keep(r, te, r.x0, r.dx0)
     return code

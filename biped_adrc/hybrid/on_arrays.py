@@ -157,6 +157,7 @@ class Run:
         if isinstance(method, ClassicalRungeKutta):
             self.kind, self.h, relaxing = constants.RK4, method.h, self.system.relaxing()
             if relaxing is not None:
+                # lags 1: the march asks only whether it is above 0
                 self.lags, self.lag_speed, self.relaxing = 1, relaxing.speed, relaxing
         elif isinstance(method, Exponential):
             self._set_etd(method)
@@ -307,8 +308,9 @@ def passed(r: Run, guard: int, fall: float) -> bool:
     """Whether an event function crossed zero more than TOGETHER [s] before the last event, so that its own
     event is over and not one of this instant.
 
-    guard: its number. fall > 0: by how much it falls within TOGETHER. If it fell as fast before, it was below
-    zero by `fall` just before the last event exactly where it had crossed zero so long ago.
+    guard: its number. r.before: its value just before the last event. fall > 0: how far it falls in the first
+    TOGETHER [s] after that event. At the same speed, a function that crossed zero TOGETHER [s] before the event
+    had come down to -fall at the event. Closer events are not told apart.
     """
     return bool(r.before[guard] + fall <= 0.0)
 

@@ -180,6 +180,7 @@ def finite_part(flown: FlownArc) -> FlownArc:
     good = np.logical_and.accumulate(np.all(each, axis=0))
     if not good[0]:  # what an arc starts from is finite, its slope may not be
         good[0], arc = True, replace(arc, dx=np.zeros_like(arc.dx))
+    # read: signals that were recorded at the nodes, by name
     read = {name: rows[good] for name, rows in arc.read.items()}
     kept = replace(arc, t=arc.t[good], x=arc.x[good], dx=arc.dx[good], event=None, read=read)
     detail = flown.detail or f"the state or its slope is not finite after t = {kept.t[-1]:.6g} s"
@@ -237,6 +238,7 @@ def flow_arc(
     # result: the `FoundEvent` that ended the arc, None without one
     record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""
+    # calendar: sample instants, switching times and latest end; move: None for a system that has a flow
     calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
     move = system.mover(fired.guard if fired else None)
     run = None

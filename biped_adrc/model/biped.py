@@ -63,7 +63,8 @@ class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
     Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
-    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or infinity.
+    `description.joints`. They raise InputError for another shape and NotFiniteError for NaN or infinity, which
+    `_angles` tests.
     Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
 
     >>> biped = ba.Biped.load("rabbit")
@@ -264,8 +265,8 @@ class Biped(Shown):
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """Terms at (q, q') for controllers that shape the momentum D_s q' or bound the force of the ground.
 
-        Gravity G and C' q' (n,) [N m], that force as F_a q'' + F_0 (2,) [N], the Jacobian J_2 (2, n) [m] of the
-        swing foot, the mass [kg]: see `BodyTerms`.
+        Gravity G and C^T q' (n,) [N m], that force as F_a q'' + F_0 (2,) [N], the Jacobian J_2 (2, n) [m] of
+        the swing foot, the mass [kg]: see `BodyTerms`.
         """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
@@ -283,7 +284,9 @@ class Biped(Shown):
         return -viscous * v - static * np.tanh(v / STICTION_SPEED)
 
     def friction_derivative(self, v: Array) -> Array:
-        """d/dv of `friction_torque` (n, n) [N m s/rad] at rates v (n,) [rad/s]: diagonal."""
+        """d/dv of the joint friction -viscous v - static tanh(v / STICTION_SPEED) (n, n) [N m s/rad] at rates v
+        (n,) [rad/s]: diagonal. Zero if the robot was loaded without friction.
+        """
         if not self.friction:
             return np.zeros((self.n, self.n))
         viscous, static = self.friction_coefficients

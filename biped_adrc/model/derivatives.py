@@ -57,6 +57,7 @@ def acceleration_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> Acce
     # T q: the coordinates of the tree that Pinocchio has
     pinned, T = biped.pinned, biped.pinned.T
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
+    # reshape: (n, n) for n = 1 too
     parts = pinned.data.dtau_dq, pinned.data.dtau_dv
     dq, dv = (T.T @ np.reshape(part, T.shape) @ T for part in parts)
     inverse = solve(biped.inertia(q), np.eye(biped.n), "the inertia matrix D_s")

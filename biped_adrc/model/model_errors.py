@@ -6,7 +6,8 @@ m is the mass, d the distance of the COM from the origin of the link's frame, J 
 F_c the viscous and the static friction. The errors e are relative, chosen by hand or drawn from +-width,
 uniform, with a seed, for studies of robustness. Both legs of a biped get the same errors, because relabelling
 at impact needs equal legs; so errors go by body rather than by link: the body "thigh" is the links of both
-thighs. `ModelErrors.apply` makes the plant; the controller keeps the robot without errors as nominal model.
+thighs. Twins are a joint and its counterpart in the other leg. `ModelErrors.apply` makes the plant; the
+controller keeps the robot without errors as nominal model.
 """
 
 from __future__ import annotations
@@ -85,6 +86,7 @@ class ModelErrors(Checked, Shown):
         """The same relative error [1] of friction in all joints with friction. Where there is none, `apply` of
         the result raises ModelError.
         """
+        # _rubbing: the joints with friction, twins as a pair
         joints = [joint for pair in _rubbing(biped) for joint in pair]
         # no joint has the name "its joints": `apply` refuses it, in a sentence that contains it
         return cls(friction=dict.fromkeys(joints or ["its joints"], error))
@@ -97,6 +99,7 @@ class ModelErrors(Checked, Shown):
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in FACTORS}
         wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:
+            # _rubbed: a copy with the errors of friction too
             wrong = self._rubbed(wrong)
         return wrong.check()
 
@@ -105,6 +108,7 @@ class ModelErrors(Checked, Shown):
 
         Raises ModelError for a joint without friction, and for twin joints that have not the same error.
         """
+        # pairs: the joints with friction, twins together, a joint without a twin alone
         d, pairs = biped.description, list(_rubbing(biped))
         unlike = [pair for pair in pairs if len({self.friction.get(name) for name in pair}) > 1]
         if unlike or set(self.friction) - {name for pair in pairs for name in pair}:

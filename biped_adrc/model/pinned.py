@@ -140,6 +140,7 @@ class PinnedDynamics:
 
         The bodies are in Pinocchio's order; fixed links are merged with the body they hang on.
         """
+        # [1:], and joints from 1 on below: index 0 is the world
         inertias = self.model.inertias[1:]
         mass = np.array([body.mass for body in inertias])
         about_y = np.array([body.inertia[1, 1] for body in inertias])
@@ -158,6 +159,7 @@ class PinnedDynamics:
         The closed form of `planar_robot` is fitted to these.
         """
         pin.forwardKinematics(self.model, self.data, self.T @ q)
+        # [1:]: without the world, which has index 0
         places, inertias = list(self.data.oMi)[1:], list(self.model.inertias)[1:]
         coms = [oMi.act(body.lever) for oMi, body in zip(places, inertias, strict=True)]
         frames = (

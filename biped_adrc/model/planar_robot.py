@@ -176,8 +176,8 @@ class PlanarRobot:
 
     @property
     def sparse(self) -> PlanarRobot:
-        """A copy whose K, of symbols, has a plain 0 for each entry that is zero in the robot (not `present`),
-        so that its terms vanish from the expressions.
+        """A copy for the engine, where K holds symbols: an entry that is zero in the robot (not `present`)
+        becomes a plain 0, so that its terms vanish from the expressions.
         """
         # present: for each entry of K whether the robot's own number is not zero
         numbers: tuple[Any, ...] = self.K
@@ -211,6 +211,7 @@ class PlanarRobot:
         for i in range(len(A)):
             D_s[i, i] = D_s[i, i] + K.rotor[i]
             D_s[i, :i] = D_s[:i, i]  # exactly symmetric, and the same symbols twice
+        # _weight: g Re(w o exp(i a)), the torques of gravity in absolute angles
         return D_s, A.T @ (_weight(K, t) - (K.W_re * S + K.W_im * C) @ (A @ v) ** 2)
 
     def gravity_and_turning(self, t: Turned[Numbers], v: Numbers) -> tuple[Numbers, Numbers]:
@@ -221,6 +222,7 @@ class PlanarRobot:
         dT/da = a' o ((Re W o S + Im W o C) a') is mapped to q by A^T, with C and S of the module.
         """
         A, K, rate = self.A, self.K, self.A @ v
+        # cos and sin of a_j - a_i; turning: dT/da; _weight: dV/da
         C, S = _differences(t)
         turning = rate * ((K.W_re * S + K.W_im * C) @ rate)
         return A.T @ _weight(K, t), A.T @ turning

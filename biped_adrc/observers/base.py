@@ -154,7 +154,8 @@ class Observer(Part):
     @once
     def at_ticks(self, period: float) -> Observer:
         """The result of `sampled`, checked. Raises InputError for one without `correct` and `predict`."""
-        # `sampled` may be a user's; a method that is still the one of this base was not written
+        # `sampled` may be a user's; a method that is still the one of this base was not written, and `_only`
+        # raises InputError
         found = self.sampled(period)
         check_part(found, f"what {type(self).__name__}.sampled returned", Observer)
         for name in ("correct", "predict"):

@@ -49,8 +49,8 @@ class KalmanObserver(InjectedChain):
         """The observer for noises: drift = sqrt(W) [rad/s^(m + 3/2)], measurement = sqrt(R) [rad s^(1/2)].
 
         sqrt(W) is the standard deviation by which x_(m+2) drifts in one second. An encoder whose errors have
-        the standard deviation s [rad] at ticks every T [s] has measurement = s T^(1/2). Raises InputError for
-        numbers that are not positive, and for m below 1.
+        the standard deviation s [rad], at sample instants every T [s], has measurement = s T^(1/2). Raises
+        InputError for numbers that are not positive, and for m below 1.
         """
         check_whole(m, f"the order m of a Kalman observer is {m!r}", 1)
         check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")

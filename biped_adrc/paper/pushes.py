@@ -195,6 +195,7 @@ def _at(
     run = member.run(controller, **values)
     # without the push its values have no effect: equal ones let `usual_track` compute each such step once
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
+    # "zero": the observer starts with xi^ = 0
     walks = in_two(run, member.start == "zero", share)
     one, other = track(walks[0]), usual_track(usual, controller, share)
     # `walks` are the pushed step and the later ones; complete: all impacts asked for were made

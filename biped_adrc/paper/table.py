@@ -178,6 +178,7 @@ def cases(said: Mapping[str, Any], r: Runs) -> tuple[Probe, ...]:
     """
     if "scenarios" not in said:
         return ()
+    # _function: the function that a text names
     measure = _function(said["measure"]) if "measure" in said else AtTwoSteps.of
     # without a variant `Probe.of` takes the scenario's name
     variant = _function(said["variant"]) if "variant" in said else None
@@ -198,6 +199,7 @@ def row_of(said: Mapping[str, Any], r: Runs) -> Claim:
     # a check without name and value, made for the text of its limit alone, such as "<= 0.01"
     bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
     values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
+    # more numbers for the texts, by name, from the function that the table names
     values |= _function(said["values"])(r) if "values" in said else {}
     number, reason, finding = (
         str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")

@@ -9,6 +9,7 @@ where the text around a name has its unit. `Extremes` of numbers stand in a text
     member           one combination of the choices that the paper leaves open, such as the push and Theta''
     Theta            phase of the gait [rad]; Theta'' in the law (20) is computed from the dynamics ("solved")
                      or left out (as "printed")
+    preset           a set of masses and inertias of the robot RABBIT
     lost             a walk that falls or ends before its last impact
     multipliers      eigenvalues lambda of the derivative of the return map, from impact to impact, at a
                      periodic walk; delta^2 is the largest in closed form; (26), (27): the paper's regression
@@ -94,10 +95,10 @@ def of_recipe_push(r: Runs) -> dict[str, object]:
 def of_map(r: Runs) -> dict[str, object]:
     """Numbers of pushes of the map, by how the walks under them end.
 
-    known: pushes whose walks end alike at both integration steps; doubtful: all others. The rest is counted
-    among the known. lost: under which NPD is lost; on: of the lost, those under which ADRC makes all steps;
-    feasible: of these, those where it is feasible, the impulse at impact aside. alone: under which ADRC is lost
-    and NPD is not.
+    known: pushes whose walks end alike at both integration steps; doubtful: all others. All further numbers
+    are of the known ones. lost: under which NPD is lost; on: of the lost, those under which ADRC makes all
+    steps; feasible: of these, those where it is feasible, the impulse at impact aside. alone: under which ADRC
+    is lost and NPD is not.
     """
     known = [c for c in r.cells if c.certain]
     # fates: outcomes of ADRC under the known pushes under which NPD is lost

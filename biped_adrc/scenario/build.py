@@ -187,7 +187,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         # a clock restarts at impact only if the controller knows the impact at once, without a detector
         ideal = hardware.touchdown.name is None
         timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
-    moved = hardware.rate_limit or hardware.lag
+    imperfect = hardware.rate_limit or hardware.lag  # the motors' torque follows the command late
     return Walker(
         plant,
         scene.controller(s, course.lengths if course else ()),
@@ -199,7 +199,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         slope=scene.slope(s),
         ground_steps=_ground(s),
         sensors=sensors(s),
-        motors=Motors(hardware.rate_limit, hardware.lag) if moved else None,
+        motors=Motors(hardware.rate_limit, hardware.lag) if imperfect else None,
         touchdown=_touchdown(s, gait),
         impact_gain=tuple(gain.tolist()),
         stones=course,
@@ -255,6 +255,7 @@ def sensors(s: Scenario) -> Sensor | None:
     e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
     # a filter alone is no sensor: it smooths differences of angles, which are another value of the record
     if e != EncoderRecord(filter_time=e.filter_time):
+        # None: the angle of the pitch has the resolution of the joints
         noise = (e.noise, e.pitch_noise, e.rate_noise)
         encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
     if more.name is None:
@@ -383,6 +384,7 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
         "amplitude": _torques(s, i, biped) if push.link is None else along,
         "biped": plant,
     }
+    # fields: names that the message on an unknown value may propose, beside the parameters of the class
     place, fields = f"pushes.{i}", Push.model_fields
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
     first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1

@@ -91,7 +91,7 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
     # `split` gives the linear stiff part of the loop; it is None where the exponential method does not apply
     if cycle.P.walker.split(Mode()) is not None:
         return cycle
-    # RK4 at half of its usual 1 ms, and wider differences of P than the usual 1e-5 (see `_DIFFERENCE`)
+    # RK4 with half of its usual step, and wider differences of P, by whose width the round-off of P is divided
     method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
     return replace(cycle, P=replace(cycle.P, method=method, difference=_DIFFERENCE))
 

@@ -97,7 +97,7 @@ class HardwareRecord(Record):
         """Raise Misfit for a value that would do nothing in continuous time, that is without a period: all but
         the torque limit and the plant's friction. pydantic calls it when all fields are set.
         """
-        # not by its own `record`: that of `Record` also has the values that the profile filled in
+        # Record.record also has the values that the profile filled in, the `record` of this class does not
         idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
         if self.period is None and idle:
             raise Misfit(min(idle), "does nothing in continuous time; give hardware.period too")

@@ -144,8 +144,9 @@ def methods_of(run: RunRecord, walker: Walker) -> tuple[OneStepMethod, float | N
     method = default_method(walker) if run.method is None else METHODS[run.method]()
     if run.h is not None:
         return replace(method, h=run.h), run.fine  # type: ignore[type-var]
-    usual = run.fine is None and run.method is None and run.engine == COMPILED
-    return method, FINE_STEP if usual and isinstance(method, Exponential) else run.fine
+    # nothing is stated, and the engine is fast enough for fine steps
+    left_open = run.fine is None and run.method is None and run.engine == COMPILED
+    return method, FINE_STEP if left_open and isinstance(method, Exponential) else run.fine
 
 
 def refined(
@@ -228,6 +229,7 @@ def runs_in_parts(
         yield run
         # each arc ends with one event
         event, done = run.arcs[-1].event, done + len(run.arcs)
+        # without a state after the event (x_plus) the walk has ended
         if not run.status.ok or event is None or event.x_plus is None:
             return
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
@@ -276,7 +278,7 @@ def rounding(walker: Walker, run: Trajectory, parts: Sequence[WalkPart]) -> floa
     # that no symmetry prefers
     x = first.x[0] + np.where(k < 2 * n, ASIDE * np.cos(k), 0.0)
     beside = runs_in_parts(walker, x, first.mode, parts)
-    # of each arc the time and q at its last node, just before the impact
+    # of each arc the time and q at its last stored instant, just before the impact
     runs = run.arcs, [arc for other in beside for arc in other.arcs]
     a, b = (np.array([(arc.t[-1], *arc.x[-1, :n]) for arc in arcs]) for arcs in runs)
     return float(np.max(np.abs(a - b))) if len(a) == len(b) else math.inf

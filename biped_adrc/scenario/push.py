@@ -135,6 +135,7 @@ def parse_push(text: str) -> Push:
     values["shape"] = "sine" if match["frequency"] else "pulse" if stop else "step"
     # a sine would else go on over impacts; None: as the shape does
     values["across_impacts"] = False if match["frequency"] else None
+    # these two as texts, whose units `Push` reads
     values |= {name: match[name] for name in ("frequency", "rise") if match[name]}
     try:
         values["onset"] = begin = quantity(start, "s")

@@ -222,6 +222,7 @@ class Walk(Shown):
         """
         run = self.trajectory
         ground = run.settings.get("plant", {}).get("ground")
+        # PLACE: name under which a plant records the places of the feet
         if ground is None or recorded(run, PLACE) is None:
             return None
         return ground["friction"], ground_axes(self.walker.ground_slope)
@@ -389,6 +390,7 @@ class Walk(Shown):
             events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
         columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}
         forces = dict(zip(("F_T [N]", "F_N [N]"), s.ground_reaction.T, strict=True))
+        # _OF_JOINTS: the signals with a column for each joint or coordinate
         return columns | joint_columns(s, _OF_JOINTS) | forces
 
     def to_csv(self, path: Path | str) -> Path:

@@ -126,6 +126,7 @@ class Stepper:
     @property
     def sample(self) -> Sample:
         """Time, number of the single support, state and status of each walk now; the arrays are copies."""
+        # columns of a row: time, number of the single support, state x; _STATUS: the status of each code
         rows, codes = self.walks.rows.copy(), self.walks.codes
         return frozen(Sample(rows[:, 0], rows[:, 2:], rows[:, 1].astype(np.int64), _STATUS[codes]))
 
@@ -151,7 +152,8 @@ class Stepper:
         """Begin walk i, with seed and start as in `reset`: None takes the scenario's own.
 
         It becomes a `CompiledWalk`, or a `PythonWalk` where its plant moves by itself or one of its parts has
-        no machine code; from then on this stepper tries to compile no walk that begins (`why`).
+        no machine code; from then on this stepper tries to compile no walk that begins (`why`), as all walks
+        have the same parts.
         """
         walk: CompiledWalk | PythonWalk | None = None
         if not self.why:
@@ -177,7 +179,9 @@ class Stepper:
         self, seed: int | None, start: tuple[Array, Array] | None, outside: Array | None = None
     ) -> tuple[Walker, ClosedLoop[Any], OneStepMethod, Array, Mode]:
         """Build a walk, with seed and start as in `reset`: its walker, the closed loop that moves, the method
-        of integration, the state x (nx,) and the single support at the start. outside: see `with_inputs`.
+        of integration, the state x (nx,) and the single support at the start.
+
+        outside (p + 2,): torque and force of the walk, overwritten before each sample; None for machine code.
         """
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
@@ -207,6 +211,7 @@ class Stepper:
         """
         if self.walks.codes.min() < 0:
             raise InputError("there is a walk that has not begun; call reset() first")
+        # a row of inputs (p + 2,) has the torques, then the force
         torques, forces = self.walks.inputs[:, :-2], self.walks.inputs[:, -2:]
         torques[:] = 0.0 if torque is None else finite_numbers("torque", torque, torques.shape)
         forces[:] = 0.0 if force is None else finite_numbers("force", force, forces.shape)

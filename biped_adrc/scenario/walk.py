@@ -94,12 +94,12 @@ def walk(
     - progress: called after every event with the time [s] and the number of events.
     - engine: "compiled", whose place Pinocchio takes where it cannot run, or "pinocchio"; the trajectory's
       settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push the
-      default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
-      under Table I), which a remark says; "compiled" takes 0.05 ms there.
+      default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after the push begins or ends (ten
+      times too large under Table I), which a remark says; "compiled" takes 0.05 ms there.
     - within: the walk ends, with the status INFEASIBLE, where it would leave these limits; without,
       `Walk.feasibility` alone judges by them.
     - plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped,
-      ground); then the walker acts at ticks, and there is no method.
+      ground); then the walker acts at sample instants, and there is no method.
 
     A fall is a status of the trajectory. Each of `Walk.remarks` is also a `WalkWarning`. Raises InputError for
     parts that do not fit together.

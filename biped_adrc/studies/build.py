@@ -103,6 +103,7 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     """The files that the value called `name` of a scenario names: of a robot its TOML and its URDF; none for a
     registered name, and for values that are no files.
     """
+    # _SUFFIXES: name of a value that may be a file -> the file's suffix
     if not isinstance(value, str) or Path(value).suffix != _SUFFIXES.get(name):
         return ()
     path = Path(value)

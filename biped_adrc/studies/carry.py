@@ -93,6 +93,7 @@ def study(
         if study_.search is None:
             runner.run(study_.points(undrawn))
             return Results(study_, folder)
+        # walks the candidates of the search
         walker = _Searched(study_, study_.search, runner, undrawn)
         # for each case a Choice, or a text that says why there is none
         result = {name: walker.choice(name) for name in study_.cases or ("",)}
@@ -142,7 +143,7 @@ class _Searched:
         result = searched(search, base, partial(walk, "search"), report)
         failure = self.failure(result, case, "search")
         if not failure:
-            few = _few(search, result)
+            few = _few(search, result)  # the finalists, and the case itself
             pairs = zip(few, walk("choice", few), strict=True)
             # the same candidates, judged by their walks on the second set
             again = [search.judged(base, c.number, c.chosen, walks) for c, walks in pairs]

@@ -110,10 +110,11 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     by = {(x.name, x.condition): x for x in lines}
     medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
-    if len({x.condition for x in lines}) > 1:  # the table says one column as well
+    if len({x.condition for x in lines}) > 1:  # under one condition the table says it as well
         shares = {key: x.feasible for key, x in by.items()}
         title = "share of feasible walks"
         yield "Whose walks are feasible?", dots_figure(shares, title, "linear")
+    # column: its name with the unit
     # OF_ALL are the columns that every walk has, however it ended, such as impacts: they are no errors, so no
     # question of size or ratio is asked of them
     column, counts = _named(measure.column), measure.column in OF_ALL
@@ -158,7 +159,7 @@ def _map(found: Results, number: Callable[[Row], float], title: str, log: bool) 
         # on a grid, walks that differ by a seed which changed nothing would weigh double in the mean of their
         # cell: `different` keeps one of them
         for x in found.different(g) if study.grid else g.rows:
-            where = _panel(g, x.at, axes)
+            where = _panel(g, x.at, axes)  # title of the panel
             xs, ys, values = panels.setdefault(where, ([], [], []))
             xs.append(x.at[axes[0]])
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)

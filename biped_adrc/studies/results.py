@@ -87,6 +87,7 @@ class Store:
         """
         with _errors(self.path), self.db:
             (found,) = self.db.execute("PRAGMA quick_check(1)").fetchone()
+            # `_errors` makes an InputError of it
             if found != "ok":
                 raise ValueError(found)
             rows = self.db.execute("SELECT * FROM walks")
@@ -104,6 +105,7 @@ class Store:
         with _errors(self.path):
             # the last column, x, is the checksum of the others
             for *row, x in self.db.execute(text, (first, first + count)):
+                # `_errors` makes an InputError of it
                 if checksum(row) != x:
                     raise ValueError(f"row {row[0]} does not fit its checksum")
                 yield Result(json.loads(row[1]), json.loads(row[3]))
@@ -131,6 +133,7 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
         db.text_factory = partial(str, encoding="utf-8", errors="replace")
     with closing(db):
         with _errors(path):
+            # _wrong: what is wrong with the file; into a new one it writes the tables and the study
             wrong = _wrong(db, study, versions)
         if wrong:
             raise InputError(f"'{path}' {wrong}; it is left as it is, choose another folder")
@@ -261,6 +264,7 @@ class Results(Shown):
             # walks of a study without a search have no set
             # NO_WALK: statuses of what was no walk
             if result.at.get("set", "test") == "test" and result.row["status"] not in NO_WALK:
+                # _name: its case as tables show it
                 where = _name(result.at), str(result.at.get("condition", ""))
                 results.setdefault(where, []).append(result)
         return [Group(*where, tuple(rows)) for where, rows in results.items()]
@@ -287,7 +291,7 @@ class Results(Shown):
         (`Study.drawn`) numbers stand without interval and p-value.
         """
         # first: condition -> its first group. paired: ratio of two lists of numbers, entry by entry, with an
-        # interval and a p-value; share and median: with an interval
+        # interval and a p-value; share and median: with an interval; _alone: the number without its interval
         first, lines = dict[str, Group](), []
         for g in self.groups:
             reference, rows = first.setdefault(g.condition, g), self.different(g)

@@ -107,6 +107,7 @@ def run_trials(records: Sequence[PlainValues], aside: bool = False) -> list[Walk
     one stage stays in the processor's cache, which takes a fifth less time than trial by trial.
     """
     # _PREPARING is a lock: threads of a process share robots and compiled code. Walking itself needs no lock
+    # _attempt and, for a list, _each call a stage; a row that says why stands for what it raised
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
@@ -161,6 +162,7 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
     raised before the first one, has neither errors nor torques.
     """
     s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
+    # NO_WALK: statuses of what was no walk
     plant = walker.plant
     row: WalkRow = {
         "status": status,
@@ -189,7 +191,8 @@ def _measured(t: Trial, walked: BatchWalk, aside: bool = False) -> WalkRow:
             after = plant.momentum(*np.split(walked.final_state[: 2 * plant.n], 2))
         judged = supports(walker, n, k, walked.impacts, after)
         tracked, h = n, t.case.curve
-        # of a fall the errors count only as long as the phase is on the curve h
+        # FALLS: ends of a walk in which the robot leaves the gait. Then errors count only as long as the phase
+        # is on the curve h
         if walked.status in FALLS and isinstance(h, VirtualConstraint):
             tracked = n.before_fall(h, plant.phase)
         result = counted(n, tracked, Feasibility(walked.status, judged, walked.impacts))

@@ -79,6 +79,7 @@ class Crew:
         if isinstance(self.workers, futures.Executor):
             self.executor: futures.Executor = self.workers
         else:
+            # _PRELOADED: modules that are imported before the processes are forked
             self.executor = processes(self.workers, _PRELOADED)
 
     @property

@@ -103,6 +103,7 @@ class Study(Section):
     @model_validator(mode="after")
     def _together(self) -> Study:
         """Check entries against each other. Raises ValueError with all that do not go together."""
+        # _twice: values that two places set; _searched: faults of the search
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
         if wrong:
             raise ValueError("; ".join(wrong))
@@ -113,6 +114,7 @@ class Study(Section):
 
         Allowed are those in `over`: cases, conditions and variables override the base, variables the cases.
         """
+        # SEED: the name "run.seed", which the keys for seeds set
         places: dict[str, Mapping[str, object]] = {
             "base": self.base,
             "cases": dict.fromkeys(n for x in self.cases.values() for n in x),
@@ -282,7 +284,7 @@ class Study(Section):
         other = [{SEED: seed} for seed in self.every_seed[1:2]]
         result = {place_of(names) for _, names in self.sets() if other}
         for values, names in self.sets():
-            for at in self._some(values):
+            for at in self._some(values):  # some points, each as the values that vary
                 try:
                     trial = trial_of(scenario_of(values | at))
                     if place_of(names) in result:
@@ -332,6 +334,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
     if not isinstance(source, Mapping):
         where = f"study file '{source}'"
         with reading("study file", source, InputError):
+            # -sig: also with the mark that some editors put first
             tables = tomllib.loads(Path(source).read_text(encoding="utf-8-sig"))
         here = Path(source).absolute().parent
     tables = dict(tables)  # type: ignore[arg-type]
@@ -350,7 +353,8 @@ def read_study(source: Path | str | Mapping[str, Any]) -> Study:
         lines = [_problem(one) for one in error.errors()]
         head = f"{where}, " if len(lines) == 1 else f"{where} has {len(lines)} problems:\n  "
         raise InputError(head + "\n  ".join(lines)) from error
-    # a class module:Class of the user's is looked for in the folder of the study file, by workers too
+    # a class module:Class of the user's is looked for in the folder of the study file, by workers too; top_of:
+    # the package or module that lies in this folder
     for name, x in study.values():
         if Scenario.field_of(name).kind and is_own(str(x)):
             FOLDERS[top_of(str(x))] = str(here)
@@ -367,6 +371,7 @@ def _problem(error: Any) -> str:
     inside = (Search, WalkSets, Variable, Aim, Limit)
     parts = (Study,) if len(error["loc"]) == 1 else inside
     known = sorted({name for part in parts for name in part.model_fields})
+    # the sentence of `unknown` speaks of a name
     text = unknown(str(error["loc"][-1]), known).replace("name;", "key;")
     return f"{'.'.join(map(str, error['loc']))}: {text}"
 

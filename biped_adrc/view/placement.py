@@ -268,7 +268,7 @@ class WalkScene:
         """x and z [m] of the stance foot in arc i at t [s]: its foothold; on soft ground, where it may slip,
         its recorded place.
         """
-        # `read` has what a simulator of soft ground recorded at the nodes, by name
+        # `read` has what a simulator of soft ground recorded at the nodes, by name; PLACE: places of the feet
         arc = self.trajectory.arcs[i]
         if PLACE not in arc.read:
             return self.foothold(i)

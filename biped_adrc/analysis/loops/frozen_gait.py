@@ -176,15 +176,16 @@ def linear_twin(walker: Walker) -> Walker:
             f"the sampled loop of a walker was asked for, found {walker.timing} and touchdown="
             f"{walker.touchdown}; expected SampledTime(period), and None, since to notice is no linear part"
         )
+    # smooth: the sensors without counts and noise
     smooth = None if walker.sensors is None else walker.sensors.smooth()
     return replace(walker, sensors=smooth, torque_limit=None, motors=None, disturbance=None)
 
 
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
-    """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
+    """Linearise the tick of a walker at points of the gait; the matrices have a leading axis of points.
 
-    The state x = (q, q', z) of the derivative J is that before and after a tick; numbers of z without effect
-    are dropped.
+    twin: the walker without limits, counts and noise, from `linear_twin`. J is the derivative dx+/dx of the
+    state x = (q, q', z); numbers of z without effect are dropped.
 
     Raises NotFiniteError where a method has no finite derivative there.
     """
@@ -203,10 +204,12 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
         # a row of J belongs to one number of x+, so J.T has x+ along its last axis, as a layout expects it.
-        # u: rows of the torque that this tick sent. z: those of z when a torque that waits for a fraction of
-        # the period has begun to act (`_released`). Columns 2 n on are of z, before of (q, q')
+        # u: the rows of J of the torque that this tick has sent. z: the rows of z, later in the period, when a
+        # torque that waits for a fraction of it has begun to act in place of the one before (`_released`). Of
+        # the columns the first 2 n are those of (q, q'), the others those of z
         u, z = layout.tree(J.T).tail.line.sent.T, _released(layout, J)[2 * n :]
         result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
+    # _acting: drops the numbers of z without effect
     return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
 
 
@@ -214,8 +217,8 @@ def _acting(tick: TickMatrices) -> TickMatrices:
     """The tick without the numbers of z on which, at all phases, neither the torque nor z+ depends.
 
     Numbers whose columns of Z and C are proportional, such as the old angle of an encoder and the rate of its
-    filter, become one, their weighted sum. Without the dropped numbers others may have no effect, so the
-    function calls itself until none is dropped.
+    filter, have the same effect and become one, their weighted sum. Without the dropped numbers others may have
+    no effect, so the function calls itself until none is dropped.
     """
     Z, Y, C, E = tick
     columns = np.concatenate((*Z, *C)).T  # row i: all effects of number i of z
@@ -236,10 +239,11 @@ def _acting(tick: TickMatrices) -> TickMatrices:
 
 
 def _released(layout: Layout, J: Array) -> Array:
-    """J (nx, nx) with x+ at the later instant at which the torque of the tick begins to act, f T after it: the
-    rows of the torque that waits replace those of u. Unchanged for a delay of whole periods.
+    """The derivative J = dx+/dx (nx, nx) of a tick, with x+ taken later: when a torque that waits for a part
+    of the period begins to act. Its rows replace those of u, the torque that acts. Unchanged where none waits,
+    for a delay of whole periods.
     """
-    # at that instant numbers are only moved, so the derivative moves the same rows
+    # at that instant the waiting torque is only copied to u, so the derivative moves the same rows
     u, waiting = (layout.place("tail", "line", name) for name in ("u", "waiting"))
     if waiting.start < waiting.stop:
         J = J.copy()

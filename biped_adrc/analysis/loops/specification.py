@@ -164,9 +164,10 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     assert isinstance(twin.timing, SampledTime)
     if isinstance(gait, Gait):
         gait = FrozenGait.of(walker.plant, gait, walker.nominal)
+    # slow: up to this |s| a mode is the gait's own; gait.falling is sqrt(g / l)
     T, delay, slow = twin.timing.period, twin.timing.delay, _OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
-    # the new axis is that of the robots: the tick is the same for all of them
+    # tick: the linearised sample instant. The new axis is that of the robots, for which the tick is the same
     tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
     # of each point its A (robots, 2 n, 2 n) and B (robots, 2 n, p), (q, q')' = A (q, q') + B u
     A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
@@ -207,7 +208,7 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 def structured_value(M: ComplexArray) -> float:
     """Least upper bound of mu of one matrix M (p, p): the minimum over scalings d of the module's sigma_max."""
-    from scipy.optimize import minimize  # here: half a second, which other analyses save
+    from scipy.optimize import minimize  # here, since loading it takes half a second
 
     p = len(M)
     if p == 1:
@@ -225,6 +226,7 @@ def structured_value(M: ComplexArray) -> float:
         A smooth bound of log sigma_max from above, closer the larger the power is.
         """
         U, sigma, V = np.linalg.svd(scaled(x))
+        # V is already conjugated and transposed. d log sigma_k / d log d_i = |U_ik|^2 - |V_ki|^2
         weight = (sigma / sigma[0]) ** power
         slope = np.abs(U) ** 2 @ weight - (np.abs(V) ** 2).T @ weight
         value = np.log(sigma[0]) + np.log(weight.sum()) / power
@@ -232,7 +234,7 @@ def structured_value(M: ComplexArray) -> float:
 
     # from a smooth norm to ones that are nearer to sigma_max, each from the minimum of the one before
     x = np.zeros(p - 1)
-    # _SMOOTH: powers 8, 64, 512, each search from the result of the one before
+    # _SMOOTH: powers of these norms
     for power in _SMOOTH:
         x = minimize(smooth, x, args=(power,), jac=True, method="BFGS").x
     return float(np.linalg.norm(scaled(x), 2))

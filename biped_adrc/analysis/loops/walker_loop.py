@@ -54,7 +54,7 @@ def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Arra
         whole[..., m:rows, m:rows], whole[..., m:rows, rows:] = -np.eye(p) / lag, np.eye(p) / lag
     # the exponential of [[A, B], [0, 0]] has Phi and Gamma in its upper rows, for a constant torque
     after = expm(whole * ((1.0 - f) * T))
-    on = after[..., :rows, :rows]
+    on = after[..., :rows, :rows]  # Phi of the time after f T
     if f == 0.0:
         return on, np.zeros((*axes, rows, p)), after[..., :rows, rows:]
     before = expm(whole * (f * T))
@@ -165,11 +165,13 @@ class WalkerLoops:
         if not np.all(self.growth() < 0.0):
             return 0.0
         count = math.prod(self.B.shape[:-2])
+        # left: the loops that are still to be searched, along one axis
         left = self._each(lambda x: x.reshape(count, *x.shape[-2:]))
         growth, least = np.linalg.norm(left.B, axis=(-2, -1)), most
         # `growth` is at first the order in which loops are searched, then their growth with the delay `least`
         while np.any(growth >= 0.0):
             worst = int(np.argmax(growth))
+            # upwards from 0, as long as no loop was found that is unstable below `most`
             least = left[worst]._first_unstable(least, upwards=least == most)
             left = left[(growth >= 0.0) & (np.arange(len(growth)) != worst)]
             growth = left.growth(least)
@@ -183,7 +185,7 @@ class WalkerLoops:
         which is sooner found if the margin is just below `most`; of a loop that is unstable in between and
         stable again this finds the last change. Without an unknown delay the loop is stable.
         """
-        from scipy.optimize import brentq  # here: half a second, which other analyses save
+        from scipy.optimize import brentq  # here, since loading it takes half a second
 
         tried = [0.0, 0.25 * self.period]
         while tried[-1] < most:

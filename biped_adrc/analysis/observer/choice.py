@@ -148,9 +148,10 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     def candidate(w: float) -> OnHardware:
         return OnHardware(hardware, GPIObserver.from_bandwidth(float(w), m), gains)
 
-    # LEAST, MOST, BANDS: 120 bandwidths from 10 to 2e4 rad/s
+    # BANDS bandwidths from LEAST to MOST
     bands = np.geomspace(LEAST, MOST, BANDS)
-    # from the first allowed bandwidth on, so that last_true begins with one that holds
+    # last_true finds by bisection the number up to which a condition holds. It gets the bandwidths from the
+    # first allowed one on, so that the condition holds at the first
     allowed = dropwhile(lambda w: candidate(w).obstacle, bands)
     w = last_true(lambda w: not candidate(w).obstacle, allowed)
     # last_true returns infinity where it finds no bandwidth that is not allowed
@@ -166,5 +167,5 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
 def without_observer(gains: Gains) -> float:
     """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
     K_p, K_d = first_gains(gains)
-    s = 1j * REJECTED  # i w at 5 Hz
+    s = 1j * REJECTED  # i w
     return float(1.0 / abs(s**2 + K_d * s + K_p))

@@ -124,8 +124,7 @@ def impact_peak(
     E = reset_error(observer, impact, policy)
     A = observer.error_system().A
     rates = np.abs(np.real(observer.poles))
-    # from 1 % of the fastest time constant on
-    # INSTANTS, LONG: 400 instants up to 8 time constants of the slowest pole
+    # INSTANTS times from 1 % of the fastest time constant to LONG time constants of the slowest pole
     later = np.geomspace(0.01 / rates.max(), LONG / rates.min(), INSTANTS)
     values = np.array([expm(A * t) @ E for t in (0.0, *later)])
     e_1, e_2 = values[:, 0], values[:, 1] * w

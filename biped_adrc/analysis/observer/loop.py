@@ -265,7 +265,7 @@ class SampledLoop:
         e, rate, xi, n = rows[[0, 1, size, size + 1]]
         # line: the torques on their way, the oldest first
         Z, line = rows[2 : 2 + k], rows[2 + k : size]
-        o = self.observer.sampled(T)
+        o = self.observer.sampled(T)  # its sampled form, with L, Phi and Gamma
         correction = np.outer(o.L, e + n - Z[0])
         Z_k = Z + correction
         K_p, K_d = first_gains(self.gains)
@@ -280,6 +280,7 @@ class SampledLoop:
         kick = g * (before * f + after * (1.0 - f)) + xi
         u = f * before + (1.0 - f) * after if self.known else a
         dZ = correction + (o.Phi - np.eye(k)) @ Z_k + np.outer(o.Gamma / T**2, u)
+        # sent[1:] - line: the torques on their way move up by one place
         changes = np.vstack((rate + push, kick, dZ, sent[1:] - line))
         return StepMatrices(changes[:, :size], changes[:, size:], a[:size], a[size:])
 
@@ -334,7 +335,7 @@ def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
     loop: its own period and delay do not count. NaN when SHORTEST is unstable already, infinite when all up to
     LONGEST are stable.
     """
-    # from 1 us to 0.1 s, each RATIO times the one before
+    # from SHORTEST to LONGEST, each RATIO times the one before
     count = math.ceil(math.log(LONGEST / SHORTEST) / math.log(RATIO))
     periods = SHORTEST * RATIO ** np.arange(count + 1)
     return last_true(lambda T: replace(loop, period=T, delay=delay_periods * T).stable, periods)

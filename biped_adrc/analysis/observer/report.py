@@ -142,6 +142,7 @@ class ObserverReport(OnHardware):
         # sampled_margins: (unknown delay, known delay)
         margin = microseconds(self.sampled_margins[int(k.known)])
         bears = f"with the model's kappa its delay margin at this period is {margin}"
+        # _unstable, _use: sentences about the kappa that makes it unstable, and about the error it leaves
         facts = [noise] if math.isfinite(share) else []
         facts += [self._unstable(), bears] if unstable else [bears, self._use()]
         word = "can run"
@@ -222,6 +223,7 @@ class ObserverReport(OnHardware):
             peak, edge = "0: no xi^", ""  # for m = 0 the response xi^ / xi is zero
             if level[top] > 0.0:
                 peak = f"{level[top]:.4g} at {grid[top]:.4g} rad/s"
+                # _falls: the frequency at which it is 3 dB lower than at the second argument
                 edge = f"{_falls(response, grid[0 if name == 'xi^ / xi' else top], grid[-1]):.4g} rad/s"
             rows.append((f"|{name}|", f"{level[0]:.3g}", peak, edge))
         title = "Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]"
@@ -318,7 +320,7 @@ def worst_inertia(biped: Biped, gait: Gait) -> float:
     Independent errors of the commanded accelerations, all of one standard deviation [rad/s^2], make a torque of
     this times that deviation [N m] in the worst joint.
     """
-    still = np.zeros(biped.n)
+    still = np.zeros(biped.n)  # kappa depends on q alone, so any rates will do
     along = ZeroDynamics.of(biped, gait.constraint).q
     inertias = (biped.reduction(q, still).kappa_inverse for q in along)
     return float(max(np.max(np.linalg.norm(rows, axis=1)) for rows in inertias))

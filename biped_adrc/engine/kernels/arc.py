@@ -37,14 +37,14 @@ def go_on(r: Run) -> int:
 
     An arc that ends before its first step leaves one node with the slope 0, so that no arc is empty.
     """
-    # count: nodes before; lost: no singular matrix or runaway so far; `lower` sets the drop of the ground at
-    # the end of this single support, `arm` the event functions at the start of an arc
+    # count: nodes stored before; r.lost = 0: no singular matrix and no runaway so far
     count, r.lost = r.count, 0
-    lower(r)
+    lower(r)  # sets r.drop, how much lower the ground is at the end of this single support
+    # `arm` computes the event functions at the start of an arc; an arc that goes on (armed = 1) has them
     if r.armed == 0:
         arm(r)  # type: ignore[arg-type]
     code = travel(r)  # type: ignore[arg-type]
-    if r.count == count:
+    if r.count == count:  # `travel` has stored no node
         for i in range(r.nx):
             r.dx0[i] = 0.0
         keep(r, r.t, r.x0, r.dx0)  # type: ignore[arg-type]
@@ -60,7 +60,8 @@ def land(r: Run) -> int:
     """
     r.inp[0], r.inp[1] = r.t, r.step + 1.0
     copy(r.x0, shift(r.inp, 2), r.nx)
-    r.x_e[0] = math.nan  # what stays where Python is interrupted
+    # where `impact` is a function in Python that Ctrl-C stops, this NaN stays and ends the run
+    r.x_e[0] = math.nan
     call(r.impact, r.K, r.inp, r.x_e)
     # behind x+ stands the least pivot of the matrices that were inverted
     if r.x_e[r.nx] == 0.0:
@@ -70,6 +71,7 @@ def land(r: Run) -> int:
     copy(r.x_e, r.x0, r.nx)
     r.step += 1.0
     r.t_start = r.t_arc = r.t
+    # the event function that ended the arc; armed = 0: the next arc has to compute its event functions
     r.fired, r.armed = FOOT_STRIKE, 0
     return 0
 
@@ -84,7 +86,7 @@ def stride(r: Run, impacts: int, strikes: Array) -> int:
     nx = r.nx
     for count in range(impacts):
         code = go_on(r)
-        # rows of `look` are kept at the starts of steps, so the end of the run needs one more
+        # r.look: function whose output `node` stores at the start of each step; the end of the run is added
         if code == COMPLETED and r.look != 0:
             node(r, r.t, r.x0, r.dx0)
         if code != STRUCK:
@@ -105,6 +107,8 @@ def sample(r: Run) -> int:
 
     Impacts in between are made. Returns the code.
     """
+    # after_tick: the next sample instant; clock_start: time from which these are counted; at_tick: whether
+    # r.t is one
     for _ in range(MOST_ARCS):
         r.t_end = after_tick(r.t, clock_start(r), r.period)
         code = go_on(r)
@@ -125,7 +129,7 @@ def look(r: Run, law: int, out: Array) -> None:
     """
     lower(r)  # sets r.drop, the ground's fall in this single support
     r.limit = math.inf  # an input that switches now has its value after the switch
-    measure(r, r.x0)
+    measure(r, r.x0)  # writes the inputs of a sample instant to r.inp
     call(law, r.K, r.inp, out)
 
 
@@ -143,7 +147,7 @@ def push(r: Run, x: float, z: float) -> None:
             node(r, r.t, r.x0, r.dx0)
         r.n_parts += int(x != 0.0 or z != 0.0) - int(F[0] != 0.0 or F[1] != 0.0)
         F[0], F[1] = x, z
-        # so that r.load is zero again where no term is left, of which nothing else takes care
+        # r.load is the sum over the terms; without a term nothing else would set it back to zero
         load_of(r)
 
 
@@ -169,7 +173,7 @@ def samples(
     for i in range(count):
         impacts[i] = -1
         if codes[i] == COMPLETED and walks[i] != 0:
-            r = run_at(walks[i])
+            r = run_at(walks[i])  # the run at this address
             u = shift(inputs, i * (r.p + 2))
             copy(u, r.torque, r.p)
             push(r, u[r.p], u[r.p + 1])

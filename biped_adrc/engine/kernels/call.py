@@ -84,8 +84,8 @@ def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Gen
     def codegen(
         context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
     ) -> ir.Value:
-        double = ir.DoubleType().as_pointer()
-        kind = ir.FunctionType(ir.VoidType(), [double] * 3).as_pointer()
+        pointer = ir.DoubleType().as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [pointer] * 3).as_pointer()
         builder.call(builder.inttoptr(arguments[0], kind), arguments[1:])
         return context.get_dummy_value()  # numba's value of a function that returns nothing
 
@@ -117,11 +117,13 @@ class _Fields(AttributeTemplate):
         """numba's type of the field `name` of a value of the type `run`; None where that is no run or has no
         such field.
         """
+        # KINDS: kind of each field, by name; _CELLS: numba's type of a run, a pointer to its cells
         return _TYPES[KINDS[name]] if run == _CELLS and name in KINDS else None
 
 
 def _cell(builder: ir.IRBuilder, run: ir.Value, name: str) -> ir.Value:
     """Write the instructions for a pointer to a field's cell: to a double for a float, else to an int64."""
+    # PLACES, KINDS: number of the cell and kind of each field, by name
     cell = builder.gep(run, [ir.Constant(ir.IntType(64), PLACES[name])])
     return builder.bitcast(cell, ir.DoubleType().as_pointer()) if KINDS[name] == "float" else cell
 

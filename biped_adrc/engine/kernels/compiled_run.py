@@ -95,6 +95,7 @@ class CompiledRun:
         """
         run = CompiledRun(self.block, self.pointers)
         run["t"] = run["t_arc"] = t
+        # fired -1: no event has ended an arc before
         run["step"], run["t_start"], run["t_end"], run["fired"] = step, t_start, t_end, -1
         run.x[:] = x
         return run
@@ -102,12 +103,13 @@ class CompiledRun:
     def keep(self, longest: float, arcs: int = 1, look: int = 0) -> None:
         """Take memory for nodes, so that the run keeps them: for so many arcs, none longer than `longest` [s].
 
-        look: address of a function that computes a `StepReading`; each row is a `NodeRow` then. 0: rows are (t,
-        x, x'). Rows that are never written cost no memory, so their number is estimated from above.
+        look: address of a function that computes signals (`StepReading`); each row then has time, step, force
+        from outside and these signals (`NodeRow`). 0: rows are (t, x, x'). Rows that are never written cost no
+        memory, so their number is estimated from above.
         """
-        # an arc has stretches between sample instants, switching times and its ends; the last step of each may
-        # be short, and a step longer than RESOLUTION has nodes inside. With `part`, the time after a sample
-        # instant at which a waiting torque acts, each period has two breaks
+        # an arc has stretches between sample instants, switching times and its ends; each stores its start, and
+        # its last step may be short; a step longer than RESOLUTION has nodes inside. With `part`, the time
+        # after a sample instant at which a waiting torque acts, each period has two breaks
         h, T, clocks = self["h"], self["period"], 1 + (self["part"] > 0.0)
         time = longest + T + h  # longest arc [s], with room for a sample instant and a step more
         stretches = 2 + self["n_switches"] + (clocks * (1.0 + time / T) if T > 0.0 else 0.0)
@@ -123,9 +125,10 @@ class CompiledRun:
         self.nodes, self["nodes"], self["room"] = nodes, nodes.ctypes.data, len(nodes)
 
     def rows(self) -> Array:
-        """The nodes kept since the last call, rows (t, x, x'), or each a `NodeRow` where `keep` got a function:
+        """The nodes kept since the last call, rows (t, x, x'), or those of signals where `keep` got a function:
         a view, to be copied before the run goes on.
         """
+        # count 0: the run overwrites them from the first row on
         count, self["count"] = int(self["count"]), 0
         return self.nodes[:count]
 
@@ -135,6 +138,7 @@ class CompiledRun:
         """
         strikes, step = np.zeros((impacts, 1 + 2 * self.nx)), self["step"]
         code = kernels().stride(self.address, impacts, strikes.ctypes.data)
+        # `step` counts on at each impact
         return STATUS[code], strikes[: int(self["step"] - step)]
 
 
@@ -142,12 +146,14 @@ def plan(tables: Mapping[str, Array], fields: Mapping[str, float]) -> CompiledRu
     """Lay out a plan, a run that has not begun, in memory. tables, fields: vectors and numbers by their names
     in `record.Run`; fields left out are 0.
     """
-    # width: of all work vectors, as long as the longest list of inputs; slow: numbers in w of (w, E)
+    # width: of all work vectors, at least the longest inputs (t, step, t_start, x, zeta, force); slow: numbers
+    # in w of (w, E)
     n, nx, p, k = (int(fields[name]) for name in ("n", "nx", "p", "k"))
     width, slow = 3 + nx + max(n, 2) + OUTSIDE, nx - k * p
     # guards: a walker has three event functions; nN: of N_E only row 1 is stored, since the others are zero
     values = {**fields, "guards": 3, "n_slow": slow, "nN": slow + p, "levels": len(tables["phi"])}
     values |= {f"n_{name}": len(tables[name]) for name in ("drops", "switches", "parts")}
+    # ends: first cell of each vector, then the number of all cells; places: cells of addresses, where they lead
     ends, places = _places(tuple(tables[name].size for name in TABLES), width)
     cells = np.zeros(ends[-1], dtype=np.int64)
     numbers = cells.view(np.float64)
@@ -169,6 +175,7 @@ def _places(sizes: tuple[int, ...], width: int) -> tuple[list[int], Ints]:
     """
     ends = [*accumulate((len(KINDS), *sizes, *[width] * len(ROWS)))]
     places = dict(zip((*TABLES, *ROWS), ends, strict=False))
-    # `torque` and `force` need a valid address; inputs from outside, if any, set their own (engine.samples)
+    # both are addresses inside K and `push`, which `engine.samples` sets; they are in this list, since a copy
+    # of the block corrects the addresses in it alone
     places |= {"torque": places["K"], "force": places["push"]}
     return ends, np.array([[PLACES[name] for name in places], [*places.values()]])

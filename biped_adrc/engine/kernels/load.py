@@ -97,6 +97,7 @@ def text_file(files: tuple[str, ...]) -> Path:
 
 
 def head(files: tuple[str, ...], text: str) -> str:
-    """The first line of that file: checksums of the sources of these modules and of the text below the line."""
+    """The first line of `text_file(files)`: checksums of the sources of these modules, and of the text below
+    it."""
     each = (hashlib.sha256(x.encode()).hexdigest()[:32] for x in (sources((*files, WRITER)), text))
     return f"; sources {next(each)}, text {next(each)}"

@@ -155,6 +155,7 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
     t [s] is taken no later than r.limit, so that a step that ends at a break sees the limit from the left. Of
     the held numbers behind the first r.moving only the last p are passed on, the torques on the joints.
     """
+    # inp: t, step, t_start, then x from place 3 on, then zeta; `disturb` leaves zeta in r.load
     nx, inp, moving = r.nx, r.inp, r.moving
     copy(x, shift(inp, 3), moving)
     if moving < nx:
@@ -162,7 +163,7 @@ def flow(r: Run, t: float, x: Array, dx: Array) -> None:
     disturb(r, min(t, r.limit))
     copy(r.load, shift(inp, 3 + nx), r.n)
     call(r.flow, r.K, inp, dx)
-    note(r, dx, dx[nx])
+    note(r, dx, dx[nx])  # makes dx[0] NaN, which ends the run, where the pivot is not positive
 
 
 @inner
@@ -170,8 +171,7 @@ def relax(r: Run, x: Array, weight: float, out: Array) -> None:
     """Set the torques of lagging motors in out (nx,) to the command plus `weight` [1] times their distance
     from it in x.
     """
-    # the last p numbers of x are `hardware.motors.Line.u`, as it is the last field: one behind it would be
-    # read here
+    # x ends with the p commands, since they are the last field, `u`, of `hardware.motors.Line`
     for i in range(r.p):
         aim = x[r.nx - r.p + i]
         out[r.lags + i] = aim + weight * (x[r.lags + i] - aim)
@@ -204,7 +204,7 @@ def remainder(r: Run, t: float, y: Array, N: Array) -> None:
     copy(y, shift(inp, 3), r.nx)
     copy(r.load, shift(inp, 3 + r.nx), r.n)
     call(r.remainder, r.K, inp, N)
-    note(r, N, N[r.nN])
+    note(r, N, N[r.nN])  # makes N[0] NaN, which ends the run, where the pivot is not positive
 
 
 @inner
@@ -312,7 +312,8 @@ def node(r: Run, t: float, x: Array, dx: Array) -> None:
         copy(x, shift(row, 1), nx)
         copy(dx, shift(row, 1 + nx), nx)
     else:
-        # where no term but `force` pulls, the force in r.load is constant over the sample, and right as it is
+        # r.load is zeta (n,), then the force (2,). With pulled = 0 that force is the constant field `force`
+        # alone, and right as it is
         copy(x, shift(r.inp, 3), nx)
         if r.pulled != 0:
             disturb(r, min(t, r.limit))
@@ -377,7 +378,7 @@ def due(r: Run) -> int:
     n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
     if r.period > 0.0 and at_tick(r.t, clock_start(r), r.period):
         measure(r, x)  # writes the inputs of `tick`
-        out[0] = math.nan  # what stays where Python is interrupted
+        out[0] = math.nan  # stays, and ends the run, where `tick` is Python's and Ctrl-C stops it
         call(r.tick, r.K, r.inp, out)
         note(r, out, out[nx])  # the least pivot; behind it stands q''
         if not finite(out, nx):
@@ -387,6 +388,7 @@ def due(r: Run) -> int:
         copy(shift(out, nx + 1), shift(dx, n), n)
         for i in range(2 * n, nx):
             dx[i] = 0.0
+        # moving = 2 n: no lagging motors, and no `tick` in Python, which writes no q''
         r.sloped = 1 if r.moving == 2 * n < nx else 0
     if r.part > 0.0:
         begin = clock_start(r) + r.part

@@ -103,7 +103,8 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
     Values in double are called w1, w2, .., others v1, v2, ..; values that nothing reads are left out. Raises
     InputError for an operation that has no line here.
     """
-    # line: the operations in order; places: index in K -> index in the table k
+    # line: the operations in order; places: index in K -> index in the table k. A constant and an entry of k
+    # are doubles in C. An output has an empty value, which only keeps the places right: nothing reads it
     line, places = straight_line(each.function), {k: i for i, k in enumerate(numbers)}
     doubles = in_double(line, [entry.double for entry in each.inputs])
     values, stores, texts = list[Entry](), list[str](), dict[int, str]()
@@ -118,7 +119,8 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
         else:
             wide = i in doubles
             operands = (values[k].name if wide else values[k].real for k in of)
-            named = dict(zip("abc", operands, strict=False))
+            named = dict(zip("abc", operands, strict=False))  # one to three operands
+            # _PATTERNS: expression in C of each operation
             text = _PATTERNS[code].format(**named, F="" if wide else "F")
             value = Entry(f"{'w' if wide else 'v'}{len(texts) + 1}", wide)
             texts[i] = f"const {'double' if wide else 'real'} {value.name} = {text};"
@@ -145,7 +147,8 @@ def in_double(line: Sequence[Operation], angles: Sequence[bool]) -> set[int]:
     angles and times, and the other side depends on angles, times and constants alone. angles: for each input
     whether it is an angle or a time.
     """
-    # kinds: degree of dependence of each value, CONSTANT to UNKNOWN (below); a parameter of K is a constant
+    # kinds: of each value CONSTANT, LINEAR in angles and times, KNOWN (any other function of these), or UNKNOWN
+    # (it depends on other inputs too); a parameter of K is a constant
     kinds, differences = list[int](), set[int]()
     for i, (code, of, _) in enumerate(line):
         if code == ca.OP_INPUT:
@@ -168,8 +171,8 @@ other inputs too. A value has at least the greatest one of its operands."""
 
 
 def _degree(code: int, of: list[int]) -> int:
-    """Degree of dependence, CONSTANT to UNKNOWN, of an operation's value on angles and times, from those of its
-    operands, `of`; code: CasADi's code of the operation.
+    """Degree of dependence of an operation's value on angles and times, from those of its operands, `of`:
+    CONSTANT < LINEAR < KNOWN (any other function of these) < UNKNOWN (of other inputs too). code: CasADi's.
     """
     most = max(of)
     if most != LINEAR:

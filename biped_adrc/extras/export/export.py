@@ -108,6 +108,7 @@ def ports(source: Source) -> list[Port]:
     """The ports of an FMU, in the order of their value references: angles q and rates v of the n joints,
     torques u of the p motors, touchdown, flag.
     """
+    # read: indices of the rates that the C reads at each sample instant; AS_READ has the text about that
     joints, read = source.words["joint_names"], source.words["rates_read"]
     numbered = list(enumerate(joints))
     angle, rate = '<Real unit="rad" start="0"/>', '<Real unit="rad/s" start="0"/>'

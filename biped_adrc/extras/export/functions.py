@@ -54,7 +54,8 @@ class Inputs:
     @cached_property
     def at(self) -> SymbolicInstant:
         """An instant on symbols; its inputs are (t, last, step, start) as in _FIRST, then x = (q, v, x_c)."""
-        # last: time of the previous sample instant, read by `_released` alone; Mode is (step, start)
+        # take: the next symbols of `inp`. last, the time of the previous sample instant, is no part of an
+        # instant; Mode is (step, start)
         # _HEAD: number of the inputs before x
         inp = Vector("inp", _HEAD + self.equations.nx)
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
@@ -68,7 +69,7 @@ class Inputs:
 
     def function(self, *parts: object) -> SymbolicFunction:
         """The function from these inputs to its results `parts`, one after the other."""
-        # equations.symbols: the parameters K as one vector of symbols, and the same symbols by name
+        # symbols[0]: the parameters K as one vector of symbols
         return SymbolicFunction(self.equations.symbols[0], self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
@@ -77,7 +78,8 @@ def init(computer: Computer) -> SymbolicFunction:
     inputs = Inputs(computer)
     (q, v, _, tail), at = inputs.parts, inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
-    # symbols[1]: the numbers of the walker by name, as symbols
+    # symbols[1]: the walker's parts with symbols in place of their numbers; on_symbols: the form of the
+    # controller whose methods can be traced; apply: traces a method at m
     controller = at.loop.trace.on_symbols(inputs.equations.symbols[1].controller)
     s = apply(at.loop.trace, controller.initial_state, m)
     held = at.loop.held
@@ -92,6 +94,7 @@ def step(computer: Computer) -> SymbolicFunction:
     inputs = Inputs(computer)
     # _released: x in which the torque that waited for a fraction of the period acts, if that time is over
     at = inputs.at._replace(x=_released(inputs))
+    # does: traces a function at this instant
     x = at.does(semantics.tick)  # the lines that a walk runs; no second text of the law for C
     sent = semantics.parts(at.loop, x).tail.line.sent  # u: the torque that goes to the motors now
     # x_c follows q and v in x; lost is the number behind every function of the loop
@@ -123,6 +126,7 @@ def _released(inputs: Inputs) -> Array:
         return at.x
     # symbol[1]: `last`, the time of the sample instant before
     over = at.t - Scalar(at.inp.symbol[1]) >= fraction * computer.timing.period - SAME_INSTANT
+    # released: x with the waiting torque in place of the one that acts, which is the last p numbers of x
     p, released = computer.robot.p, semantics.release(at.loop, at.x)
     return np.concatenate((at.x[:-p], wheres(over, released[-p:], at.x[-p:])))
 
@@ -161,15 +165,16 @@ def functions(computer: Computer) -> Functions:
     traced = init(computer), step(computer), touchdown(computer)
     n, p, every = computer.robot.n, computer.robot.p, fields_of(computer)
     total = computer.layout.size - 2 * n
+    # total: length of x_c; live: indices in x_c of the numbers on which a torque depends
     live = _live(*traced[1:], n, total)
     names = [name for field in every for name in field]  # of the entries of x_c, in its order
     needed = {names[i] for i in live}
     kept = tuple(field for field in every if not needed.isdisjoint(field))
-    left = {name for field in kept for name in field}
+    entries = {name for field in kept for name in field}  # of the kept fields
     # an empty name drops the output
-    states = [f"next->{name}" if name in left else "" for name in names]
+    states = [f"next->{name}" if name in entries else "" for name in names]
     results = [*(f"u[{i}]" for i in range(p)), "*lost"]
-    # all three functions return x_c, and step u and lost behind it
+    # all three functions return x_c, and step u and lost behind it; _named gives the names in C
     functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
     # in the inputs of a function q begins at _HEAD, and v at _HEAD + n
     read = read_by(functions[1].function, 1) | read_by(functions[2].function, 1)

@@ -146,6 +146,7 @@ class Loaded:
     def init(self, m: _Record) -> tuple[int, _Record]:
         """Call init with a measurement; returns its flag and the state."""
         x = np.zeros((), self.state)
+        # _at: address of a struct
         return self.functions["init"](_at(x), _at(m)), x
 
     def step(self, x: _Record, m: _Record) -> tuple[int, Array]:
@@ -153,7 +154,7 @@ class Loaded:
 
         x changes in place.
         """
-        # the C writes to u, before the tuple with u is returned
+        # the C writes to u, before the tuple with u is returned; _at: address of a struct or array
         u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
 
@@ -190,16 +191,17 @@ class ExportedController(Controller):
         return self._kept(*self.loaded.init(self._inputs(m)), np.zeros(self.source.p))
 
     def correct(self, s: Array, m: Measurement) -> Array:
-        x = self._state(s)
+        x = self._state(s)  # a copy of the struct in s, which the C changes
         flag, u = self.loaded.step(x, self._inputs(m))
-        return self._kept(flag, x, u)
+        return self._kept(flag, x, u)  # the new s, or an error for its flag
 
     def output(self, s: Array, m: Measurement) -> Array:
         return s[len(s) - self.source.p :]
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        x = self._state(s)
+        x = self._state(s)  # a copy of the struct in s, which the C changes
         flag = self.loaded.touchdown(x, self._inputs(after))
+        # the new s, or an error for its flag; its torque has the new names of the legs
         return self._kept(flag, x, relabelled(self.output(s, after), swap))
 
     def continuous(self) -> Controller:

@@ -125,6 +125,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     limits = []
     if walker.torque_limit is not None:
         limits.append(f"at most {walker.torque_limit:g} N m")
+    # change: the limit of the torque's rate, times the period
     if (change := computer.held.motors.change) is not None:
         limits.append(f"changes of at most {change:g} N m in a period")
     read = [f"m->v[{i}]" for i in functions_.rates]
@@ -149,6 +150,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
             else "at the next sample instant"
         ),
         "fields": functions_.fields,
+        # fields with torques on their way to the motors
         "line": ON_THE_LINE,
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }

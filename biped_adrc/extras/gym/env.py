@@ -268,10 +268,10 @@ class Picture:
         pen = ImageDraw.Draw(image)
         x_0 = float(foot[0] + self.biped.hip(q)[0])  # of the hip, in the middle of the picture [m]
 
-        def level(x: float) -> float:
+        def level(x: float) -> float:  # height of the ground at x [m]
             return float(foot[1] - self.fall * (x - foot[0]))
 
-        def pixel(x: float, z: float) -> tuple[float, float]:
+        def pixel(x: float, z: float) -> tuple[float, float]:  # place of a point in the picture
             below = HEIGHT - MARGIN - self.scale * (z - level(x_0))
             return WIDTH / 2 + self.scale * (x - x_0), below
 

@@ -109,7 +109,8 @@ class LearnerTask(Checked, Shown):
         and scenario, by name. Raises InputError for a condition that this plant does not have, for a scenario
         and a condition together, and for values that a scenario does not take.
         """
-        # how: fields of the task; record: those of the scenario
+        # how: fields of the task; record: those of the scenario; tables: nested tables of dotted names; merged:
+        # such tables, overridden by others
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
         how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
@@ -168,7 +169,8 @@ class Stage:
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
         self.cost = task.effort / (p * self.limits.torque**2)
-        # a run ends as RAN_AWAY above the rate v, so no observation can be higher
+        # a run ends as RAN_AWAY above the rate v, so no observation can be higher; RUNAWAY_RATE [rad/s]: the
+        # rate of which `runaway_speed` is a multiple
         v = np.full(n, task.scenario.run.runaway_speed * RUNAWAY_RATE)
         # bounds of q (TURNS), q', e and e'; e is a difference of two angles
         measured = np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]
@@ -216,7 +218,7 @@ class Stage:
         At a touchdown the place of the new stance foot follows: the old one is now the swing foot, whose place
         relative to the new one is known.
         """
-        if not self._seen.size:
+        if not self._seen.size:  # not yet computed for this sample
             self._seen = self.stepper.read(learner_view)
             step = self._seen[:, self.first + 1]
             if self.drawn and (changed := self.steps != step).any():
@@ -303,12 +305,14 @@ def learner_view(loop: Loop, t: float, x: Array, mode: Mode, reference: Tracked)
     assert isinstance(tail, Tail)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
-        # state: the measurement; b: what the detector believes about the legs and the single support
+        # state: the measurement; b: what the detector believes about the legs and the single support; line: the
+        # torques on their way to the motors, by the detector's names of the legs
         state, _, _, b = noticed(loop, k, t, s, tail, q, v, mode)
         line = labelled(loop, b, tail.line)
     else:
         q_seen, v_seen = k.reading(k.sense(tail.sensors, q, v), q, v)
         state, line = true._replace(q=q_seen, v=v_seen), tail.line
+    # motor_torque: of the torques in a line the one that acts; e, u: the true ones
     r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(tail.line)
     # at: time and single support; paid: the reward's 1 / (1 + |e|^2 / e_1^2), e_1 = _NEAR, and |u|^2
     return LearnerView(

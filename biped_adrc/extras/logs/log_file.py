@@ -84,6 +84,7 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
     q, v, u = relabel_legs(legs, log.q, log.rates, log.u, biped)
     signals = {"q": q, "v": v, "u": u}
     columns = {"t [s]": log.t, CONTACT: legs.astype(int)}
+    # _numbered: names such as q1; _UNITS: unit by the first letter
     for name in _numbered(biped):
         i = int(name[1:]) - 1
         if name[0] != "v" or log.has_rate[i]:
@@ -196,6 +197,7 @@ def _log(
     )
     measured, step = np.array([f"v{i}" in table for i in range(1, biped.n + 1)]), table.get(STEP)
     if step is None:
+        # each rate has to be measured on both legs, as their names are exchanged below
         _check_pairs(measured, biped)
         legs = table[CONTACT]
         for k in np.flatnonzero(~np.isin(legs, LEGS))[:1]:
@@ -246,6 +248,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
             f"{names[k]} has u{i + 1} = {u[k, i]:g} N m, expected at most {most:g} N m, {MOST_TORQUE:g} times "
             f"the robot's peak; if the column is in mN m, call it 'u{i + 1} [mN m]'"
         )
+    # of angle and of rate, over intervals; no intervals where the log is too short
     turned, integral = _stretches(t, step, q, v)
     for i in np.flatnonzero(has).tolist() if len(turned) else []:
         _check_rate(turned[:, i], integral[:, i], i)
@@ -271,10 +274,10 @@ def _check_rate(turned: Array, integral: Array, i: int) -> None:
 
     turned, integral (M,) [rad]: change of the angle, and integral of the rate, over each of M intervals.
     """
-    # LEAST_MOTION: with less motion nothing can be said
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
         return  # too little motion for a verdict
     square = float(integral @ integral)
+    # the factor from `integral` to `turned` by least squares; RATIOS: its accepted range
     ratio = float(turned @ integral) / square if square > 0.0 else math.inf
     if not RATIOS[0] <= ratio <= RATIOS[1]:
         raise InputError(

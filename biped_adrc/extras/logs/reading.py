@@ -40,20 +40,20 @@ def check_reading(log: RobotLog, biped: Biped) -> tuple[str, ...]:
     Returns a remark if no reading fits, else none, also for a log that is too short to tell. Raises InputError
     with the better reading where there is one.
     """
-    # behind, ahead: whether the swing foot lands behind the stance foot, in the log as it stands and in the
-    # best reading; that is worse than any r
+    # behind, best_behind: whether the swing foot lands behind the stance foot, in the log as it stands and in
+    # the best reading; that is worse than any r
     fits = list(_fits(log, biped))
     if not fits:
         return ()
     behind, r, _ = fits[0]
     # r of two digits: of equal fits `min` takes the first, so the log as it stands goes before the others
-    ahead, least, words = min(fits, key=lambda fit: (fit[0], round(fit[1], 2)))
+    best_behind, least, words = min(fits, key=lambda fit: (fit[0], round(fit[1], 2)))
     lands = ", and the swing foot lands behind the stance foot" if behind else ""
     # POOR: r above which no reading fits; FITS: times by which r of another reading has to be smaller
     off = f"the log is {r:.0%} off the model's balance of momentum{lands}"
     if least > POOR:
         return (f"{off}; look at the order, signs and units of its columns, and at its noise",)
-    if behind > ahead or r > FITS * least:
+    if behind > best_behind or r > FITS * least:
         raise InputError(f"{off}; it is {least:.0%} off if {words}: change that")
     return ()
 
@@ -82,6 +82,7 @@ def _fits(log: RobotLog, biped: Biped) -> Iterator[tuple[bool, float, str]]:
     for words, (q, u) in readings.items() if len(begins) else ():
         # ahead: x of the swing foot from the stance foot [m] in the last row before each touchdown
         ahead = [biped.swing_foot(q[k])[0] for k in np.flatnonzero(np.diff(log.step))] or [0.0]
+        # the impulses a and b of the module
         free, driven = _impulses(log.t, q, u, biped, begins, half, rows)
         # 1 where both are zero, for r = 0 and not 0/0
         whole = float(np.sum(free**2 + driven**2)) or 1.0
@@ -104,6 +105,7 @@ def _impulses(
         # at: five rows of the window, from its first one to its end, for the integral by trapezoids
         at = np.linspace(k, k + rows, 5).round().astype(int)
         v = (q[at + half] - q[at - half]) / (t[at + half] - t[at - half])[:, np.newaxis]
+        # own: C' q' - G
         own = [biped.coriolis(x, w).T @ w - biped.gravity(x) for x, w in zip(q[at], v, strict=True)]
         change = biped.inertia(q[at[-1]]) @ v[-1] - biped.inertia(q[k]) @ v[0]
         free[i] = change - np.trapezoid(own, t[at], axis=0)

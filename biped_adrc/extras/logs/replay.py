@@ -143,9 +143,9 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
     arrays = (np.array(x) for x in zip(*rows, strict=True))
     t_step, v, torque, residual, xi, nominal, beyond = arrays
     # t_step of the first single support counts from the first row, where there was no touchdown
-    late = (log.step > log.step[0]) & (t_step < window)
+    in_contact = (log.step > log.step[0]) & (t_step < window)
     inputs = log.t, log.step, t_step, log.q, v, log.u
-    return ReplaySignals(*inputs, torque, residual, xi, nominal, beyond, late.astype(float))
+    return ReplaySignals(*inputs, torque, residual, xi, nominal, beyond, in_contact.astype(float))
 
 
 def measurements(
@@ -159,6 +159,7 @@ def measurements(
     # w: state of the sensors, which compute the missing rates; at the start they are the first difference
     n, p, period = walker.plant.n, walker.plant.p, log.period
     sensors = Sensors(velocity="differences", filter_time=filter_time).sampled(n, p, period)
+    # 1 for each rate that has to be computed
     sensors = replace(sensors, differences=(~log.has_rate).astype(int))
     q, v = log.q, log.rates
     start = np.where(log.has_rate, v[0], (q[1] - q[0]) / (log.t[1] - log.t[0]))
@@ -255,6 +256,7 @@ class Replay(Shown):
         from biped_adrc.view.plots.over_time import curves, finished, say_no_observer, with_gaps
         from biped_adrc.view.style import GREY, new_figure
 
+        # with_gaps: a line with a gap at each touchdown
         x, t = self.signals, with_gaps(self.signals, self.signals.t)
         look: Any = {"color": GREY, "alpha": 0.2, "lw": 0.0, "label": "contact"}
         with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
@@ -271,6 +273,7 @@ class Replay(Shown):
                     say_no_observer(axes)
                 else:
                     curves(axes, x, values, symbol)
+                # over the height of the panel, 0 to 1, at the times of the walk
                 across = axes.get_xaxis_transform()
                 axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, transform=across, **look)
                 finished(axes, unit)
@@ -283,6 +286,7 @@ class Replay(Shown):
         Raises InputError for another suffix, and OutputError.
         """
         x = self.signals
+        # _COLUMNS: signal -> heading, with a column for each joint
         table = {"t [s]": x.t, "step": x.step.astype(int), "in contact": x.in_contact.astype(int)}
         return write_csv(table | joint_columns(x, _COLUMNS), path)
 

@@ -111,6 +111,7 @@ class RobotLog(Shown):
         """
         begins = np.flatnonzero(np.diff(self.step)) + 1
         supports = np.split(np.arange(len(self.t)), begins)
+        # _support: t, step, q, u, v of one single support on the new clock
         parts = zip(*(self._support(rows, period) for rows in supports), strict=True)
         t, step, q, u, v = (np.concatenate(x) for x in parts)
         remark = f"resampled from {self.period:.6g} s to {period:.6g} s: straight lines for q, means of held u"
@@ -122,8 +123,8 @@ class RobotLog(Shown):
         rows (K,): indices of its rows in the log. The mean torque of a new row is the impulse (integral of the
         torque) over its period, divided by the period.
         """
-        # impulse (K + 1, p) [N m s] from the first row until each edge of a row; at: the new times; the last
-        # period may end early
+        # impulse (K + 1, p) [N m s]: from the first row until each of `edges`, the times of the rows and the
+        # end of the last one; at: the new times; the last period may end early
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
         # EVEN: share of a period by which the last new row may be late
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
@@ -212,6 +213,7 @@ def logged(walk: Walk) -> RobotLog:
             "the walk is in continuous time and has no sample instants to log; give a period, as period=1e-3"
         )
     run = walk.trajectory
+    # _ticks: (node just after a sample instant, node just before the next one), the arguments of `_row`
     ticks = ((arc, *tick) for arc in run.arcs for tick in _ticks(arc, time, run.t_start))
     rows = [_row(walk.walker, *tick) for tick in ticks]
     if not rows:

@@ -95,7 +95,7 @@ class MuJoCoEngine:
         # `take` into an array with mode="clip" is by far the fastest way to copy
         row.take(self.positions, out=self.qpos, mode="clip")
         row.take(self.rates, out=self.qvel, mode="clip")
-        self.warnings[:] = 0
+        self.warnings[:] = 0  # so that only warnings of the next steps count
         if self.planes:
             # own[6:8], the heights of the ground, in the row (q, q', own); depth: of a plane below the ground,
             # by the radius of the feet

@@ -67,6 +67,7 @@ def _shape(visual: Visual) -> ET.Element:
     # SHARES: factors from sizes of URDF to those of MJCF, which are half lengths and radii
     size = np.multiply(visual.size, SHARES[visual.shape])
     place = {"pos": text(visual.origin), "size": text(size), "rgba": text(visual.rgba)}
+    # group 1: MuJoCo's viewer can hide it apart from the shapes of the feet, which are of group 0
     alone = {"type": visual.shape, "mass": "0", "group": "1"}
     return ET.Element("geom", alone | place | NO_CONTACT)
 

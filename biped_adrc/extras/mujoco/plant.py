@@ -253,7 +253,7 @@ class MuJoCoPlant(Checked, Shown):
         """
         self.engine.place(row)
         self.engine.push(self.motor_torque(row[2 * self.n :], u), row[: self.n], load)
-        # from the point that touches to the foot's centre; it moves at v + omega x (-up)
+        # up: from the point that touches to the foot's centre. This point moves at v + omega x (-up)
         mj, up = mujoco(), self.ground.foot_radius * np.array(self.out)
         model, data, force = self.engine.model, self.engine.data, self.forces()
         place, speed = np.zeros((2, 2)), np.zeros((2, 2))

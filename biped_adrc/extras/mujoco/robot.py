@@ -76,6 +76,7 @@ def floating_mjcf(
     tilt = np.cos(slope / 2), 0.0, np.sin(slope / 2), 0.0
     for name in planes:
         plane = {"name": name, "type": "plane", "pos": text(below), "quat": text(tilt)}
+        # size 0 0: without end; NO_CONTACT: it touches only the foot of its <pair> below
         ET.SubElement(world, "geom", plane | {"size": "0 0 1"} | NO_CONTACT)
     # the trunk, which moves by the joints of the base and the pitch, and below it all that it carries
     _add(world, biped.tree, [joints[name] for name in (*d.base, d.unactuated)], biped)

@@ -107,6 +107,7 @@ def page(
             walks[name] = walks.get(name) or variants(name, s, samples if name in chosen else 0)
         except InputError as error:
             raise InputError(f"the walk '{name}' to choose or as a ghost: {error}") from error
+    # [0] is the walk itself, behind which its variants follow; laid_out: its scene at the start
     scene = laid_out(walks[first][0])
     given = settings(walks[first][0], scene) | {
         "tour": stations,
@@ -187,6 +188,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     The scene is drawn twice, for the walk and for the ghost.
     """
     biped = walk.walker.plant
+    # Clip(): the usual choice of time, frames and camera
     given = scene_settings({"walk": scene, "ghost": scene}, Clip())
     robot = "meshcat/robots/0"  # the walk; its ghost is robots/1
     links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
@@ -207,7 +209,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
 def hand_commands() -> list[str]:
     """Commands of the viewer Meshcat that draw the arrow of the hand's force and the line of its spring."""
     window = draw.MemoryWindow("hand")
-    # 0.15 m towards the camera, so that no link covers them
+    # NEARER: towards the camera, so that no link covers them
     window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
     # in the colour of torques from outside, and opaque; the line has two points
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)

@@ -82,7 +82,7 @@ class Slider(NamedTuple):
         ones.
         """
         decades = 10.0 ** np.arange(-9, 9)
-        # ROUND: first two digits of the round values, 10 to 80
+        # ROUND: first two digits of the round values
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
         values = known[(known >= self.low) & (known <= self.high)] if self.log else even
@@ -116,6 +116,7 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     for one in _USUAL:
         also_here = also if one.name.startswith(OBSERVER) else {}
         yield one._replace(also=also_here, value=values.get(one.name))
+    # takes: the parameters of its class; c.own: those that the scenario sets
     for name, parameter in takes(find("controller", c.name).load()).items():
         x = c.own.get(name, parameter.default)
         if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:

@@ -162,6 +162,7 @@ class PageWalk:
         """
         # from x at 0 s in the single support (number, start); the page itself sets the end, here 0 s
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
+        # FUNCTIONS: fields with addresses of functions; PLACES: field -> cell
         for name in FUNCTIONS:
             result[PLACES[name]] = 0.0  # an address, which differs from process to process
         return np.nan_to_num(result)  # cells of whole numbers may read as NaN, which equals nothing
@@ -222,6 +223,7 @@ def walk_code(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> Com
     """
     # [0]: the method; [1] would be a finer step where a push switches. 0.0: the run begins at 0 s
     method = methods_of(s.run, walker)[0]
+    # loaded=False: no machine code is put into memory here, since the page runs WebAssembly
     layout, curve = walker.layout_of(x), scene.walked.constraint
     return CompiledWalker.of(walker, method, layout, 0.0, curve, loaded=False)
 
@@ -268,6 +270,7 @@ def page_numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     places      name of a field of the block -> its cell; struck: code of a flow that ends in an impact
     status      text of each status, by code; signals: `signal_places`
     """
+    # structures: all variants of all walks; blocks: id of a variant -> its `WebWalker`
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
     web = web_walkers([one.code for one in structures])
@@ -347,9 +350,10 @@ def structure_numbers(
     }
     return {
         "cells": packed(block),
+        # indices of the cells with the place of a vector in the block; the page adds the block's address
         "pointers": web.plan.pointers.tolist(),
         "nx": web.plan.nx,
-        "observe": web.observe,
+        "observe": web.observe,  # number of the function of all signals
         "period": walk.timing.period,
         "restart": walk.timing.restart,
         "delays": walk.delays,
@@ -372,6 +376,7 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
     names = list(paths(hand.terms))
 
     def places(name: str, size: int) -> list[int]:
+        # from the cell "push" on stand the numbers of the disturbance, in the order of `names`
         first = code.plan.place("push") + names.index(f"{name}[0]")
         return list(range(first, first + size))
 
@@ -407,7 +412,8 @@ def trunk_of(plant: Biped) -> str:
     # at a posture without symmetry, the link's origin and the base agree only if they are the same point
     q = np.random.default_rng(0).standard_normal(plant.n)
     # values: of all joints of the URDF by name, with the stance foot at (0, 0)
-    # k: the link's origin from the stance foot; base: place (x, z) of the floating base
+    # k: the link's origin from the stance foot; turned(A, q): the exp(i a_k) of the module; base: place (x, z)
+    # of the floating base
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
     base = np.array([values[name] for name in plant.description.base])

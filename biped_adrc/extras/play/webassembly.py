@@ -95,7 +95,8 @@ def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
     signals = laws.of(program.reading(signals_at))
     # a copy, in which vectors have distances from the start in place of addresses
     cells = one.plan.block
-    # the address of a function becomes its number; 0 stays for a function that this walker does not have
+    # FUNCTIONS: fields with addresses of functions; PLACES: field -> cell. The address of a function becomes
+    # its number; 0 stays for a function that this walker does not have
     for name in FUNCTIONS:
         at = PLACES[name]
         cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
@@ -138,7 +139,7 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
-    # opt=0: the browser optimises what it runs, so that walks of level 3 are no quicker there
+    # opt=0: the browser optimises what it runs, so code of LLVM's level 3 runs no quicker there
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=0)
     module = parsed(loops(), machine)
     for name, text in laws.items():

@@ -124,6 +124,7 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
         raise GaitError(f"the state to pass through has {len(state)} numbers, expected {2 * n}")
     q = onto_section(biped, state[:n], slope)
     moved = float(np.max(np.abs(q - state[:n])))
+    # Theta- less Theta+, and Theta'-, which have one sign where Theta runs forwards
     span, rate = float(c @ (q - biped.relabel(q))), float(c @ state[n:])
     if not (moved <= MOVED and span * rate > 0.0):
         raise GaitError(
@@ -204,6 +205,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
     # a foot without a required clearance is kept above the ground at the programme's nodes alone
     # LATE: row on the swing foot where no clearance is asked for
     allowed[nlp.LATE] = np.inf
+    # _EXACT: largest violation of all other rows
     gaps = programme.missed(stacked(x)).items()
     return programme.in_words({k: gap for k, gap in gaps if not gap <= allowed.get(k, _EXACT)})
 
@@ -312,7 +314,7 @@ def _bounds(
     free = Unknowns[Array](*(np.full(part.shape, np.inf) for part in unknowns))
     one, all_nodes = np.ones(1), np.ones(request.nodes)
     peak = (1.0 - limits.reserve) * one
-    # SLOWEST, FASTEST: bounds of |Theta'|, 0.02 and 60 rad/s
+    # SLOWEST, FASTEST: bounds of |Theta'| [rad/s]
     low = Unknowns[Array](*(-part for part in free))._replace(
         rate=SLOWEST * one,
         rates=SLOWEST * all_nodes,

@@ -4,7 +4,8 @@ From angles over time alone, gravity and a scale of all lengths cannot be told a
 the candidates are gravity, the length of the legs with their masses as they are, and masses and inertias of one
 body. For each candidate the factor k is solved for with which the step lasts as long as the samples do. Then
 the candidates are compared by what k leaves: the largest distance of the samples q(t) from the orbit of that
-robot [rad]. A *cause* is one such change of the robot, with its k.
+robot [rad]. A *cause* is one such change of the robot, with its k. A convention (`layout` in arguments) says
+which angles the coordinates are, with order, zeros and signs.
 """
 
 import math

@@ -154,7 +154,8 @@ def read_record(
     with reading("gait file", path, GaitError):
         entries, source = all_entries(result), path.name
         known, steps, names = list(entries), frost_steps(entries), dict(names or {})
-        # `units` is written last, so a file written here without it is not complete
+        # absent: names of what is missing, for one message on all of it; `units` is written last, so a file
+        # written here without it is not complete
         cut_off = result.get("format") == _FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []
         # a result of FROST, unless the caller or the file itself names curves or samples
@@ -165,7 +166,6 @@ def read_record(
             absent += [] if step in steps else [f"step {step} of {list(steps)}"]
             entries |= steps.get(step, {})
             convention = convention or usual or "frost"
-        # absent: names of what is missing, for one message on all of it
         for ours, theirs in names.items():
             try:
                 entries[ours] = entry(entries, theirs)
@@ -180,16 +180,16 @@ def read_record(
                 f"the entries {absent} are missing; the file has {sorted(known)[:_SHOWN]}{more}. Say what they "
                 'are called there with names={"coefficients": "..."}, or --name coefficients=...'
             )
-        own = entries.get("convention")
+        stated = entries.get("convention")
         # without a statement these two are in the robot's own coordinates: gaits of this package, and samples
         # STORED: format of a gait that this package wrote
         stored = result.get("format") == STORED or samples
-        convention_ = own or convention or (OWN if stored else usual)
+        convention_ = stated or convention or (OWN if stored else usual)
         # no convention, or two different ones
-        if convention_ is None or (own and convention not in (None, own)):
+        if convention_ is None or (stated and convention not in (None, stated)):
             raise GaitError(
-                f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "
-                "a name: add an entry 'convention', or give convention=..."
+                f"the file says convention '{stated}', and '{convention}' is given; expected one of the two to "
+                "be a name: add an entry 'convention', or give convention=..."
             )
         if samples:
             return Samples(entries["t"], entries["q"], entries.get("v")), convention_, source
@@ -317,7 +317,8 @@ def import_gait(
             if others:
                 hint = f'; it would close in {others}, try {word}="{others[0]}"'
         if isinstance(gait, Samples) and not hint:
-            # poses that are no step of these legs have no such cause
+            # explained: which change of the robot would give these samples; it raises where already the poses
+            # do not fit the legs
             with suppress(GaitError, InputError):
                 hint = explained(gait, biped, layout_of(own, biped), degree, slope)
         raise GaitError(f"{error}{hint}") from error

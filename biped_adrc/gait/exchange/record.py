@@ -94,6 +94,9 @@ class GaitFile(Shown):
     """Origin of the gait, free text by name."""
 
     def __post_init__(self) -> None:
+        """Check the numbers of each entry in ENTRIES, which states the number of its dimensions, and keep them
+        read-only. An entry in REQUIRED may not be None.
+        """
         for key, (dimensions, _) in ENTRIES.items():
             value = getattr(self, key)
             if value is not None or key in REQUIRED:
@@ -160,7 +163,7 @@ def onto_ground(
     along: Coordinates, biped: Biped, slope: float
 ) -> tuple[Coordinates, dict[str, str]]:
     """Move the end of a step, and so its start after relabelling, until the swing foot is on ground of `slope`
-    [rad], as `foot_down` does; returns the curves and a remark for the provenance.
+    [rad], as `foot_down` does; returns the curves and a remark for the provenance. along: the curves.
 
     dq/dTheta at the end stays; at the start it changes as dq/dTheta after the impact does, so that a
     hybrid-invariant gait stays one. Only Bezier curves are moved.

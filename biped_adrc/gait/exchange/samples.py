@@ -7,7 +7,8 @@ hybrid-invariant. R q + r are the angles after relabelling, q(K) is the last sam
 
     h(Theta-) = q_b(K),  h(Theta+) = (R q(K) + r)_b,  h'(Theta-): of the samples,  h'(Theta+): after the impact
 
-The orbit and its period then come from the zero dynamics of the robot.
+The orbit and its period then come from the zero dynamics of the robot. A convention (`layout` in arguments)
+says which angles the coordinates are, with order, zeros and signs.
 """
 
 import re

@@ -68,8 +68,10 @@ def on_planar_base(tree: Tree) -> PlanarBase:
     slides = [joint for joint in tree.joints if joint.type == "prismatic"]
     # the root is the one link that no joint carries
     root = next(link for link in tree.links if tree.joint_above(link) is None)
+    # the joint by which the root holds the robot or lets it float; None without one
     top = _top(tree, root)
     # a joint above slides is a part of the base that the file has
+    # _released: a new base in place of `top`; _own: the file's own base; added: a new base above the root
     if top is not None and not (slides and top.type in ("fixed", "revolute")):
         on_base = _released(tree, root, top)
     else:
@@ -121,6 +123,7 @@ def _released(tree: Tree, root: str, top: Joint) -> PlanarBase:
 
     The name and axis of a planar or revolute `top` become those of the pitch.
     """
+    # _NAMES: usual names of the two slides and the pitch
     turns = top.type in ("planar", "revolute")
     on_base = added(tree, top.child, *((top.axis, (*_NAMES[:2], top.name)) if turns else ()))
     other = sorted(set(tree.links) - {*on_base.tree.links, root})
@@ -137,7 +140,8 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     have more than the share LIGHT of the robot's mass.
     """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
-    # tops: revolute joints with no other above them, one if it is the pitch; carriers: joints above it
+    # tops: revolute joints with no other above them, one if it is the pitch; carriers: joints above it;
+    # carried: links below it
     tops = [j for j in turning if not set(turning) & set(tree.path_to_root(j.parent))]
     carriers = tree.path_to_root(tops[0].parent) if tops else ()
     carried = tree.links_from(tops[0].child) if tops else []
@@ -163,7 +167,7 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
     on_base = added(tree, pitch.child, pitch.axis, names)
     text = "base: '{}' and '{}' slide, '{}' is the pitch of the trunk".format(*names)
     slope = math.atan(-x.axis[2] / x.axis[0])  # positive downhill
-    # (kind, whether it is so, text)
+    # (kind, whether it is so, text), in place of the note of `added` that a new base was put there
     notes = (
         ("read", True, f"{text} '{pitch.child}'"),
         ("left out", still, f"masses [kg] that stand still, or only slide with the base: {still}"),

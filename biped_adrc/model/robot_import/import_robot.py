@@ -152,7 +152,7 @@ def _record_of(
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
 
     def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
-        """The values of joints that were not welded, in the order of q."""
+        """The values of the joints that move, in the order of q; an ankle may have been made a fixed joint."""
         return {name: values[name] for name in moving if name in values}
 
     return {
@@ -281,6 +281,7 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     description = description_of(record, path)
     biped = Biped(description, tree, PRESET, description.preset().armature).check()
     notes = (*body.notes, *parts.notes, *of_motors, *of_torque, *of_rotors, *of_shapes)
+    # _remarks: notes on friction
     notes += (*contents.notes, *_remarks(contents, parts.moving, hints))
     order = ("read", "assumed", "left out")
     ordered = tuple(sorted(notes, key=lambda note: order.index(note.kind)))

@@ -56,6 +56,7 @@ def read_mjcf(path: Path) -> Contents:
     d = mujoco.MjData(m)  # at the reference posture qpos0
     mujoco.mj_kinematics(m, d)  # places of all bodies at the reference posture
     names = [one_line(m.body(b).name) or f"body{b}" for b in range(m.nbody)]
+    # _KINDS: types of joints by MuJoCo's numbers; a hinge is "revolute"
     hinges = {_name(m, j): j for j in range(m.njnt) if _KINDS[m.jnt_type[j]] == "revolute"}
 
     def by_joint(values: Array) -> dict[str, float]:
@@ -85,7 +86,7 @@ def _compiled(model: Any, path: Path) -> Any:
             raise
         root = ET.fromstring(path.read_bytes().lstrip())
         bodies = root.findall(".//body")
-        # that would drop the turn of a turned body, and the place of a body without joints
+        # without `pos` the turn of a turned body, and the place of a body without joints, would be lost
         # _TURNS: attributes that turn a body's frame
         if any(_TURNS & {*body.attrib} or body.find("joint") is None for body in bodies):
             raise
@@ -121,6 +122,7 @@ def _tree(m: Any, d: Any, names: list[str], path: Path) -> Tree:
             axis = vector(d.xaxis[j]) if own else (1.0, 0.0, 0.0)
             if kind == "ball":
                 raise ModelError(f"'{path}': joint '{name}' is a ball, expected hinges about y")
+            # FREELY: no limits of the range
             ends = _range(m, j) if kind == "revolute" else FREELY
             origin = vector(place - above)
             joints.append(Joint(name, kind, parent, child, origin, axis, range=ends))

@@ -250,11 +250,13 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
         # what a record may leave out; "offset" gets its n zeros below, when n is known
         usual = {"trunk": data["hip"], "passive": (), "offset": (), "gravity": GRAVITY}
         friction, urdf = {"viscous": {}, "static": {}, **rubbing}, data["urdf"]
+        # values that are not taken as they stand in the file
         own = {
             "urdf": beside(path, urdf) if isinstance(urdf, str) else urdf,
             "presets": {name: _preset(name, x, links) for name, x in presets.items()},
         }
         try:
+            # _READER: makes a RobotDescription and checks each value against the type of its field
             d = _READER.validate_python({**usual, **friction, **data, **own})
         except ValidationError as error:
             # a type with alternatives reports an error for each: the one at the deepest place says most. The

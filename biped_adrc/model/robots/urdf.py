@@ -352,6 +352,7 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     residual is not zero or R R is not the identity.
     """
     pairs = twins(tree, feet)
+    # first the links that have a twin, then those that one of `joints` carries
     turned = (joint.child for joint in tree.joints if joint.name in joints)
     links = list(dict.fromkeys((*pairs, *turned)))
     A = absolute_angles(tree, joints, links)
@@ -400,6 +401,7 @@ def _in_plane(tree: Tree, link: str) -> Array:
     """
     body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
     joint = tree.joint_above(link)
+    # [::2]: x and z of (x, y, z); inertia[3] is the moment about y
     place = (0.0, 0.0) if joint is None else joint.origin[::2]
     return np.array([body.mass, body.inertia[3], *body.com[::2], *place])
 

@@ -111,6 +111,7 @@ def read(path: Path | str) -> Contents:
 def _contents(robot: ET.Element, source: str) -> Contents:
     """The content of an element <robot>; source: its file. Raises ModelError that names the element only."""
     movers = robot.findall("joint")
+    # names of the parent and the child link of each joint
     ends = [_ends(joint) for joint in movers]
     names = {link.get("name") for link in robot.findall("link")}
     # files may hang the robot on a link "world" that they do not define
@@ -122,7 +123,8 @@ def _contents(robot: ET.Element, source: str) -> Contents:
             raise ModelError(f"two {tag}s are named '{name}'; names must differ")
     order = [link.get("name", "") for link in bodies]
     turns = _turns(order, movers, ends, np.eye(3))
-    # with the root as in the file; again, turned about z, where the joints turn about another axis than y
+    # with the root as in the file; again, turned about z, where the joints turn about another axis than y;
+    # _clean: 0 in place of round-off
     yaw = _yaw(movers, ends, turns)
     if yaw:
         turns = _turns(order, movers, ends, _clean(pin.rpy.rpyToMatrix(0.0, 0.0, yaw)))
@@ -150,6 +152,7 @@ def _notes(robot: ET.Element, links: Mapping[str, Link], yaw: float) -> tuple[No
     shapes = zip(bodies, links.values(), strict=True)
     undrawn = [x.name for e, x in shapes if len(e.findall("visual")) > len(x.visuals)]
     parts = (child.tag for e in (robot, *bodies, *robot.findall("joint")) for child in e)
+    # _USED: the elements that are read
     other = Counter(tag for tag in parts if not _USED.fullmatch(tag))
     # (kind, what was found, text): no note where it is 0 or empty
     notes = (

@@ -66,6 +66,7 @@ def ground(axes: Axes, views: list[SideView]) -> None:
     Equal lines are drawn once. Each stone is drawn where the next foot has to land, measured from the foothold
     before it, within the walker's tolerance.
     """
+    # some metres beyond the footholds, so that no picture reaches the end of the ground
     x = np.concatenate([view.scene.footholds for view in views])
     low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
     lines = [view.scene.surface.line(low, high) for view in views]
@@ -124,6 +125,7 @@ class DrawnWalk:
             arrow.set(color=colours.REACTION, alpha=opacity, zorder=layer + 1)
             axes.add_patch(arrow)
         self.text = axes.text(0.0, 0.0, "", color=colours.REACTION, fontsize=9, zorder=layer + 3)
+        # of the calls of `show` so far: places of hip and swing foot, and number of the single support
         self.passed: list[Array] = []
         self.steps: list[int] = []
 
@@ -150,6 +152,7 @@ class DrawnWalk:
         self.text.set_text(cut or ("slips" if acting.slips else ""))
         right = foot[0] > np.mean(self.axes.get_xlim())  # so that the words stay in the picture
         self.text.set_horizontalalignment("right" if right else "left")
+        # beside the middle of the arrow
         beside = foot[0] + (-0.05 if right else 0.05)
         self.text.set_position((beside, foot[1] + max(0.5 * drawn[1], 0.05)))
         radii = colours.METRES_PER_NEWTON_METRE * acting.zeta

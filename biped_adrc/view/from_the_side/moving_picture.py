@@ -135,6 +135,7 @@ class _Panel:
         self.runs = {name: walk.trajectory for name, walk in walks.items()}
         axes.set_axis_off()
         draw.ground(axes, list(views))
+        # each walk has a layer, from 2 on, since the ground is drawn in those below
         self.drawn = [
             draw.DrawnWalk(axes, view, 1.0 if view is self.last else _GHOST, k)
             for k, view in enumerate(views, start=2)
@@ -206,7 +207,7 @@ def strip(axes: Axes, walk: Drawable, clip: Clip) -> Axes:
     """
     scene = WalkScene.of(walk)
     run = scene.trajectory
-    # the last argument: where a strip without times begins, at the start of the last arc but one
+    # the last argument: where a strip without times begins, at the start of the last single support but one
     start, stop = clip.part(run.t_start, run.t_end, float(run.arcs[-2:][0].t[0]))
     view = SideView(scene)
     times = np.linspace(start, stop, POSES)
@@ -241,7 +242,8 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
 
 
 def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
-    """Draw the ground between the footholds of the strip and the footprints, and set the limits of the axes.
+    """Draw the ground between the footholds of the strip and the footprints, and set the limits of the axes. A
+    foothold is where a stance foot stands.
 
     start, stop [s]: of the strip. A robot that leans far, such as one that falls, makes the
     ground longer on both sides.

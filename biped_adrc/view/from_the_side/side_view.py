@@ -81,6 +81,7 @@ def _axis(visual: Visual) -> Array | None:
     """Ends (2, 3) [m] of the line that a primitive stands for, in the frame of its link; None for a ball."""
     if visual.shape == "sphere":
         return None
+    # a cylinder has the size (radius, length) and lies along z; a box has three edges
     along = np.zeros(3)
     if visual.shape == "cylinder":
         along[2] = 0.5 * visual.size[1]

@@ -84,7 +84,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
         for k, visual in enumerate(tree.links[joint.child].visuals):
             # spokes: rotations of the drawn spoke to each one, for legs the identity alone
             for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
-                # `visual_links` has the names of the first ones
+                # the first has the name that `visual_links` returns, by which the player finds it
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
                 part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
                 # UPRIGHT: turns Meshcat's cylinders, along y, to z as in the URDF

@@ -137,6 +137,7 @@ def _add_walk(
         head          length of an arrow's head [m]
         metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
     """
+    # depth: radius of the ball that is drawn as a foot, by which the ground lies below the footholds
     biped, depth = scene.biped, draw.sole(scene.biped)
     tree = biped.tree
     draw.add_robot(robot, biped, opacity)
@@ -252,8 +253,9 @@ class Frames:
         names. Raises InputError for too many frames.
         """
         placement.check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
-        nodes = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
-        at = [(i, t) for i, times in enumerate(nodes) for t in times]
+        # _nodes: the times [s] at which one single support is sampled
+        of_arcs = [_nodes(scene, arc, fps).tolist() for arc in scene.trajectory.arcs]
+        at = [(i, t) for i, times in enumerate(of_arcs) for t in times]
         arcs, times = map(np.array, zip(*at, strict=True))
         poses = zip(*(pose(scene, i, t) for i, t in at), strict=True)
         return cls(times, arcs, Pose(*map(np.array, poses)))

@@ -62,7 +62,7 @@ def tracking_figure(
         partial(over_time.tracking_errors, s=signals, push=push),
     ]
     with new_figure(10.0, 7.2, _titled(title, signals, push)) as figure:
-        # row 0 of the grid for the angles, 1 and 2 for `below`
+        # row 0 of the grid for the angles, 1 and 2 for `below`; _zoom: the time axis around the push
         spec = figure.add_gridspec(3, 4)
         for place, draw in zip(_halves(spec, 0, len(halves)), angles, strict=True):
             _zoom(_column(figure, [place], [draw]), signals, push)
@@ -76,7 +76,7 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
     """
     if push is None:
         return title
-    # per joint the torque, with its sign, at the node at which it is largest
+    # per joint the torque, with its sign, at the instant at which it is largest
     peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
     joints: dict[str, list[str]] = {}
     for i in np.flatnonzero(peaks):
