@@ -1,4 +1,4 @@
-; sources 718d9082be1928948d49e895f400b8de, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources fda91935e747c1ac23b00347115ef409, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 
