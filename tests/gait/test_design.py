@@ -267,12 +267,17 @@ def test_a_design_that_ends_without_a_gait_says_how(monkeypatch) -> None:
     """
     biped, request = Biped.load("three_link"), GaitRequest(0.9, 0.6, nodes=8)
     failed = SimpleNamespace(solved=False, status="S", iterations=1)
-    monkeypatch.setattr(optimisation, "solve_nlp", lambda *_: failed)
-    monkeypatch.setattr(optimisation, "relaxed", lambda programme, words, x0, bounds, status: x0)
+    monkeypatch.setattr(optimisation.nlp, "solve_nlp", lambda *_: failed)
+    monkeypatch.setattr(
+        optimisation.nlp, "relaxed", lambda programme, words, x0, bounds, status: x0
+    )
     with pytest.raises(GaitError, match="IPOPT stopped with S, though its limits can be met"):
         optimise(biped, request)
 
-    def no_orbit(*_):
+    nodes = []
+
+    def no_orbit(biped, finer, x):
+        nodes.append(finer.nodes)
         raise GaitError("odd")
 
     monkeypatch.setattr(optimisation, "_solution", lambda *_: (None, 1))
@@ -281,3 +286,4 @@ def test_a_design_that_ends_without_a_gait_says_how(monkeypatch) -> None:
         GaitError, match="its limits at 16 nodes and not between them: odd; give more"
     ):
         optimise(biped, request)
+    assert nodes == [8, 16]  # a gait's provenance has those of its own solution

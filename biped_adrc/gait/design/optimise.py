@@ -252,11 +252,12 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
             "designed for robots with one coordinate without a motor and at least one motor"
         )
     for nodes in (request.nodes, 2 * request.nodes):
-        x, iterations = _solution(biped, replace(request, nodes=nodes))
+        finer = replace(request, nodes=nodes)
+        x, iterations = _solution(biped, finer)
         spent += iterations
         try:
-            gait, orbit = exact_gait(biped, request, x)
-            missed = audit(biped, gait, orbit, request)
+            gait, orbit = exact_gait(biped, finer, x)
+            missed = audit(biped, gait, orbit, finer)
         except GaitError as error:
             missed = [str(error)]
         if not missed:
