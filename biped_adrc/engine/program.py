@@ -233,6 +233,7 @@ class CompiledWalker:
         # of each term PART numbers, the address of its code and how many numbers it has; `view` keeps the
         # bits of these whole numbers in a table of floats
         parts = [*zip(codes, map(len, numbers), strict=True)]
+        # switches: rows (step, s), instants s [s] after the start of a single support at which it is not smooth
         tables = {
             "switches": np.array(push.switches, dtype=float).reshape(-1, 2),
             "push": np.array([*chain(*numbers)]),

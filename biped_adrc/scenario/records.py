@@ -316,7 +316,7 @@ class Record(BaseModel):
                 x, before = x.record(before), {}
             if x != before:
                 kind = described(type(self), name).kind
-                # portable: the name by which another process finds it, module:Class
+                # portable: the name by which another process finds it; of a part registered here, module:Class
                 result[name] = portable(kind, x) if kind and x is not None else as_json(x)
         others = usual.own
         return result | {name: as_json(x) for name, x in self.own.items() if others.get(name) != x}

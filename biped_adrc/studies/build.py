@@ -1,14 +1,15 @@
-"""What a study knows of a scenario: its values by dotted name, its walker, and what else decides its numbers.
+"""Makes a scenario of values that a study gives, and its walker; says what else decides the walk's numbers.
 
-    hardware.period               "1.5 ms"    0.0015    [s]
-    controller.observer.order     1           1
-    hardware.torque_limit         "none"      None      no limit
-    start.v5                      0.1         0.1       [rad/s]
+    name                          value in SI
+    hardware.period               0.0015    [s]
+    controller.observer.order     1
+    hardware.torque_limit         None      no limit
+    start.v5                      0.1       [rad/s]
 
-The columns are name, value as text in a file, value in SI units, and its unit or meaning. Robots and gaits are
-loaded once per process. A study may name files (a robot's TOML and URDF, a gait) and classes of the user: their
-contents are hashed into the versions of its results. The registry finds a class by kind and name, such as
-"controller" and "ADRC", or by module:Class. A scene is a robot and its gait; a row is the results of one walk.
+Values come by dotted name, read and converted already (`scenario.records`). Robots and gaits are loaded once
+per process. A study may name files (a robot's TOML and URDF, a gait) and classes of the user: their contents
+are hashed into the versions of its results. The registry finds a class by kind and name, such as "controller"
+and "ADRC", or by module:Class. A scene is a robot and its gait; a row is the results of one walk.
 """
 
 import hashlib

@@ -89,11 +89,14 @@ def test_the_point_that_touches_moves_as_the_places_say(walk):
 
 
 def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
-    """A sphere of 5 cm whose centre moves at its radius times the shin's rate has a contact point at rest."""
+    """A sphere of 5 cm whose centre moves at its radius times the shin's rate has a contact point at rest. The
+    meter reads the place of the centre and the velocity of the point that touches.
+    """
     plant = MuJoCoPlant(biped, SoftGround(friction=1.0, foot_radius=0.05))
     q, v = gait.start(biped)
     state = plant.start(0.0, q, v)
     pinned = plant.footing(state, np.zeros(4), STILL)
+    # the ground lies a radius below the centre, which starts where the point foot is
     np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], atol=1e-5)
     shin = v @ [1.0, 0.0, 1.0, 0.0, 1.0]  # rate of the stance shin, counter-clockwise
     centre = np.array([-shin * 0.05, 0.0])  # rolls forwards where it turns clockwise

@@ -102,6 +102,7 @@ class OnHardware:
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
         """The sampled loop with `ratio` times the model's kappa, dimensionless."""
         k = self.hardware
+        # known: whether the observer is fed with the torque that acts, else with the command
         return SampledLoop(self.observer, k.period, self.gains, k.delay, k.known, ratio)
 
     @cached_property
