@@ -224,7 +224,7 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
     result twice, as machine code keeps nothing in an object.
     """
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
-    if not is_own(controller):
+    if not has_own_class(controller):
         return
     # method -> its arguments behind the state s
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
@@ -247,10 +247,10 @@ def check_methods(controller: Controller, s: Any, m: Measurement, sampled: bool)
             )
 
 
-def is_own(part: Part) -> bool:
+def has_own_class(part: Part) -> bool:
     """Whether the class of a part, or of a part in its fields, is a user's and not of this package."""
     inside = (x for x in vars(part).values() if isinstance(x, Part))
-    return not type(part).__module__.startswith("biped_adrc.") or any(map(is_own, inside))
+    return not type(part).__module__.startswith("biped_adrc.") or any(map(has_own_class, inside))
 
 
 @dataclass(frozen=True)

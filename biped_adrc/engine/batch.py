@@ -25,7 +25,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.control.base import Measurement, is_own
+from biped_adrc.control.base import Measurement, has_own_class
 from biped_adrc.core.checks import PositiveInt, check_fields, check_part
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, RaisedError
 from biped_adrc.core.once import constant
@@ -214,9 +214,8 @@ class Preparation:
             walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
             return lambda: walked
         # a controller of a user's class is tried at the start of each walk
-        if isinstance(run, _Ready) and not any(
-            map(is_own, (case.walker.controller, case.walker.law))
-        ):
+        w = case.walker
+        if isinstance(run, _Ready) and not any(map(has_own_class, (w.controller, w.law))):
             self.last = run
         return run
 
