@@ -95,8 +95,9 @@ def test_two_steps_have_to_agree(half, holds):
     ],
 )
 def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
-    """`half`: (error [rad], status, impacts) at half the step of a walk with 1e-3 rad: 0.1 % apart is printed
-    alone, a factor of 2 or another ending with a hint."""
+    """A walk has an error of 1e-3 rad; in brackets behind it stands what half the step gives. `half`: (error
+    [rad], status, impacts) there. 0.1 % apart it is the other error alone, a factor of 2 or another ending has
+    a hint (`word`)."""
     text = error_text((1e-3, "COMPLETED", 2), half)
     assert text.startswith("1.000e-03 rad (")
     assert word in text

@@ -22,7 +22,8 @@ next step is
     y        sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot
     r        estimate [N m] of the torque from outside on the unactuated row, of the coordinate without motor
     y_0      y at the decision in the cycle at the speed to keep
-    y_free   y at the next decision without the correction: with the v+ whose cycle has y_0 under the torque r
+    y_free   y at the next decision without the correction. Its v+ is the speed of the member whose cycle has
+             y_0 while r acts
     delta    sigma just after the impact over sigma just before it, in the cycle
 
 Without the correction the error y - y_0 is delta^2 times as large at the next decision, with it `pole` times.

@@ -250,7 +250,7 @@ class Equations:
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque.
 
-        Without q'' for a plant that moves by itself, whose `force` is on the feet.
+        Without q'' for a plant that moves by itself, such as MuJoCo's, which has its own.
         """
         at, n = self.at(), self.numbers.plant.n
         x = at.does(semantics.tick)

@@ -8,12 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.io import loadmat
+from scipy.io import loadmat, savemat
 
 import biped_adrc as ba
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.conventions import CONVENTIONS, own_convention
 from biped_adrc.gait.curves import Bezier, Polynomial
+from biped_adrc.gait.exchange.entries import entry
 from biped_adrc.gait.exchange.importing import (
     RUN_UNITS,
     export_gait,
@@ -336,3 +337,17 @@ def test_a_file_says_its_convention_once(gait, tmp_path):
     export_gait(gait, path, "frost")
     with pytest.raises(GaitError, match="frost"):
         read_record(path, "paper")
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        *(("row(1,2)", 4.0), ("row(2)", 4.0), ("column(2,1)", 4.0), ("row(1,:)", [3.0, 4.0])),
+        *(("matrix(2,1)", 7.0), ("matrix(:,2)", [6.0, 8.0]), ("matrix(2)", 7.0)),
+    ],
+)
+def test_an_element_has_the_name_that_matlab_gives_it(tmp_path, name, expected):
+    """Also in a row or a column, which is read as a list of numbers; one index counts down the columns."""
+    arrays = {"row": [[3.0, 4.0]], "column": [[3.0], [4.0]], "matrix": [[5.0, 6.0], [7.0, 8.0]]}
+    savemat(tmp_path / "arrays.mat", arrays)
+    np.testing.assert_array_equal(entry(read_mat(tmp_path / "arrays.mat"), name), expected)

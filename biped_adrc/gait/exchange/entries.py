@@ -57,7 +57,7 @@ def entry(found: Mapping[str, Any], name: str) -> Any:
     """
     # cells {} are read as (), without blanks; row: (1,k) and (k,1) as (k), as `read_mat` drops such dimensions
     name = name.translate(str.maketrans("{}", "()", " "))
-    row = re.sub(r"\((?:1,(\d+)|(\d+),1)\)", r"(\1\2)", name)
+    row = re.sub(r"\((?:1,([\d:]+)|([\d:]+),1)\)", r"(\1\2)", name)
     # the last form leaves out a (1) before a dot or a bracket, since a single struct is no array
     for known in (name, row, re.sub(r"\(1\)(?=[.(])", "", row)):
         element = re.fullmatch(r"(.+)\(([\d,:]+)\)", known)
@@ -67,7 +67,10 @@ def entry(found: Mapping[str, Any], name: str) -> Any:
         if element and element[1] in found and "0" not in (index := element[2].split(",")):
             a = np.asarray(found[element[1]])
             places = tuple(_place(*i.split(":")) for i in index)
-            return a[places] if len(places) > 1 else a.ravel(order="F")[places]
+            if len(places) == 1:
+                return a.ravel(order="F")[places]
+            if len(places) == a.ndim:  # else a dimension was dropped, and `row` finds it
+                return a[places]
     raise KeyError(name)
 
 
