@@ -112,7 +112,7 @@ def test_past_its_end_a_constraint_goes_on_smoothly(published):
             at[4] += end + outwards * side - h.phase @ q
             points.append(c(0.0, at, np.array([0.1, 0.2, -0.1, 0.3, -1.0])))
         for inside, outside in zip(*points, strict=True):
-            np.testing.assert_allclose(outside, inside, atol=1e-3)
+            np.testing.assert_allclose(outside, inside, rtol=0.0, atol=1e-3)
     far = q.copy()
     far[4] -= 0.1
     assert np.max(np.abs(c(0.0, far, far).q_d - q[:4])) < 0.3
@@ -156,4 +156,4 @@ def test_the_potential_energy_has_the_height_of_the_foothold(bare, down):
         expected = bare.potential_energy(s.q[k]) + bare.weight * s.foothold_height[k]
         assert s.potential[k] == pytest.approx(expected, abs=1e-9)
     after = np.flatnonzero(np.diff(s.step))
-    np.testing.assert_allclose(s.potential[after], s.potential[after + 1], atol=1e-8)
+    np.testing.assert_allclose(s.potential[after], s.potential[after + 1], rtol=0.0, atol=1e-8)

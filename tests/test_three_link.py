@@ -35,9 +35,9 @@ def test_model_is_the_published_one() -> None:
         d = th[:, np.newaxis] - th
         q, v = TO_Q @ th + ZERO, TO_Q @ rate
         D = TO_Q.T @ ROBOT.inertia(q) @ TO_Q
-        np.testing.assert_allclose(D, K * np.cos(d), atol=1e-7)
+        np.testing.assert_allclose(D, K * np.cos(d), rtol=0.0, atol=1e-7)
         bias = (K * np.sin(d)) @ rate**2 - g * (masses @ arms) * np.sin(th)
-        np.testing.assert_allclose(TO_Q.T @ ROBOT.bias(q, v), bias, atol=1e-7)
+        np.testing.assert_allclose(TO_Q.T @ ROBOT.bias(q, v), bias, rtol=0.0, atol=1e-7)
 
 
 def test_outputs_are_the_published_ones() -> None:
@@ -73,7 +73,7 @@ def test_joint_form_of_the_outputs() -> None:
     zero = ba.ZeroDynamics.of(ROBOT, joints)
     for q, dq in zip(zero.q, zero.dq, strict=True):
         o = y(0.0, q, dq)
-        np.testing.assert_allclose(np.concatenate((o.y, o.dy)), 0.0, atol=1e-13)
+        np.testing.assert_allclose(np.concatenate((o.y, o.dy)), 0.0, rtol=0.0, atol=1e-13)
     found = step(ba.NPDController(joints, gains), 1.5, ba.Adaptive())
     assert found == pytest.approx(step(OutputNPDController(y, gains), 1.5, ba.Adaptive()), rel=1e-8)
 
@@ -98,4 +98,4 @@ def test_finite_time_feedback_comes_to_rest_in_closed_form() -> None:
         o = outputs()(t, run(t)[:3], run(t)[3:])
         left = np.maximum((1.0 - alpha) * (rest - t) / eps, 0.0)
         dy = np.sign(x2_0) * left ** (1.0 / (1.0 - alpha)) / eps
-        np.testing.assert_allclose(o.dy, dy, atol=1e-7)
+        np.testing.assert_allclose(o.dy, dy, rtol=0.0, atol=1e-7)

@@ -94,7 +94,7 @@ def test_the_correction_does_not_depend_on_the_speed(bare, recipe):
         x = np.concatenate((*zero.end_state(share * zero.sigma_minus), np.zeros(8)))
         # strike gives (x+, mode); behind (q, q') x+ has the 8 coefficients of c, a_0 and a_1 of four joints
         found.append(walker.strike(0.0, x, ba.Mode())[0][10:])
-    np.testing.assert_allclose(found[0], found[1], atol=1e-10)
+    np.testing.assert_allclose(found[0], found[1], rtol=0.0, atol=1e-10)
     assert np.max(np.abs(found[0])) > 0.1
 
 
@@ -114,7 +114,7 @@ def test_multipliers_of_the_loop_are_the_poles_predicted_from_the_zero_dynamics(
     s = P.project(np.concatenate((published.q_minus, published.v_minus, own)))
     found = np.linalg.eigvals(P.jacobian(s))
     found = found[np.argsort(-np.abs(found))]
-    np.testing.assert_allclose(found[:3], poles, atol=2e-4)
+    np.testing.assert_allclose(found[:3], poles, rtol=0.0, atol=2e-4)
     assert np.max(np.abs(found[3:])) < 1e-3
 
 
@@ -125,7 +125,9 @@ def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, publis
     response = stride_response(published, bare)
     best = response.gains()
     poles = response.poles(best)
-    np.testing.assert_allclose(np.poly(poles), np.poly([np.mean(poles).real] * 3), atol=1e-9)
+    np.testing.assert_allclose(
+        np.poly(poles), np.poly([np.mean(poles).real] * 3), rtol=0.0, atol=1e-9
+    )
     for K_P in (0.9, 1.0, 1.1):
         for K_I in (0.9, 1.0, 1.1):
             other = StrideGains(K_P * best.K_P, K_I * best.K_I)

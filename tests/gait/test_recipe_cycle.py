@@ -35,7 +35,7 @@ def test_inverse_kinematics_inverts_the_forward_kinematics(biped):
         stance, stance_knee = inverse_kinematics(-hip, LENGTH)
         swing, swing_knee = inverse_kinematics(foot - hip, LENGTH)
         found = [stance - q[4], swing - q[4], stance_knee, swing_knee, q[4]]
-        np.testing.assert_allclose(found, q, atol=1e-9)
+        np.testing.assert_allclose(found, q, rtol=0.0, atol=1e-9)
 
 
 def test_the_feet_and_the_hip_follow_the_recipe(biped):
@@ -49,9 +49,9 @@ def test_the_feet_and_the_hip_follow_the_recipe(biped):
     end = biped.hip(onto_section(biped, X_STAR[:5]))
     lift = np.sin(np.pi * s)
     hip = np.column_stack((end[0] - L * (1.0 - s), end[1] + p.hip_amplitude * lift))
-    np.testing.assert_allclose([biped.hip(row) for row in q], hip, atol=1e-12)
+    np.testing.assert_allclose([biped.hip(row) for row in q], hip, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(
-        [biped.swing_foot(row)[1] for row in q], p.clearance * lift, atol=1e-12
+        [biped.swing_foot(row)[1] for row in q], p.clearance * lift, rtol=0.0, atol=1e-12
     )
     assert np.all(q[:, 2:4] < 0), "a knee bends forwards"
 
@@ -64,8 +64,8 @@ def test_the_step_ends_in_the_pose_of_x_star_and_starts_in_it_relabelled(any_bip
     constraint, _ = recipe_constraint(any_biped, fit_to_x_star(any_biped))
     end, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_minus)
     begin, _, _ = configuration(constraint.phase, constraint.h, constraint.theta_plus)
-    np.testing.assert_allclose(end, pose, atol=1e-12)
-    np.testing.assert_allclose(begin, any_biped.relabel(pose), atol=1e-12)
+    np.testing.assert_allclose(end, pose, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(begin, any_biped.relabel(pose), rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(pose, X_STAR[:5], atol=5e-4)
 
 
@@ -73,7 +73,7 @@ def test_the_path_leaves_in_the_direction_of_the_rates_of_x_star(biped):
     """dq/dTheta at s = 1 is q'/Theta' of x*: all that x* says of its rates but the speed."""
     q = joint_trajectories(biped, fit_to_x_star(biped), np.array([1.0 - EDGE, 1.0]))
     slope = (q[1] - q[0]) / (biped.phase @ (q[1] - q[0]))
-    np.testing.assert_allclose(slope, X_STAR[5:] / (biped.phase @ X_STAR[5:]), atol=1e-4)
+    np.testing.assert_allclose(slope, X_STAR[5:] / (biped.phase @ X_STAR[5:]), rtol=0.0, atol=1e-4)
 
 
 def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_biped):
@@ -92,9 +92,9 @@ def test_the_design_reproduces_the_stored_file(biped):
     """Curves, ends of the phase and provenance of gait (b) designed anew are those in the package's file."""
     stored, designed = load_gait("recipe", biped), design_recipe_gait(biped)
     a, b = stored.constraint, designed.constraint
-    np.testing.assert_allclose(a.curve.coefficients, b.curve.coefficients, atol=1e-8)
+    np.testing.assert_allclose(a.curve.coefficients, b.curve.coefficients, rtol=0.0, atol=1e-8)
     np.testing.assert_allclose(
-        [a.theta_plus, a.theta_minus], [b.theta_plus, b.theta_minus], atol=1e-12
+        [a.theta_plus, a.theta_minus], [b.theta_plus, b.theta_minus], rtol=0.0, atol=1e-12
     )
     # "cycle" was added when the orbit of the closed loop took the place of the design's
     written = {k: v for k, v in stored.provenance.items() if k != "cycle"}
@@ -109,4 +109,4 @@ def test_the_stored_state_is_a_fixed_point_of_the_walk_under_npd(any_biped):
     walker = Walker(any_biped, NPDController(gait.constraint))
     P = ReturnMap(walker, RK4(1e-3))
     s = P.project(np.concatenate((gait.q_minus, gait.v_minus)))
-    np.testing.assert_allclose(P(s), s, atol=1e-7)
+    np.testing.assert_allclose(P(s), s, rtol=0.0, atol=1e-7)

@@ -49,7 +49,7 @@ def test_a_count_is_never_further_off_than_half_of_one():
     for row in y:
         assert np.max(np.abs(rounded(row) - row)) <= np.pi / 100 * (1 + 1e-12)
         counts = rounded(row) / (2 * np.pi / 100)
-        assert np.allclose(counts, np.round(counts), atol=1e-9)
+        assert np.allclose(counts, np.round(counts), rtol=0.0, atol=1e-9)
     assert np.array_equal(Sensors(None).sampled(3, 3, T).rounded(y[0]), y[0])
 
 
@@ -184,7 +184,9 @@ def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
         since = t - delay
         near = abs(since / T - round(since / T)) < 1e-6
         if since > 0 and not near:
-            assert np.allclose(u, np.floor(since / T) * T * np.arange(1.0, 5.0), atol=1e-12)
+            assert np.allclose(
+                u, np.floor(since / T) * T * np.arange(1.0, 5.0), rtol=0.0, atol=1e-12
+            )
         elif not near:
             assert not np.any(u)
 

@@ -148,7 +148,7 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
     still waits, and counts in no share.
     """
     found = matched(np.array(struck), np.array(notices))
-    np.testing.assert_allclose(found.late, late, atol=1e-12)
+    np.testing.assert_allclose(found.late, late, rtol=0.0, atol=1e-12)
     assert (found.false.tolist(), found.waits) == (false, waits)
     decided = late[: len(late) - waits]
     behind = [x for x in late if x >= 0.0]
@@ -172,7 +172,7 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
     assert len(found.false) == 0
     false = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.1)))
     walked = run(false, gait, 0.12)
-    np.testing.assert_allclose(touchdowns(false, walked).false, [0.1], atol=1e-9)
+    np.testing.assert_allclose(touchdowns(false, walked).false, [0.1], rtol=0.0, atol=1e-9)
     at_once = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.0)))
     np.testing.assert_array_equal(touchdowns(at_once, run(at_once, gait, 5e-3)).false, [0.0])
 
@@ -303,7 +303,7 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
     assert np.max(np.abs(np.diff(angles, axis=0))) < 1.1 * fastest * T
     k = noticed[0]
     expected = biped.R @ ((angles[k] - angles[k - 1]) / T)
-    np.testing.assert_allclose(rates[k], expected, atol=2.0 * 2.4e-5 / T)
+    np.testing.assert_allclose(rates[k], expected, rtol=0.0, atol=2.0 * 2.4e-5 / T)
     np.testing.assert_array_equal(rates[k + 1], rates[k])
 
 

@@ -101,8 +101,8 @@ def test_other_units_are_converted_and_it_is_said(lines, read):
         row[0], row[at] = repr(1e3 * float(row[0])), repr(float(np.rad2deg(float(row[at]))))
     head, rows = [*head, "current [A]"], [[*row, "3"] for row in rows]
     found, usual = read([head, *rows]), read(lines)
-    assert np.allclose(found.t, usual.t, atol=1e-12)
-    assert np.allclose(found.q, usual.q, atol=1e-12)
+    assert np.allclose(found.t, usual.t, rtol=0.0, atol=1e-12)
+    assert np.allclose(found.q, usual.q, rtol=0.0, atol=1e-12)
     assert found.remarks == (
         "converted to the package's units: t [ms], q2 [deg]",
         "columns left alone: current [A]",

@@ -137,12 +137,12 @@ def test_rates_that_the_log_has_not_begin_as_its_first_difference(log):
     x = ba.replay(bare, ba.Scenario("NPD"), filter_time=0.0).signals
     rows = np.flatnonzero(np.diff(log.step) == 0.0)
     slopes = np.diff(log.q, axis=0) / np.diff(log.t)[:, np.newaxis]
-    np.testing.assert_allclose(x.v[rows + 1], slopes[rows], atol=1e-9)
-    np.testing.assert_allclose(x.v[0], slopes[0], atol=1e-9)
+    np.testing.assert_allclose(x.v[rows + 1], slopes[rows], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(x.v[0], slopes[0], rtol=0.0, atol=1e-9)
     some = replace(log, measured=[1.0, 0.0, 1.0, 0.0, 1.0])
     y = ba.replay(some, ba.Scenario("NPD"), filter_time=0.0).signals
     np.testing.assert_array_equal(y.v[:, ::2], log.v[:, ::2])
-    np.testing.assert_allclose(y.v[0, 1::2], slopes[0, 1::2], atol=1e-9)
+    np.testing.assert_allclose(y.v[0, 1::2], slopes[0, 1::2], rtol=0.0, atol=1e-9)
 
 
 # -- disturbances that are known ---------------------------------------------------------------------
@@ -207,7 +207,9 @@ def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
     found = ba.replay(logged(soft), ba.Scenario("DOB"))
     x = found.signals
     rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)
-    assert np.allclose(np.mean(x.zeta_estimate[rows], axis=0), [20.0, 20.0, 0.0, 0.0], atol=1.0)
+    assert np.allclose(
+        np.mean(x.zeta_estimate[rows], axis=0), [20.0, 20.0, 0.0, 0.0], rtol=0.0, atol=1.0
+    )
     assert found.rows[1].contact > 100.0  # the rigid model knows no force of contact
     assert ba.replay(logged(rigid), ba.Scenario("DOB")).rows[1].contact < 1.0
 
@@ -255,10 +257,10 @@ def test_another_period_is_resampled_and_said(log):
     found = ba.replay(plain, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1
     rows = np.flatnonzero(log.step == 1)[::2]
-    assert np.allclose(found.log.q[first], log.q[rows], atol=1e-12)
+    assert np.allclose(found.log.q[first], log.q[rows], rtol=0.0, atol=1e-12)
     pairs = 0.5 * (log.u[rows] + log.u[rows + 1])
     # without the last pair, which may reach into the next single support
-    assert np.allclose(found.log.u[first][:-1], pairs[:-1], atol=1e-9)
+    assert np.allclose(found.log.u[first][:-1], pairs[:-1], rtol=0.0, atol=1e-9)
     assert "resampled from 0.001 s to 0.002 s" in found.remarks[0]
     assert ba.replay(plain, ba.Scenario(hardware={"period": 1e-3}, **LESO)).remarks == ()
 

@@ -183,11 +183,13 @@ def test_the_robot_stands_on_the_point_of_its_sole_that_a_hint_names(own):
         d.xanchor[m.joint(f"{s}_ankle").id] + d.body(f"{s}_sole").xmat.reshape(3, 3) @ [0.1, 0, 0]
         for s in ("right", "left")
     )
-    np.testing.assert_allclose(biped.swing_foot(np.zeros(7)), (left - right)[[0, 2]], atol=1e-12)
+    np.testing.assert_allclose(
+        biped.swing_foot(np.zeros(7)), (left - right)[[0, 2]], rtol=0.0, atol=1e-12
+    )
     torso = d.body("trunk").xpos  # 0.1 m above the hip, so that it cannot be taken for it
     hip = d.xanchor[m.joint("right_hip").id]
     assert torso[2] > hip[2]
-    np.testing.assert_allclose(biped.hip(np.zeros(7)), (hip - right)[[0, 2]], atol=1e-12)
+    np.testing.assert_allclose(biped.hip(np.zeros(7)), (hip - right)[[0, 2]], rtol=0.0, atol=1e-12)
 
 
 def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
@@ -208,7 +210,9 @@ def test_a_shape_that_is_called_a_foot_is_its_point(tmp_path):
     q = np.array([0.2, -0.3, 0.1])
     # x - i z of either foot from the hip
     foot = [0.1 + 0.6j, 0.1 + 0.6j] * np.exp(1j * (q[:2] + q[2]))
-    np.testing.assert_allclose(biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], atol=1e-12)
+    np.testing.assert_allclose(
+        biped.swing_foot(q) @ [1, -1j], foot[1] - foot[0], rtol=0.0, atol=1e-12
+    )
 
 
 def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
@@ -228,7 +232,9 @@ def test_a_leg_without_an_end_is_asked_for_by_the_format_of_its_file(tmp_path):
     derived = derive(path, Hints(("l", "r"), tip=(0.0, 0.0, -0.8)))
     q = np.array([0.3, -0.2, 0.1])
     place = 0.8 * (np.exp(0.4j) - np.exp(-0.1j))  # z + i x of the feet below the hip
-    np.testing.assert_allclose(derived.biped.swing_foot(q), [place.imag, place.real], atol=1e-12)
+    np.testing.assert_allclose(
+        derived.biped.swing_foot(q), [place.imag, place.real], rtol=0.0, atol=1e-12
+    )
     assert derived.record["urdf"] == "legs.xml"  # the record's key for a file of any format
 
 

@@ -134,7 +134,7 @@ def test_phase_is_the_slope_of_the_virtual_leg(urdf):
         return math.atan2(-x, z) % (2.0 * math.pi)
 
     slope = [(angle(straight + h * e) - angle(straight - h * e)) / (2 * h) for e in np.eye(5)]
-    np.testing.assert_allclose(own.phase, slope, atol=1e-8)
+    np.testing.assert_allclose(own.phase, slope, rtol=0.0, atol=1e-8)
 
 
 def test_a_file_as_frost_writes_it(urdf):
@@ -317,7 +317,9 @@ def test_legs_that_differ_slightly_are_the_mean_of_both(urdf):
     for q, v in states(3, 5):
         np.testing.assert_allclose(derived.biped.inertia(q), one.inertia(q), rtol=0, atol=1e-12)
         np.testing.assert_allclose(derived.biped.bias(q, v), one.bias(q, v), rtol=0, atol=1e-11)
-        np.testing.assert_allclose(derived.biped.swing_foot(q), one.swing_foot(q), atol=1e-12)
+        np.testing.assert_allclose(
+            derived.biped.swing_foot(q), one.swing_foot(q), rtol=0.0, atol=1e-12
+        )
     (said,) = (note.text for note in derived.notes if "mean of both" in note.text)
     assert "1.00% at most, in ['left_leg', 'right_leg']" in said
     assert not any("mean of both" in note.text for note in derive(urdf(two_legs())).notes)
@@ -396,7 +398,9 @@ def test_rotors_that_differ_are_kept_by_the_record(tmp_path):
     own = ba.Biped.load(tmp_path / "robot.toml")
     q = np.array([3.3, 3.6, -0.5, -0.6, 0.1])
     gap = own.inertia(q) - one.inertia(q)
-    np.testing.assert_allclose(gap, np.diag([-0.33, -0.33, -0.63, -0.63, 0.0]), atol=1e-12)
+    np.testing.assert_allclose(
+        gap, np.diag([-0.33, -0.33, -0.63, -0.63, 0.0]), rtol=0.0, atol=1e-12
+    )
 
 
 def hung(root):

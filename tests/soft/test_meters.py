@@ -97,12 +97,14 @@ def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
     state = plant.start(0.0, q, v)
     pinned = plant.footing(state, np.zeros(4), STILL)
     # the ground lies a radius below the centre, which starts where the point foot is
-    np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], atol=1e-5)
+    np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], rtol=0.0, atol=1e-5)
     shin = v @ [1.0, 0.0, 1.0, 0.0, 1.0]  # rate of the stance shin, counter-clockwise
     centre = np.array([-shin * 0.05, 0.0])  # rolls forwards where it turns clockwise
     # numbers 13 and 14 of a state are the velocity (x, z) of the base
     rolling = state + np.array([*np.zeros(13), *centre])
-    np.testing.assert_allclose(plant.footing(rolling, np.zeros(4), STILL).speed[0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(
+        plant.footing(rolling, np.zeros(4), STILL).speed[0], 0.0, rtol=0.0, atol=1e-12
+    )
 
 
 def test_a_block_that_slides_to_rest():

@@ -82,7 +82,9 @@ def test_links_are_where_pinocchio_puts_them(
                 drawn = world(browser, path)
                 there = expected[joint.child].copy()
                 there[1, 3] += 0.4 * lane
-                np.testing.assert_allclose(drawn, there, atol=1e-5, err_msg=f"{path}, t = {t}")
+                np.testing.assert_allclose(
+                    drawn, there, rtol=0.0, atol=1e-5, err_msg=f"{path}, t = {t}"
+                )
 
 
 def test_the_player_plays_pauses_and_obeys_the_keyboard(opened: tuple[Chrome, Path]) -> None:

@@ -215,7 +215,7 @@ def test_a_robot_without_shapes_has_a_torso_and_rods(com: str, end, tmp_path: Pa
     robot = biped_from_urdf(path, feet=("left_leg", "right_leg"), tip=(0.0, 0.0, -0.8))
     (torso,) = (x for x in bones(robot) if x.link == "trunk")
     assert not torso.leg
-    np.testing.assert_allclose(torso.ends[:, ::2], [(0.0, 0.0), end], atol=1e-12)
+    np.testing.assert_allclose(torso.ends[:, ::2], [(0.0, 0.0), end], rtol=0.0, atol=1e-12)
     assert [v.shape for v in robot.tree.links["left_leg"].visuals] == ["sphere", "cylinder"]
 
 
@@ -245,7 +245,7 @@ def test_a_checked_robot_is_drawn_with_its_joints_masses_and_feet(name):
     written = axes.get_title("left").partition("= ")[2]
     row = {int(q[1:]) - 1: float(c) for c, q in zip(*[iter(written.split())] * 2, strict=True)}
     phase = [row.get(i, 0.0) for i in range(biped.n)]
-    np.testing.assert_allclose(phase, biped.phase, atol=1e-6)
+    np.testing.assert_allclose(phase, biped.phase, rtol=0.0, atol=1e-6)
     for i, joint in enumerate(biped.description.joints):
         assert f"q{i + 1} {joint}" in texts
     heavy = [link for link in biped.tree.links.values() if link.inertial]

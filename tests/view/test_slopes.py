@@ -119,7 +119,7 @@ def test_an_arrow_is_as_long_as_its_force_until_it_is_cut(walks: dict[str, Walk]
     ):
         # arrow 0, of the stance foot, from the origin
         vector, said = drawn._arrow(0, np.zeros(2), np.array(force))
-        np.testing.assert_allclose(vector, arrow, atol=1e-12)
+        np.testing.assert_allclose(vector, arrow, rtol=0.0, atol=1e-12)
         assert said == words
         assert drawn.arrows[0].get_visible() is any(arrow)
 
@@ -154,8 +154,10 @@ def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) 
             values = scene.joints(float(t))
             theirs = floating(biped, values)
             for link, placement in link_placements(biped.tree, values).items():
-                np.testing.assert_allclose(placement, theirs[link], atol=1e-12, err_msg=link)
-            np.testing.assert_allclose(theirs[stance][[0, 2], 3], foothold, atol=1e-9)
+                np.testing.assert_allclose(
+                    placement, theirs[link], rtol=0.0, atol=1e-12, err_msg=link
+                )
+            np.testing.assert_allclose(theirs[stance][[0, 2], 3], foothold, rtol=0.0, atol=1e-9)
             assert theirs[stance][2, 3] == pytest.approx(ground(walk, i, foothold[0]), abs=1e-9)
         foothold = theirs[swing][[0, 2], 3]
     assert foothold[0] > 1.0
@@ -170,10 +172,10 @@ def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) ->
         before, after = (view.segments(event.t + d) for d in (-1e-9, 1e-9))
         assert before.shape == (8, 2, 2)
         hub, rim = before[:, 0], before[:, 1]
-        np.testing.assert_allclose(np.hypot(*(rim - hub).T), 1.0, atol=1e-9)
+        np.testing.assert_allclose(np.hypot(*(rim - hub).T), 1.0, rtol=0.0, atol=1e-9)
         apart = np.hypot(*(rim - np.roll(rim, 1, axis=0)).T)
         # ALPHA: half the angle between two spokes
-        np.testing.assert_allclose(apart, 2.0 * math.sin(ALPHA), atol=1e-9)
+        np.testing.assert_allclose(apart, 2.0 * math.sin(ALPHA), rtol=0.0, atol=1e-9)
         nearest = np.linalg.norm(rim[:, np.newaxis] - after[:, 1], axis=2).min(axis=1)
         assert np.max(nearest) < 1e-6
 
@@ -190,10 +192,12 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
         assert scene.level(float(x)) == pytest.approx(z, abs=1e-12)
     corners = scene.surface.line(-1.0, 5.0)
     rises = np.diff(corners, axis=0)  # in turn along the ground and down a step
-    np.testing.assert_allclose(rises[::2, 1], -math.tan(slope) * rises[::2, 0], atol=1e-12)
+    np.testing.assert_allclose(
+        rises[::2, 1], -math.tan(slope) * rises[::2, 0], rtol=0.0, atol=1e-12
+    )
     np.testing.assert_allclose(rises[1::2, 0], 0.0)
     expected = list(DROPS.values()) if name == "down" else []
-    np.testing.assert_allclose(-rises[1::2, 1], expected, atol=1e-12)
+    np.testing.assert_allclose(-rises[1::2, 1], expected, rtol=0.0, atol=1e-12)
     ends = np.array([ends for ends, _ in scene.surface.tiles(-2, 10)])  # of 0.5 m each
     np.testing.assert_array_equal(ends[1:, 0, 0], ends[:-1, 1, 0])
     assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
@@ -212,11 +216,11 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
     total = s.kinetic + s.potential
     starts = np.flatnonzero(np.diff(s.step)) + 1
     for rows in np.split(np.arange(len(s.t)), starts):
-        np.testing.assert_allclose(total[rows], total[rows[0]], atol=1e-6)
-    np.testing.assert_allclose(s.potential[starts], s.potential[starts - 1], atol=1e-9)
+        np.testing.assert_allclose(total[rows], total[rows[0]], rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(s.potential[starts], s.potential[starts - 1], rtol=0.0, atol=1e-9)
     # the walk ends just before its last impact
     lost = [c.energy_lost for c in walk.certificates[:-1]]
-    np.testing.assert_allclose(total[starts - 1] - total[starts], lost, atol=1e-9)
+    np.testing.assert_allclose(total[starts - 1] - total[starts], lost, rtol=0.0, atol=1e-9)
     assert min(lost) > 0.5
 
 
