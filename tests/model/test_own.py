@@ -598,6 +598,17 @@ def test_a_broken_law_is_found(urdf, change, law):
     assert all(check.holds for check in physical_checks(biped))
 
 
+def test_a_body_of_an_imported_robot_has_the_links_of_both_legs(urdf):
+    """Each link with mass is in one body, so errors are drawn for all of them; thighs 10 % heavier are two."""
+    own = biped_from_urdf(urdf(rabbit()))
+    heavy = [name for name, link in own.tree.links.items() if link.inertial is not None]
+    bodies = own.description.links
+    assert sorted(name for links in bodies.values() for name in links) == sorted(heavy)
+    assert set(ba.ModelErrors.drawn(own, seed=1).mass) == set(bodies) == set(BODIES)
+    heavier = ba.ModelErrors(mass={"thigh": 0.1}).apply(own)
+    assert heavier.mass - own.mass == pytest.approx(2 * 0.1 * BODIES["thigh"].mass)
+
+
 def test_written_record_is_loaded_again(urdf, tmp_path):
     """The robot is the same to the last bit, but for the path of its URDF; files that exist are not
     overwritten.
