@@ -736,6 +736,15 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypa
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
 
 
+@pytest.mark.parametrize("name", ["rabbit", "compass"])
+def test_each_coordinate_is_said_with_its_joint_and_whether_a_motor_turns_it(name):
+    """A line for each of q1 to qN, in order: joints with a motor, those without, and the pitch."""
+    d, lines = ba.Biped.load(name).description, robot("list", name).stdout.splitlines()
+    roles = ["motor"] * len(d.actuated) + ["free"] * len(d.passive) + ["absolute pitch"]
+    said = [f"  q{i} = {x} ({y})" for i, (x, y) in enumerate(zip(d.joints, roles, strict=True), 1)]
+    assert [line for line in lines if re.match(r"  q\d+ = ", line)] == said
+
+
 NUMBERS = ("n", "tree", "description", "impact", "inertia", "bias")
 
 
