@@ -36,6 +36,7 @@ from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.core import registry
+from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.studies.build import SEED
 from biped_adrc.studies.search import Search
 from biped_adrc.studies.study import read_study
@@ -235,6 +236,18 @@ def test_what_a_search_leaves_out_is_as_the_page_of_studies_says():
     row = re.search(r"^\| `finalists`, `seed` \|(.*)$", page, re.MULTILINE)[1]
     usual = [Search.model_fields[name].default for name in ("finalists", "seed")]
     assert [int(x) for x in re.findall(r"\((\d+)\)", row)] == usual
+
+
+def test_the_stored_walks_are_as_long_as_the_plan_asks_for():
+    """Each walk of the plan that reproduction.csv says is completed has there as many impacts as it should."""
+    path = ROOT / "docs" / "findings" / "reproduction.csv"
+    with path.open(encoding="utf-8", newline="") as file:
+        cells = {tuple(row.values())[:3]: row["value"] for row in csv.DictReader(file)}
+    plan = base_runs(Plan())
+    done = [name for name in plan if cells.get(("Runs", name, "status")) == "COMPLETED"]
+    assert {"sine NPD", "torso ADRC", "1 kHz NPD"} <= set(done)
+    for name in done:
+        assert int(cells["Runs", name, "impacts"]) == plan[name].run.impacts, name
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():
