@@ -36,7 +36,9 @@ from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.core import registry
+from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.studies.build import SEED
+from biped_adrc.studies.search import Search
 from biped_adrc.studies.study import read_study
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -226,6 +228,26 @@ def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
     assert study.count == int(re.search(r"(\d+) walks\b", text)[1])
     grid = {name: x[:2] if name == SEED else x for name, x in study.grid.items()}
     study.model_copy(update={"grid": grid}).rehearse()
+
+
+def test_what_a_search_leaves_out_is_as_the_page_of_studies_says():
+    """The table of keys has, in brackets, the number of finalists and the seed of a search that names none."""
+    page = (ROOT / "docs" / "guide" / "studies.md").read_text(encoding="utf-8")
+    row = re.search(r"^\| `finalists`, `seed` \|(.*)$", page, re.MULTILINE)[1]
+    usual = [Search.model_fields[name].default for name in ("finalists", "seed")]
+    assert [int(x) for x in re.findall(r"\((\d+)\)", row)] == usual
+
+
+def test_the_stored_walks_are_as_long_as_the_plan_asks_for():
+    """Each walk of the plan that reproduction.csv says is completed has there as many impacts as it should."""
+    path = ROOT / "docs" / "findings" / "reproduction.csv"
+    with path.open(encoding="utf-8", newline="") as file:
+        cells = {tuple(row.values())[:3]: row["value"] for row in csv.DictReader(file)}
+    plan = base_runs(Plan())
+    done = [name for name in plan if cells.get(("Runs", name, "status")) == "COMPLETED"]
+    assert {"sine NPD", "torso ADRC", "1 kHz NPD"} <= set(done)
+    for name in done:
+        assert int(cells["Runs", name, "impacts"]) == plan[name].run.impacts, name
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():

@@ -598,7 +598,8 @@ def test_a_start_behind_its_touchdown_is_refused_and_one_at_it_walks(
     walker, biped, gait, first_step
 ):
     """A start after 97 % of a step, the pose turned until the front foot is 1 um to 1 cm in the ground, is
-    refused; 1 mm above, at the touchdown, and just after it (the rear foot in the ground) a walk begins."""
+    refused; 1 mm above, at the touchdown, and just after it (the rear foot in the ground) a walk begins. A
+    nanometre is round-off: half as much more is refused, half as much is not."""
     s = ba.walk(walker, gait, impacts=1).signals
     k = int(0.97 * len(s.t))
     q, v, foot = s.q[k], s.v[k], ("right_foot", "left_foot")[first_step - 1]
@@ -617,7 +618,9 @@ def test_a_start_behind_its_touchdown_is_refused_and_one_at_it_walks(
             list(ba.simulate_many([ba.Case(walker, *turned(depth), ba.RK4(1e-3), 1, mode)]))
     above = ba.walk(walker, gait, 1, start=turned(-1e-3), first_step=first_step)
     assert above.trajectory.status is ba.Status.COMPLETED
-    for x in (gait.start(biped), (gait.q_minus, gait.v_minus)):
+    with pytest.raises(InputError, match="below the ground"):
+        walker.check_foot(*turned(1.5e-9), mode)
+    for x in (gait.start(biped), (gait.q_minus, gait.v_minus), turned(0.5e-9)):
         walker.check_foot(*x, mode)
     behind, rates = gait.start(biped)
     low = behind + 1e-3 * np.eye(5)[3]

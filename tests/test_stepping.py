@@ -18,6 +18,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.feet import with_readings
+from biped_adrc.closed_loop.other_plant import stepping_loop
 from biped_adrc.closed_loop.protocols import Contact, Moved
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError, RaisedError
@@ -383,3 +384,19 @@ def test_a_plant_and_a_model_of_ones_own_are_the_same_in_a_compiled_loop(timing)
     for one, other in zip(python.arcs, found.arcs, strict=True):
         np.testing.assert_array_equal(other.x, one.x)
         np.testing.assert_array_equal(other.read["u"], one.read["u"])
+
+
+class Legs(Ball):
+    """A plant of one's own with RABBIT's numbers of coordinates and motors, and no lag."""
+
+    n, p = 5, 4
+    swap = np.arange(4)
+
+
+def test_a_plant_without_a_lag_fits_motors_without_one(biped, gait):
+    """Its lag is 0 s: a walker whose motors have none takes it, one with 5 ms is refused with both numbers."""
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=TICK)
+    assert stepping_loop(walker, Legs()).plant == Legs()
+    late = replace(walker, motors=Motors(lag=5e-3))
+    with pytest.raises(InputError, match=r"Legs has lag 0\.0 and the walker 0\.005"):
+        stepping_loop(late, Legs())

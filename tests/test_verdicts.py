@@ -23,8 +23,9 @@ from biped_adrc.core.processes import Timed
 from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper import reproduction
+from biped_adrc.paper.reproduction import _recipe
 from biped_adrc.paper.runs import Runs, tasks
-from biped_adrc.paper.scenarios import Plan, base_runs
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan, base_runs
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.two_steps import AtTwoSteps
 
@@ -171,6 +172,15 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
     assert ("does not hold" in done.output) is not holds
     assert summary["tally"] in done.output
     assert len(lines(summary, tmp_path)) <= (10 if holds else 15)
+
+
+def test_the_table_of_gait_b_has_a_row_for_each_walk_on_it():
+    """Walks on gait (a) are not in it; where no periodic walk was found, the reason stands for its numbers."""
+    table = _recipe(results(cycles={"gait (b), identified, NPD": "no cycle"}))
+    none, one = (dict(zip(table["columns"], row, strict=True)) for row in table["rows"])
+    assert [x["gait"] for x in (none, one)] == [f"gait (b), identified, {c}" for c in CONTROLLERS]
+    for row, stable, size, remark in ((none, None, None, "no cycle"), (one, True, [0.7], "")):
+        assert (row["stable"], row["largest multipliers"], row["remark"]) == (stable, size, remark)
 
 
 # -- checks at their limits -------------------------------------------------------------------------

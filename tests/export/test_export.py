@@ -141,6 +141,8 @@ def test_header_and_readme_say_what_the_caller_has_to_do():
     assert "v are their rates. */" in npd
     assert "every 1.5 ms: laws, gait" in robot
     assert "It knows that torques act 2 ms late. How a touchdown is noticed is left to the" in robot
+    of_rates = "Rates are differences of angles, filtered, and begin anew at a touchdown."
+    assert (of_rates in npd, of_rates in robot) == (False, True)
     assert "v are their rates; init reads all of them, zero at rest; step reads none. */" in robot
     assert all("u are then u[1], u[0], u[3], u[2]." in x["README.md"] for x in files)
 

@@ -240,6 +240,17 @@ def test_the_parts_of_the_estimate_make_the_whole(log):
     assert row.most_apart == np.abs(x.torque - x.u)[x.step == 2].max()
 
 
+def test_the_plot_has_the_torque_of_the_log_beside_the_one_asked_for(log):
+    """The third panel has a line of both for each motor; the legend has "in the log" once."""
+    found = ba.replay(log, ba.Scenario(**LESO))
+    panel, x = found.plot().axes[2], found.signals
+    lines = [line.get_ydata() for line in panel.lines]
+    for torque in (x.u, x.torque):
+        for joint in torque.T:
+            assert any(np.array_equal(y[np.isfinite(y)], joint) for y in lines)
+    assert [text.get_text() for text in panel.get_legend().get_texts()].count("in the log") == 1
+
+
 def test_without_an_observer_nothing_is_estimated(log):
     """NPD has none: the estimate is NaN, its column of the table a dash, and torques are there all the same."""
     found = ba.replay(log, ba.Scenario("NPD"))

@@ -602,6 +602,17 @@ def test_a_broken_law_is_found(urdf, change, law):
     assert all(check.holds for check in physical_checks(biped))
 
 
+def test_a_body_of_an_imported_robot_has_the_links_of_both_legs(urdf):
+    """Each link with mass is in one body, so errors are drawn for all of them; thighs 10 % heavier are two."""
+    own = biped_from_urdf(urdf(rabbit()))
+    heavy = [name for name, link in own.tree.links.items() if link.inertial is not None]
+    bodies = own.description.links
+    assert sorted(name for links in bodies.values() for name in links) == sorted(heavy)
+    assert set(ba.ModelErrors.drawn(own, seed=1).mass) == set(bodies) == set(BODIES)
+    heavier = ba.ModelErrors(mass={"thigh": 0.1}).apply(own)
+    assert heavier.mass - own.mass == pytest.approx(2 * 0.1 * BODIES["thigh"].mass)
+
+
 def test_written_record_is_loaded_again(urdf, tmp_path):
     """The robot is the same to the last bit, but for the path of its URDF; files that exist are not
     overwritten.
@@ -727,6 +738,15 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path, monkeypa
     assert robot("new", path, "--out", folder, "--torque", 80).exit_code == 0
     assert ba.Biped.load(folder / "robot.toml").description.peak_torque == 80.0
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
+
+
+@pytest.mark.parametrize("name", ["rabbit", "compass"])
+def test_each_coordinate_is_said_with_its_joint_and_whether_a_motor_turns_it(name):
+    """A line for each of q1 to qN, in order: joints with a motor, those without, and the pitch."""
+    d, lines = ba.Biped.load(name).description, robot("list", name).stdout.splitlines()
+    roles = ["motor"] * len(d.actuated) + ["free"] * len(d.passive) + ["absolute pitch"]
+    said = [f"  q{i} = {x} ({y})" for i, (x, y) in enumerate(zip(d.joints, roles, strict=True), 1)]
+    assert [line for line in lines if re.match(r"  q\d+ = ", line)] == said
 
 
 NUMBERS = ("n", "tree", "description", "impact", "inertia", "bias")

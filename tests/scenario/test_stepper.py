@@ -77,6 +77,21 @@ def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
     assert sample.status[0] is ba.Status.COMPLETED
 
 
+def test_a_single_support_on_soft_ground_is_judged_as_in_the_whole_walk():
+    """On MuJoCo's ground the single support that a Stepper judges has the numbers of the simulated walk. Both
+    end after 0.06 s, as stalled.
+    """
+    s = WAITING.replace(run={"max_step_time": 0.06})
+    stepper = ba.Stepper(s, within=ba.Limits())
+    stepper.reset()
+    while not stepper.over:
+        stepper.step()
+    ((_, ours),) = stepper.over
+    theirs = ba.walk_scenario(s).feasible_within(ba.Limits()).supports[0]
+    for number in ("duration", "mean_friction", "scuffing", "peak_torque", "impulse_ratio"):
+        assert getattr(ours, number) == pytest.approx(getattr(theirs, number), rel=1e-9), number
+
+
 @pytest.mark.parametrize("restart", [True, False])
 @pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
 def test_the_clock_starts_again_at_an_impact_or_goes_on(biped, gait, restart, in_python):

@@ -360,6 +360,15 @@ def test_a_database_of_somebody_else_is_refused_in_a_sentence(tmp_path, commands
     assert (tmp_path / RESULTS).read_bytes() == before
 
 
+def test_a_database_that_is_no_study_is_not_written_into(tmp_path):
+    """SQLite's file of another program has tables and no mark: it is refused, and is the same byte for byte."""
+    changed(tmp_path / RESULTS, "CREATE TABLE songs (name)", "INSERT INTO songs VALUES ('a')")
+    before = (tmp_path / RESULTS).read_bytes()
+    with pytest.raises(InputError, match="is a database of another program"):
+        made(tmp_path, None)
+    assert (tmp_path / RESULTS).read_bytes() == before
+
+
 def test_rows_of_other_types_are_walked_again(tmp_path, expected):
     """Rows 0 to 4 become bytes, a broken text, nothing, a number and a row with NaN, and row 30 goes to place
     777: reading refuses the first, and the study makes all of them again.

@@ -71,6 +71,19 @@ def test_walks_apart_stand_in_panels_of_their_own_with_their_names_and_clocks(wa
     assert all(np.isclose(np.ptp(axes.get_xlim()), 1.5) for axes in figure.axes)
 
 
+@pytest.mark.parametrize("apart", [True, False])
+def test_the_robots_of_a_moving_picture_are_where_the_walks_are_at_that_time(walks, apart):
+    """At 0.1 and at 0.4 s, in panels of their own or over one another, the limbs of each walk are drawn."""
+    figure, show = moving_figure(walks, "", apart)
+    for t in (0.1, 0.4):
+        show(t)
+        for k, walk in enumerate(walks.values()):
+            drawn = [x for x in figure.axes[k if apart else 0].collections if len(x.get_paths())]
+            ends = np.concatenate([path.vertices for x in drawn for path in x.get_paths()])
+            limbs = SideView(WalkScene.of(walk)).segments(t).reshape(-1, 1, 2)
+            assert np.all(np.min(np.linalg.norm(limbs - ends, axis=2), axis=1) < 1e-9)
+
+
 def test_a_gif_has_the_frames_of_the_clip_and_equal_bytes_twice(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:
