@@ -340,7 +340,8 @@ class _Proposals:
 
     def score(self, c: Candidate) -> float:
         """The number that Optuna minimises: the objective, with its sign changed where more is better; for
-        missed limits a number above all of these, and a larger one if no walk was spent on it.
+        missed limits a number above all of these, larger with what is missed, and by one miss more if no walk
+        was spent on it.
         """
         if any(c.missed) or not c.walked:
             # _MISSED, above every objective

@@ -1,4 +1,4 @@
-; sources ee6a20e3b5cb4ae62c31b6a6040b1557, text 76a099898943c9107fd37fec1ad4fdd5
+; sources 76aabf852c19b1836ae8d1616c952aef, text 76a099898943c9107fd37fec1ad4fdd5
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

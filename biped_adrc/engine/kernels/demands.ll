@@ -1,4 +1,4 @@
-; sources fda91935e747c1ac23b00347115ef409, text 7ef3189a75558817cfb4d7a4fc47d62e
+; sources b7d497cba4a89f8ceecca2dda6447b29, text 7ef3189a75558817cfb4d7a4fc47d62e
 ; ModuleID = '<string>'
 source_filename = "<string>"
 

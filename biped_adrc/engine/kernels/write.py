@@ -64,8 +64,9 @@ def written(files: tuple[str, ...]) -> str:
     if getattr(config, "DISABLE_JIT", 0):
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
     module = ModuleType("biped_adrc_kernels")
-    sys.modules[module.__name__] = module  # where numba looks for what a unit names
-    # executed and not imported: the joined text is no file, and its imports of each other are gone
+    # numba looks in sys.modules for what a unit names
+    sys.modules[module.__name__] = module
+    # executed and not imported, since the joined text is no file
     exec(compile(_joined(files), module.__name__, "exec"), vars(module))
     names, linked = dict[str, str](), None
     for name, (symbol, signature, function) in module.UNITS.items():
