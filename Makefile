@@ -17,6 +17,8 @@ reproduce: .venv/.core
 
 # as many processes as cores: threads of linear algebra would only wait for each other
 test: export OPENBLAS_NUM_THREADS ?= 1
+# large arrays go back to the system when they are freed, where glibc would keep their memory
+test: export MALLOC_MMAP_THRESHOLD_ ?= 1000000
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --no-loadscope-reorder
 

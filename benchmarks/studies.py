@@ -165,8 +165,8 @@ def main() -> None:
     """Print both tables, and write them when asked."""
     asked = arguments(__doc__).parse_args()
     in_a_thread(partial(swept, study(4)))  # whatever is compiled once
-    sweeps(*(40, 1) if asked.quick else (500, 3)).finish(asked.out)
-    searches(*(10, 5) if asked.quick else (100, 20)).finish(asked.out)
+    sweeps(*(12, 1) if asked.quick else (500, 3)).finish(asked.out)
+    searches(*(4, 2) if asked.quick else (100, 20)).finish(asked.out)
 
 
 if __name__ == "__main__":
