@@ -18,7 +18,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice, repeat
 from typing import Any, Self
 
 import numpy as np
@@ -44,8 +44,9 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 
-_TOGETHER = 4
-"""Number of walks that a thread makes one after the other, since to wake it costs a tenth of a walk."""
+_TOGETHER = 4, 8, 16
+"""Numbers of walks that a thread makes one after the other: at first, then, and from then on. To wake a thread
+costs a tenth of a walk, but a short batch is shared more evenly in small groups."""
 _AHEAD = 2
 """Number of such groups that are prepared beforehand for each thread, so that no thread waits for Python."""
 _AT_ONCE = 25
@@ -169,9 +170,11 @@ def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     """
     waiting: deque[Future[list[BatchWalk]]] = deque()
     prepare = Preparation()
+    *first, later = _TOGETHER
+    sizes = chain(*(repeat(size, threads) for size in first), repeat(later))
     with ThreadPoolExecutor(threads) as pool:
         try:
-            while group := [prepare(case) for case in islice(cases, _TOGETHER)]:
+            while group := [prepare(case) for case in islice(cases, next(sizes))]:
                 waiting.append(pool.submit(lambda runs: [run() for run in runs], group))
                 while waiting and (len(waiting) >= _AHEAD * threads or waiting[0].done()):
                     yield from waiting.popleft().result()
